@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace vantage {
+
+/// An axis-aligned box in metres, half-open: it holds `min` and not `max`. A default box is empty.
+struct Box {
+  Eigen::Vector3d min = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d max = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] bool empty() const { return !(min.array() < max.array()).all(); }
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point) const {
+    return (point.array() >= min.array()).all() && (point.array() < max.array()).all();
+  }
+  [[nodiscard]] Eigen::Vector3d centre() const { return 0.5 * (min + max); }
+  [[nodiscard]] Eigen::Vector3d extent() const { return max - min; }
+  /// Grows the box until its closure holds `point`.
+  void extend(const Eigen::Vector3d& point) {
+    min = min.cwiseMin(point);
+    max = max.cwiseMax(point);
+  }
+  /// Distance from `point` to the nearest point of the box, 0 inside.
+  [[nodiscard]] double distance_to(const Eigen::Vector3d& point) const {
+    return (min - point).cwiseMax(point - max).cwiseMax(0.0).norm();
+  }
+};
+
+}  // namespace vantage

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vantage/geometry/box.hpp>
+
+namespace vantage {
+
+/// The integer address of one cell: cell (x, y, z) covers [x r, (x + 1) r) on each axis, as OctoMap aligns its own.
+struct VoxelIndex {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+
+  friend constexpr auto operator<=>(const VoxelIndex&, const VoxelIndex&) = default;
+  friend constexpr VoxelIndex operator+(const VoxelIndex& a, const VoxelIndex& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend constexpr VoxelIndex operator-(const VoxelIndex& a, const VoxelIndex& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+};
+
+/// Addresses further than this from the origin are outside every map: sums of two of them still fit 32 bits.
+inline constexpr std::int32_t kFurthestVoxel = (1 << 30) - 1;
+
+/// The six cells that share a face with (0, 0, 0): -x +x -y +y -z +z.
+inline constexpr std::array<VoxelIndex, 6> kFaceNeighbours{
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+
+namespace detail {
+consteval std::array<VoxelIndex, 26> all_neighbours() {
+  std::array<VoxelIndex, 26> neighbours{};
+  std::size_t count = 0;
+  for (std::int32_t z = -1; z <= 1; ++z) {
+    for (std::int32_t y = -1; y <= 1; ++y) {
+      for (std::int32_t x = -1; x <= 1; ++x) {
+        if (x != 0 || y != 0 || z != 0) {
+          neighbours[count++] = {x, y, z};
+        }
+      }
+    }
+  }
+  return neighbours;
+}
+}  // namespace detail
+
+/// The 26 cells that share a face, an edge or a corner with (0, 0, 0), x running fastest.
+inline constexpr std::array<VoxelIndex, 26> kAllNeighbours = detail::all_neighbours();
+
+/// A box of cells: from `lo` (inside) to `hi` (outside) on each axis. A default box is empty.
+struct VoxelBox {
+  VoxelIndex lo;
+  VoxelIndex hi;
+
+  friend constexpr bool operator==(const VoxelBox&, const VoxelBox&) = default;
+  [[nodiscard]] constexpr bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
+  [[nodiscard]] constexpr bool contains(const VoxelIndex& cell) const {
+    return cell.x >= lo.x && cell.x < hi.x && cell.y >= lo.y && cell.y < hi.y && cell.z >= lo.z && cell.z < hi.z;
+  }
+  [[nodiscard]] constexpr VoxelIndex extent() const { return empty() ? VoxelIndex{} : hi - lo; }
+  [[nodiscard]] constexpr std::size_t size() const {
+    const VoxelIndex e = extent();
+    return static_cast<std::size_t>(e.x) * static_cast<std::size_t>(e.y) * static_cast<std::size_t>(e.z);
+  }
+  /// The box grown by `cells` on every side.
+  [[nodiscard]] constexpr VoxelBox grown(std::int32_t cells) const {
+    return {lo - VoxelIndex{cells, cells, cells}, hi + VoxelIndex{cells, cells, cells}};
+  }
+};
+
+/// Calls `visit(VoxelIndex)` for every cell of `box`, x running fastest.
+template <class Visit>
+void for_each_cell(const VoxelBox& box, Visit&& visit) {
+  for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
+    for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
+      for (std::int32_t x = box.lo.x; x < box.hi.x; ++x) {
+        visit(VoxelIndex{x, y, z});
+      }
+    }
+  }
+}
+
+/// The only place where metres become cells and cells become metres.
+struct VoxelFrame {
+  double size_m;  ///< edge of a cell, > 0
+
+  /// The cell that holds `point_m`. The point must be finite and within kFurthestVoxel cells (see `addressable`).
+  [[nodiscard]] VoxelIndex cell_of(const Eigen::Vector3d& point_m) const {
+    return {coordinate_of(point_m.x()), coordinate_of(point_m.y()), coordinate_of(point_m.z())};
+  }
+  /// Whether `point_m` is finite and its cell can be addressed.
+  [[nodiscard]] bool addressable(const Eigen::Vector3d& point_m) const {
+    const double furthest_m = size_m * kFurthestVoxel;
+    return (point_m.array().abs() <= furthest_m).all();  // false for NaN
+  }
+  [[nodiscard]] Eigen::Vector3d corner_of(const VoxelIndex& cell) const {
+    return Eigen::Vector3d(cell.x, cell.y, cell.z) * size_m;
+  }
+  [[nodiscard]] Eigen::Vector3d centre_of(const VoxelIndex& cell) const {
+    return Eigen::Vector3d(cell.x + 0.5, cell.y + 0.5, cell.z + 0.5) * size_m;
+  }
+  [[nodiscard]] Box box_of(const VoxelIndex& cell) const {
+    return {corner_of(cell), corner_of(cell + VoxelIndex{1, 1, 1})};
+  }
+  [[nodiscard]] Box box_of(const VoxelBox& cells) const { return {corner_of(cells.lo), corner_of(cells.hi)}; }
+  /// The cells whose centres lie in `box` (half-open, as the box).
+  [[nodiscard]] VoxelBox cells_centred_in(const Box& box) const {
+    const auto first = [this](double metres) { return static_cast<std::int32_t>(std::ceil(metres / size_m - 0.5)); };
+    if (box.empty()) {
+      return {};
+    }
+    return {{first(box.min.x()), first(box.min.y()), first(box.min.z())},
+            {first(box.max.x()), first(box.max.y()), first(box.max.z())}};
+  }
+
+ private:
+  [[nodiscard]] std::int32_t coordinate_of(double metres) const {
+    return static_cast<std::int32_t>(std::floor(metres / size_m));
+  }
+};
+
+}  // namespace vantage
+
+template <>
+struct std::hash<vantage::VoxelIndex> {
+  std::size_t operator()(const vantage::VoxelIndex& cell) const noexcept {
+    std::uint64_t h = static_cast<std::uint32_t>(cell.x) * 0x9E3779B97F4A7C15ULL;
+    h ^= static_cast<std::uint32_t>(cell.y) * 0xC2B2AE3D27D4EB4FULL;
+    h ^= static_cast<std::uint32_t>(cell.z) * 0x165667B19E3779F9ULL;
+    return h ^ (h >> 29);
+  }
+};

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vantage/geometry/voxel.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// A dense array over a box of cells, x running fastest: the slow, obvious counterpart of every sparse structure here,
+/// and the work space of algorithms whose domain is small.
+template <class T>
+class VoxelGrid {
+ public:
+  VoxelGrid() = default;
+  explicit VoxelGrid(const VoxelBox& box, const T& value = T{}) : box_(box), values_(box.size(), value) {}
+
+  [[nodiscard]] const VoxelBox& box() const { return box_; }
+  [[nodiscard]] std::size_t size() const { return values_.size(); }
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const { return box_.contains(cell); }
+
+  /// Position of a cell of the box in `values()`.
+  [[nodiscard]] std::size_t offset_of(const VoxelIndex& cell) const {
+    const VoxelIndex from_lo = cell - box_.lo;
+    const VoxelIndex extent = box_.extent();
+    return (static_cast<std::size_t>(from_lo.z) * static_cast<std::size_t>(extent.y) +
+            static_cast<std::size_t>(from_lo.y)) *
+               static_cast<std::size_t>(extent.x) +
+           static_cast<std::size_t>(from_lo.x);
+  }
+  /// The cell at a position of `values()`.
+  [[nodiscard]] VoxelIndex cell_at(std::size_t offset) const {
+    const VoxelIndex extent = box_.extent();
+    const auto row = static_cast<std::size_t>(extent.x);
+    const auto plane = row * static_cast<std::size_t>(extent.y);
+    return box_.lo + VoxelIndex{static_cast<std::int32_t>(offset % row), static_cast<std::int32_t>(offset % plane / row),
+                                static_cast<std::int32_t>(offset / plane)};
+  }
+
+  /// The cell must be in the box.
+  [[nodiscard]] decltype(auto) operator[](const VoxelIndex& cell) { return values_[offset_of(cell)]; }
+  [[nodiscard]] decltype(auto) operator[](const VoxelIndex& cell) const { return values_[offset_of(cell)]; }
+  /// The value at a cell, or `outside` where the grid does not reach.
+  [[nodiscard]] T value_or(const VoxelIndex& cell, const T& outside) const {
+    return contains(cell) ? static_cast<T>(values_[offset_of(cell)]) : outside;
+  }
+
+  [[nodiscard]] std::vector<T>& values() { return values_; }
+  [[nodiscard]] const std::vector<T>& values() const { return values_; }
+
+ private:
+  VoxelBox box_;
+  std::vector<T> values_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <unordered_map>
+#include <vantage/geometry/voxel.hpp>
+
+namespace vantage {
+
+/// Where the brick of an address is stored: a sparse array of brick numbers that grows with the map and has no preset
+/// bounds. Tiles of 8 x 8 x 8 numbers hang in a hash table, so that walking from brick to brick mostly stays in a tile.
+class BrickDirectory {
+ public:
+  using Number = std::uint32_t;
+  static constexpr Number kNone = std::numeric_limits<Number>::max();
+
+  /// The number stored for `brick`, or kNone.
+  [[nodiscard]] Number find(const VoxelIndex& brick) const {
+    const auto tile = tiles_.find(tile_of(brick));
+    return tile == tiles_.end() ? kNone : numbers_[tile->second][offset_in_tile(brick)];
+  }
+  /// The place of the number of `brick`, kNone when new. Valid until the directory is copied or destroyed.
+  [[nodiscard]] Number& place(const VoxelIndex& brick) {
+    const auto [tile, is_new] = tiles_.try_emplace(tile_of(brick), numbers_.size());
+    if (is_new) {
+      numbers_.emplace_back().fill(kNone);
+    }
+    return numbers_[tile->second][offset_in_tile(brick)];
+  }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    constexpr std::size_t kHashNode = sizeof(VoxelIndex) + sizeof(std::size_t) + 2 * sizeof(void*);
+    return numbers_.size() * (sizeof(Tile) + kHashNode) + tiles_.bucket_count() * sizeof(void*);
+  }
+
+ private:
+  using Tile = std::array<Number, 512>;
+
+  static VoxelIndex tile_of(const VoxelIndex& brick) { return {brick.x >> 3, brick.y >> 3, brick.z >> 3}; }
+  static std::size_t offset_in_tile(const VoxelIndex& brick) {
+    return static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
+  }
+
+  std::unordered_map<VoxelIndex, std::size_t> tiles_;
+  std::deque<Tile> numbers_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vantage/geometry/box.hpp>
+#include <vantage/geometry/voxel.hpp>
+#include <vantage/map/brick.hpp>
+#include <vantage/map/brick_directory.hpp>
+#include <vantage/map/occupancy.hpp>
+#include <vantage/map/scan.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// The beam model of Shade & Newman 2011, eq. 11-13, with OctoMap's clamping.
+struct OccupancyMapOptions {
+  double resolution_m = 0.1;         ///< edge of a cell, > 0
+  double log_odds_hit = 0.85;        ///< added where a ray ends, > 0 (S&N VI: l_occ)
+  double log_odds_miss = -0.4;       ///< added where a ray passes, < 0 (S&N VI: l_free)
+  double log_odds_min = -2.0;        ///< lower clamp, < 0
+  double log_odds_max = 3.5;         ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
+  std::optional<Box> region = std::nullopt;  ///< only cells whose centre lies in it are ever known; none: no limit
+};
+
+/// How rays are drawn from the returns of a scan.
+enum class RayPolicy : std::uint8_t {
+  EveryReturn,    ///< one ray to every return
+  EachEndCell,    ///< one ray to the centre of every cell that holds a return (OctoMap's `discretize`): faster
+};
+
+/// How a coarser cell speaks for the known finest cells in it (unknown ones have no say), as OctoMap's inner nodes.
+enum class CoarseningPolicy : std::uint8_t { Max, Mean };
+
+/// A three-state map of cells, unknown, free or occupied, that grows with what has been seen.
+///
+///     OccupancyMap map({.resolution_m = 0.1});
+///     map.insert(scan);
+///     if (map.at(map.frame().cell_of(point)) == Occupancy::Free) ...
+///
+/// Storage is sparse bricks of 8 x 8 x 8 cells (brick.hpp), so memory follows the volume seen, never its bounding box.
+/// Cells are aligned as OctoMap aligns them, which makes conversion exact both ways (octomap_bridge.hpp).
+///
+/// Every call that changes the map makes one new revision; `changed_since` tells any number of readers, each at its own
+/// pace, which bricks hold a cell whose *state* has changed. Reading from several threads is safe while nobody writes.
+class OccupancyMap {
+ public:
+  using Revision = std::uint64_t;
+  struct Counts {
+    std::size_t free = 0;
+    std::size_t occupied = 0;
+  };
+
+  OccupancyMap() : OccupancyMap(OccupancyMapOptions{}) {}
+  /// Throws std::invalid_argument naming the option at fault.
+  explicit OccupancyMap(const OccupancyMapOptions& options);
+
+  // --- reading -------------------------------------------------------------------------------------------------------
+  [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
+  [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
+  [[nodiscard]] double resolution_m() const { return frame_.size_m; }
+  /// The cells of the region of interest; none: every cell.
+  [[nodiscard]] const std::optional<VoxelBox>& region() const { return region_; }
+  [[nodiscard]] bool in_region(const VoxelIndex& cell) const { return !region_ || region_->contains(cell); }
+
+  [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
+    const Brick* brick = find_brick(Brick::of_cell(cell));
+    return brick == nullptr ? Occupancy::Unknown : brick->at(Brick::offset_of(cell));
+  }
+  /// Log-odds of a cell; none where it is unknown.
+  [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const;
+  /// Log-odds of the cell of 2^level finest cells an edge at `coarse` (in units of that cell); none if all of it is
+  /// unknown. `level` is in [0, 16].
+  [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
+  /// State of a coarser cell: unknown if all of it is, else by its log-odds.
+  [[nodiscard]] Occupancy at(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
+
+  [[nodiscard]] Counts counts() const;
+  /// The smallest box that holds every known cell.
+  [[nodiscard]] VoxelBox bounds() const;
+  /// Bytes held, directory included.
+  [[nodiscard]] std::size_t memory_bytes() const;
+  /// What one step of the stored log-odds is worth: 0.05 for the default options, which it represents exactly.
+  [[nodiscard]] double log_odds_step() const { return step_; }
+
+  /// The brick at an address (in units of bricks), or null where nothing has been seen. Valid while the map lives.
+  [[nodiscard]] const Brick* find_brick(const VoxelIndex& brick) const {
+    const BrickDirectory::Number number = directory_.find(brick);
+    return number == BrickDirectory::kNone ? nullptr : &bricks_[number].cells;
+  }
+  /// Calls `visit(brick address, const Brick&)` for every brick, in order of creation.
+  template <class Visit>
+  void for_each_brick(Visit&& visit) const {
+    for (const Stored& stored : bricks_) {
+      visit(stored.address, stored.cells);
+    }
+  }
+  /// Calls `visit(VoxelIndex, Occupancy)` for every known cell.
+  template <class Visit>
+  void for_each_known(Visit&& visit) const {
+    for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        for_each_offset(brick.known[word], word, [&](std::size_t offset) {
+          visit(Brick::first_cell(address) + Brick::cell_at(offset), brick.at(offset));
+        });
+      }
+    });
+  }
+
+  // --- what changed --------------------------------------------------------------------------------------------------
+  /// Grows by one with every call that changes a cell; 0 for a new map.
+  [[nodiscard]] Revision revision() const { return revision_; }
+  /// Addresses of the bricks in which a cell changed its state after `revision`, the latest first. Costs what it
+  /// returns. Throws std::invalid_argument if `revision` is still to come.
+  [[nodiscard]] std::vector<VoxelIndex> changed_since(Revision revision) const;
+
+  // --- writing -------------------------------------------------------------------------------------------------------
+  /// Integrates one scan: each cell gets at most one update, a hit beats a miss (the semantics of
+  /// octomap::OcTree::insertPointCloud). The sensor's own cell counts as passed. Throws std::invalid_argument if the
+  /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted.
+  ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
+  /// Sets the state of a cell outright, at the clamping limit; Unknown forgets it. Outside the region: no effect.
+  void set(const VoxelIndex& cell, Occupancy occupancy);
+  /// Sets the log-odds of a cell, clamped and rounded to a step. Outside the region: no effect.
+  void set_log_odds(const VoxelIndex& cell, double log_odds);
+  /// Declares the still unknown cells that `box` touches free, as a host may for the space its robot stands in.
+  void assume_free(const Box& box);
+
+ private:
+  struct Stored {
+    Brick cells;
+    VoxelIndex address;
+    Revision changed = 0;  // the last revision in which a cell changed its state
+    BrickDirectory::Number newer = BrickDirectory::kNone;  // neighbours in the order of `changed`
+    BrickDirectory::Number older = BrickDirectory::kNone;
+  };
+  friend class ScanInserter;
+
+  BrickDirectory::Number brick_for(const VoxelIndex& address);
+  void mark_changed(BrickDirectory::Number number);
+  void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
+  [[nodiscard]] std::int8_t to_steps(double log_odds) const;
+
+  OccupancyMapOptions options_;
+  VoxelFrame frame_;
+  std::optional<VoxelBox> region_;
+  double step_ = 0.05;
+  std::int8_t hit_steps_ = 0;
+  std::int8_t miss_steps_ = 0;
+  std::int8_t min_steps_ = 0;
+  std::int8_t max_steps_ = 0;
+
+  BrickDirectory directory_;
+  std::deque<Stored> bricks_;
+  Revision revision_ = 0;
+  BrickDirectory::Number newest_ = BrickDirectory::kNone;
+};
+
+}  // namespace vantage

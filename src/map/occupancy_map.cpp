@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vantage/map/occupancy_map.hpp>
+
+namespace vantage {
+namespace {
+
+void require(bool holds, const char* field, double value, const char* rule) {
+  if (!holds) {
+    std::ostringstream message;
+    message << "OccupancyMapOptions::" << field << " is " << value << ", must be " << rule;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+void validate(const OccupancyMapOptions& options) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  require(finite(options.resolution_m) && options.resolution_m > 0, "resolution_m", options.resolution_m, "> 0");
+  require(finite(options.log_odds_hit) && options.log_odds_hit > 0, "log_odds_hit", options.log_odds_hit, "> 0");
+  require(finite(options.log_odds_miss) && options.log_odds_miss < 0, "log_odds_miss", options.log_odds_miss, "< 0");
+  require(finite(options.log_odds_min) && options.log_odds_min < 0, "log_odds_min", options.log_odds_min, "< 0");
+  require(finite(options.log_odds_max) && options.log_odds_max > 0, "log_odds_max", options.log_odds_max, "> 0");
+  if (options.region) {
+    const VoxelFrame frame{options.resolution_m};
+    if (options.region->empty() || !frame.addressable(options.region->min) || !frame.addressable(options.region->max)) {
+      throw std::invalid_argument("OccupancyMapOptions::region must have min < max on every axis and be finite");
+    }
+  }
+}
+
+// The coarsest step that holds all four constants without loss; where none of these does, the finest that fits int8.
+double choose_step(const OccupancyMapOptions& options) {
+  const std::array<double, 4> constants{options.log_odds_hit, options.log_odds_miss, options.log_odds_min,
+                                        options.log_odds_max};
+  const double largest = std::max(-options.log_odds_min, options.log_odds_max);
+  for (const double step : {0.05, 0.1, 0.04, 0.03, 0.02}) {
+    const bool exact = std::all_of(constants.begin(), constants.end(), [step](double value) {
+      return std::abs(value / step - std::round(value / step)) < 1e-9;
+    });
+    if (exact && largest / step <= 127.0) {
+      return step;
+    }
+  }
+  return largest / 127.0;
+}
+
+}  // namespace
+
+OccupancyMap::OccupancyMap(const OccupancyMapOptions& options) : options_(options), frame_{options.resolution_m} {
+  validate(options);
+  step_ = choose_step(options);
+  if (options.region) {
+    region_ = frame_.cells_centred_in(*options.region);
+  }
+  const auto steps = [this](double log_odds) {
+    const double rounded = std::round(log_odds / step_);
+    // A constant below half a step must still count for something.
+    return static_cast<std::int8_t>(std::clamp(rounded == 0.0 ? std::copysign(1.0, log_odds) : rounded, -127.0, 127.0));
+  };
+  hit_steps_ = steps(options.log_odds_hit);
+  miss_steps_ = steps(options.log_odds_miss);
+  min_steps_ = steps(options.log_odds_min);
+  max_steps_ = steps(options.log_odds_max);
+}
+
+std::optional<double> OccupancyMap::log_odds(const VoxelIndex& cell) const {
+  const Brick* brick = find_brick(Brick::of_cell(cell));
+  const std::size_t offset = Brick::offset_of(cell);
+  if (brick == nullptr || brick->at(offset) == Occupancy::Unknown) {
+    return std::nullopt;
+  }
+  return brick->log_odds[offset] * step_;
+}
+
+std::optional<double> OccupancyMap::log_odds(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const {
+  if (level < 0 || level > 16) {
+    throw std::invalid_argument("level is " + std::to_string(level) + ", must be in [0, 16]");
+  }
+  const std::int32_t edge = 1 << level;
+  const VoxelIndex first{coarse.x * edge, coarse.y * edge, coarse.z * edge};
+  const VoxelBox cells{first, first + VoxelIndex{edge, edge, edge}};
+  std::size_t known = 0;
+  std::int64_t sum = 0;
+  int largest = -128;
+  const auto add_brick = [&](const VoxelIndex& address, const Brick& brick) {
+    const VoxelIndex corner = Brick::first_cell(address);
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.known[word], word, [&](std::size_t offset) {
+        if (cells.contains(corner + Brick::cell_at(offset))) {
+          ++known;
+          sum += brick.log_odds[offset];
+          largest = std::max<int>(largest, brick.log_odds[offset]);
+        }
+      });
+    }
+  };
+  const VoxelBox addresses{Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  if (addresses.size() <= bricks_.size()) {
+    for_each_cell(addresses, [&](const VoxelIndex& address) {
+      if (const Brick* brick = find_brick(address)) {
+        add_brick(address, *brick);
+      }
+    });
+  } else {
+    for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+      if (addresses.contains(address)) {
+        add_brick(address, brick);
+      }
+    });
+  }
+  if (known == 0) {
+    return std::nullopt;
+  }
+  return policy == CoarseningPolicy::Max ? largest * step_ : static_cast<double>(sum) / static_cast<double>(known) * step_;
+}
+
+Occupancy OccupancyMap::at(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const {
+  const std::optional<double> value = log_odds(coarse, level, policy);
+  if (!value) {
+    return Occupancy::Unknown;
+  }
+  return *value >= 0.0 ? Occupancy::Occupied : Occupancy::Free;
+}
+
+OccupancyMap::Counts OccupancyMap::counts() const {
+  Counts counts;
+  for_each_brick([&](const VoxelIndex&, const Brick& brick) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      counts.free += static_cast<std::size_t>(std::popcount(brick.free(word)));
+      counts.occupied += static_cast<std::size_t>(std::popcount(brick.occupied[word]));
+    }
+  });
+  return counts;
+}
+
+VoxelBox OccupancyMap::bounds() const {
+  constexpr std::int32_t kFar = kFurthestVoxel;
+  VoxelBox bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  for_each_known([&](const VoxelIndex& cell, Occupancy) {
+    bounds.lo = {std::min(bounds.lo.x, cell.x), std::min(bounds.lo.y, cell.y), std::min(bounds.lo.z, cell.z)};
+    bounds.hi = {std::max(bounds.hi.x, cell.x + 1), std::max(bounds.hi.y, cell.y + 1), std::max(bounds.hi.z, cell.z + 1)};
+  });
+  return bounds.empty() ? VoxelBox{} : bounds;
+}
+
+std::size_t OccupancyMap::memory_bytes() const {
+  return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * (sizeof(Stored) + sizeof(void*));
+}
+
+std::vector<VoxelIndex> OccupancyMap::changed_since(Revision revision) const {
+  if (revision > revision_) {
+    throw std::invalid_argument("changed_since(" + std::to_string(revision) + "): the map is only at revision " +
+                                std::to_string(revision_));
+  }
+  std::vector<VoxelIndex> changed;
+  for (BrickDirectory::Number number = newest_;
+       number != BrickDirectory::kNone && bricks_[number].changed > revision; number = bricks_[number].older) {
+    changed.push_back(bricks_[number].address);
+  }
+  return changed;
+}
+
+void OccupancyMap::set(const VoxelIndex& cell, Occupancy occupancy) {
+  if (!in_region(cell)) {
+    return;
+  }
+  ++revision_;
+  const std::int8_t steps = occupancy == Occupancy::Unknown ? std::int8_t{0}
+                            : occupancy == Occupancy::Free  ? min_steps_
+                                                            : max_steps_;
+  write(cell, occupancy, steps);
+}
+
+void OccupancyMap::set_log_odds(const VoxelIndex& cell, double log_odds) {
+  if (!std::isfinite(log_odds)) {
+    throw std::invalid_argument("set_log_odds: the log-odds must be finite");
+  }
+  if (!in_region(cell)) {
+    return;
+  }
+  ++revision_;
+  const std::int8_t steps = to_steps(log_odds);
+  write(cell, steps >= 0 ? Occupancy::Occupied : Occupancy::Free, steps);
+}
+
+void OccupancyMap::assume_free(const Box& box) {
+  if (box.empty() || !frame_.addressable(box.min) || !frame_.addressable(box.max)) {
+    throw std::invalid_argument("assume_free: the box must have min < max on every axis and be within the map");
+  }
+  const VoxelIndex last{static_cast<std::int32_t>(std::ceil(box.max.x() / frame_.size_m)),
+                        static_cast<std::int32_t>(std::ceil(box.max.y() / frame_.size_m)),
+                        static_cast<std::int32_t>(std::ceil(box.max.z() / frame_.size_m))};
+  ++revision_;
+  for_each_cell({frame_.cell_of(box.min), last}, [&](const VoxelIndex& cell) {
+    if (in_region(cell) && at(cell) == Occupancy::Unknown) {
+      write(cell, Occupancy::Free, miss_steps_);
+    }
+  });
+}
+
+BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& address) {
+  BrickDirectory::Number& number = directory_.place(address);
+  if (number == BrickDirectory::kNone) {
+    number = static_cast<BrickDirectory::Number>(bricks_.size());
+    bricks_.emplace_back().address = address;
+  }
+  return number;
+}
+
+// Bricks form one list, ordered by the revision of their last change; a brick that changes moves to its head. So the
+// list holds each brick once, however long the map lives, and a reader walks only what is news to it.
+void OccupancyMap::mark_changed(BrickDirectory::Number number) {
+  Stored& stored = bricks_[number];
+  if (stored.changed == revision_) {
+    return;
+  }
+  if (newest_ != number) {
+    if (stored.newer != BrickDirectory::kNone) {
+      bricks_[stored.newer].older = stored.older;
+    }
+    if (stored.older != BrickDirectory::kNone) {
+      bricks_[stored.older].newer = stored.newer;
+    }
+    stored.newer = BrickDirectory::kNone;
+    stored.older = newest_;
+    if (newest_ != BrickDirectory::kNone) {
+      bricks_[newest_].newer = number;
+    }
+    newest_ = number;
+  }
+  stored.changed = revision_;
+}
+
+void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t steps) {
+  const VoxelIndex address = Brick::of_cell(cell);
+  if (state == Occupancy::Unknown && directory_.find(address) == BrickDirectory::kNone) {
+    return;
+  }
+  const BrickDirectory::Number number = brick_for(address);
+  Brick& brick = bricks_[number].cells;
+  const std::size_t offset = Brick::offset_of(cell);
+  const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
+  const std::size_t word = offset >> 6U;
+  if (brick.at(offset) != state) {
+    mark_changed(number);
+  }
+  brick.known[word] = state == Occupancy::Unknown ? brick.known[word] & ~bit : brick.known[word] | bit;
+  brick.occupied[word] = state == Occupancy::Occupied ? brick.occupied[word] | bit : brick.occupied[word] & ~bit;
+  brick.log_odds[offset] = steps;
+}
+
+std::int8_t OccupancyMap::to_steps(double log_odds) const {
+  return static_cast<std::int8_t>(std::clamp(std::round(log_odds / step_), double{min_steps_}, double{max_steps_}));
+}
+
+}  // namespace vantage

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/map/scan_cells.hpp>
+
+namespace vantage {
+namespace {
+
+Scan random_scan(std::mt19937& engine, std::size_t rays) {
+  std::uniform_real_distribution<double> metre(-3.0, 3.0);
+  Scan scan;
+  scan.world_from_sensor = pose_looking({metre(engine), metre(engine), metre(engine)}, metre(engine), 0.3 * metre(engine));
+  scan.max_range_m = 4.0;
+  for (std::size_t i = 0; i < rays; ++i) {
+    const Eigen::Vector3d point(metre(engine), metre(engine), metre(engine));
+    (i % 5 == 0 ? scan.no_return : scan.points).push_back(point.cast<float>());
+  }
+  return scan;
+}
+
+TEST(OccupancyMap, KnowsNothingAtFirst) {
+  const OccupancyMap map;
+  EXPECT_EQ(map.at({0, 0, 0}), Occupancy::Unknown);
+  EXPECT_EQ(map.revision(), 0U);
+  EXPECT_TRUE(map.changed_since(0).empty());
+  EXPECT_TRUE(map.bounds().empty());
+}
+
+TEST(OccupancyMap, StepHoldsThePapersConstantsExactly) {
+  const OccupancyMap map;
+  EXPECT_DOUBLE_EQ(map.log_odds_step(), 0.05);
+}
+
+TEST(OccupancyMap, OneScanClearsTheRayAndHitsItsEnd) {
+  OccupancyMap map({.resolution_m = 0.1});
+  Scan scan;
+  scan.world_from_sensor = pose_looking({0.05, 0.05, 0.05}, 0.0);
+  scan.points = {{0.0F, 0.0F, 1.0F}};
+  const ScanReport report = map.insert(scan);
+  EXPECT_EQ(report.hits, 1U);
+  EXPECT_EQ(report.cells_hit, 1U);
+  EXPECT_EQ(report.cells_cleared, 10U);
+  EXPECT_EQ(report.cells_changed, 11U);
+  for (int x = 0; x < 10; ++x) {
+    EXPECT_EQ(map.at({x, 0, 0}), Occupancy::Free) << x;
+    EXPECT_NEAR(map.log_odds({x, 0, 0}).value(), -0.4, 1e-12);
+  }
+  EXPECT_EQ(map.at({10, 0, 0}), Occupancy::Occupied);
+  EXPECT_NEAR(map.log_odds({10, 0, 0}).value(), 0.85, 1e-12);
+}
+
+TEST(OccupancyMap, LogOddsStayWithinTheClamps) {
+  OccupancyMap map({.resolution_m = 0.1});
+  Scan scan;
+  scan.world_from_sensor = pose_looking({0.05, 0.05, 0.05}, 0.0);
+  scan.points = {{0.0F, 0.0F, 1.0F}};
+  for (int i = 0; i < 20; ++i) {
+    map.insert(scan);
+  }
+  EXPECT_NEAR(map.log_odds({10, 0, 0}).value(), 3.5, 1e-12);
+  EXPECT_NEAR(map.log_odds({3, 0, 0}).value(), -2.0, 1e-12);
+}
+
+TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCells) {
+  std::mt19937 engine(1);
+  std::size_t cells_compared = 0;
+  for (int world = 0; world < 20; ++world) {
+    for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
+      OccupancyMap map({.resolution_m = 0.1});
+      const Scan scan = random_scan(engine, 200);
+      const ScanCells expected = scan_cells(scan, map.frame(), policy);
+      const ScanReport report = map.insert(scan, policy);
+      EXPECT_EQ(report.cells_hit, expected.hit.size());
+      EXPECT_EQ(report.cells_cleared, expected.cleared.size());
+      map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+        EXPECT_EQ(expected.hit.count(cell), occupancy == Occupancy::Occupied ? 1U : 0U);
+        EXPECT_EQ(expected.cleared.count(cell), occupancy == Occupancy::Free ? 1U : 0U);
+        ++cells_compared;
+      });
+      EXPECT_EQ(map.counts().occupied + map.counts().free, expected.hit.size() + expected.cleared.size());
+    }
+  }
+  EXPECT_GT(cells_compared, 50'000U);
+}
+
+TEST(OccupancyMap, ChangedSinceNamesExactlyTheBricksWithAChangedState) {
+  std::mt19937 engine(2);
+  OccupancyMap map({.resolution_m = 0.2});
+  std::vector<OccupancyMap> history{map};
+  for (int step = 0; step < 12; ++step) {
+    map.insert(random_scan(engine, 30));
+    history.push_back(map);
+  }
+  std::size_t compared = 0;
+  for (const OccupancyMap& then : history) {
+    const std::vector<VoxelIndex> named = map.changed_since(then.revision());
+    const std::set<VoxelIndex> bricks(named.begin(), named.end());
+    EXPECT_EQ(bricks.size(), named.size()) << "each brick once";
+    map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+      ++compared;
+      if (then.at(cell) != occupancy) {
+        EXPECT_TRUE(bricks.contains(Brick::of_cell(cell)));
+      }
+    });
+  }
+  EXPECT_TRUE(map.changed_since(map.revision()).empty());
+  EXPECT_GT(compared, 20'000U);
+  EXPECT_THROW((void)map.changed_since(map.revision() + 1), std::invalid_argument);
+}
+
+TEST(OccupancyMap, BadRaysAreSkippedAndCounted) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  OccupancyMap map({.resolution_m = 0.1});
+  Scan scan;
+  scan.points = {{kNan, 0, 1}, {0, kInf, 1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 9}, {1e30F, 0, 0}};
+  scan.no_return = {{0, 0, 0}, {0, 1, 0}, {kNan, 0, 0}};
+  scan.max_range_m = 5.0;
+  const ScanReport report = map.insert(scan);
+  EXPECT_EQ(report.not_finite, 3U);
+  EXPECT_EQ(report.zero_length, 2U);
+  EXPECT_EQ(report.hits, 1U);
+  EXPECT_EQ(report.beyond_range, 2U);
+  EXPECT_EQ(report.no_return, 1U);
+  EXPECT_EQ(map.insert(Scan{}).hits, 0U);
+}
+
+TEST(OccupancyMap, AFarPoseIsAPlaceLikeAnyOther) {
+  OccupancyMap map({.resolution_m = 0.1});
+  Scan scan;
+  scan.world_from_sensor = pose_looking({1e6, -1e6, 1e6}, 0.0);
+  scan.points = {{0, 0, 1}};
+  EXPECT_EQ(map.insert(scan).hits, 1U);
+  EXPECT_EQ(map.counts().occupied, 1U);
+  scan.world_from_sensor.translation().x() = 1e12;
+  EXPECT_EQ(map.insert(scan).not_addressable, 1U);
+}
+
+TEST(OccupancyMap, RefusesAPoseThatIsNotRigidAndARangeThatIsNotPositive) {
+  OccupancyMap map;
+  Scan scan;
+  scan.points = {{0, 0, 1}};
+  scan.world_from_sensor.linear() *= 1.1;
+  EXPECT_THROW(map.insert(scan), std::invalid_argument);
+  scan.world_from_sensor.setIdentity();
+  scan.world_from_sensor.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(map.insert(scan), std::invalid_argument);
+  scan.world_from_sensor.setIdentity();
+  scan.max_range_m = -1.0;
+  EXPECT_THROW(map.insert(scan), std::invalid_argument);
+  EXPECT_EQ(map.revision(), 0U);
+}
+
+TEST(OccupancyMap, NamesTheOptionAtFault) {
+  const auto message = [](const OccupancyMapOptions& options) -> std::string {
+    try {
+      const OccupancyMap map(options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({.resolution_m = 0.0}), "OccupancyMapOptions::resolution_m is 0, must be > 0");
+  EXPECT_EQ(message({.log_odds_hit = -1}), "OccupancyMapOptions::log_odds_hit is -1, must be > 0");
+  EXPECT_EQ(message({.log_odds_miss = 1}), "OccupancyMapOptions::log_odds_miss is 1, must be < 0");
+  EXPECT_EQ(message({.log_odds_min = 1}), "OccupancyMapOptions::log_odds_min is 1, must be < 0");
+  EXPECT_EQ(message({.log_odds_max = -2}), "OccupancyMapOptions::log_odds_max is -2, must be > 0");
+  EXPECT_NE(message({.region = Box{}}).find("OccupancyMapOptions::region"), std::string::npos);
+}
+
+TEST(OccupancyMap, KeepsToItsRegion) {
+  OccupancyMap map({.resolution_m = 0.1, .region = Box{{0, 0, 0}, {0.5, 1, 1}}});
+  Scan scan;
+  scan.world_from_sensor = pose_looking({0.05, 0.05, 0.05}, 0.0);
+  scan.points = {{0.0F, 0.0F, 1.0F}};
+  map.insert(scan);
+  EXPECT_EQ(map.bounds(), (VoxelBox{{0, 0, 0}, {5, 1, 1}}));
+  map.set({7, 0, 0}, Occupancy::Occupied);
+  EXPECT_EQ(map.at({7, 0, 0}), Occupancy::Unknown);
+}
+
+TEST(OccupancyMap, CoarserCellsSpeakForTheKnownCellsInThem) {
+  std::mt19937 engine(3);
+  OccupancyMap map({.resolution_m = 0.1});
+  for (int i = 0; i < 5; ++i) {
+    map.insert(random_scan(engine, 100));
+  }
+  std::size_t compared = 0;
+  for (int level = 0; level <= 5; ++level) {
+    const std::int32_t edge = 1 << level;
+    for_each_cell({{-3, -3, -3}, {3, 3, 3}}, [&](const VoxelIndex& coarse) {
+      double sum = 0;
+      double largest = -1e9;
+      std::size_t known = 0;
+      const VoxelIndex lo{coarse.x * edge, coarse.y * edge, coarse.z * edge};
+      for_each_cell({lo, lo + VoxelIndex{edge, edge, edge}}, [&](const VoxelIndex& cell) {
+        if (const auto value = map.log_odds(cell)) {
+          sum += *value;
+          largest = std::max(largest, *value);
+          ++known;
+        }
+      });
+      const auto mean = map.log_odds(coarse, level, CoarseningPolicy::Mean);
+      const auto max = map.log_odds(coarse, level, CoarseningPolicy::Max);
+      ASSERT_EQ(mean.has_value(), known > 0);
+      if (known > 0) {
+        EXPECT_NEAR(*mean, sum / static_cast<double>(known), 1e-9);
+        EXPECT_NEAR(*max, largest, 1e-9);
+        ++compared;
+      }
+    });
+  }
+  EXPECT_GT(compared, 300U);
+}
+
+TEST(OccupancyMap, AssumeFreeLeavesWhatWasMeasured) {
+  OccupancyMap map({.resolution_m = 0.1});
+  map.set({1, 1, 1}, Occupancy::Occupied);
+  map.assume_free({{0, 0, 0}, {0.25, 0.25, 0.25}});
+  EXPECT_EQ(map.at({1, 1, 1}), Occupancy::Occupied);
+  EXPECT_EQ(map.counts().free, 26U);
+}
+
+}  // namespace
+}  // namespace vantage
