@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <vantage/robot/platform.hpp>
+
+namespace vantage {
+
+/// The body of a FreeFlyer and how it may move.
+struct FreeFlyerOptions {
+  double radius_m = 0.3;  ///< the body is a sphere about the sensor, >= 0 (0: the sensor's own cell)
+  double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor
+  double max_height_m = std::numeric_limits<double>::infinity();   ///< highest admitted z of the sensor
+  bool yaw_only = false;  ///< the optical axis stays level (a multirotor with a fixed camera, a ground robot)
+};
+
+/// A sphere that flies: every cell it touches must be known free.
+class FreeFlyer final : public Platform {
+ public:
+  FreeFlyer() : FreeFlyer(FreeFlyerOptions{}) {}
+  /// Throws std::invalid_argument naming the option at fault.
+  explicit FreeFlyer(const FreeFlyerOptions& options);
+
+  [[nodiscard]] const FreeFlyerOptions& options() const { return options_; }
+
+  [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
+  [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
+  [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
+  [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
+  [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
+  [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from,
+                                                      const Pose& to) const override;
+  [[nodiscard]] Box body_box(const Pose& pose) const override;
+  [[nodiscard]] bool can_tilt() const override { return !options_.yaw_only; }
+
+ private:
+  FreeFlyerOptions options_;
+};
+
+}  // namespace vantage
