@@ -254,7 +254,7 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
 }
 
 std::int8_t OccupancyMap::to_steps(double log_odds) const {
-  return static_cast<std::int8_t>(std::clamp(std::round(log_odds / step_), double{min_steps_}, double{max_steps_}));
+  return static_cast<std::int8_t>(std::clamp<double>(std::round(log_odds / step_), min_steps_, max_steps_));
 }
 
 }  // namespace vantage

@@ -38,28 +38,9 @@ class VoxelRay {
     }
   }
 
-  class iterator {
-   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = VoxelIndex;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const VoxelIndex*;
-    using reference = VoxelIndex;
+  class iterator;
 
-    VoxelIndex operator*() const { return {ray_.cell_[0], ray_.cell_[1], ray_.cell_[2]}; }
-    iterator& operator++() {
-      ray_.advance();
-      return *this;
-    }
-    bool operator==(std::default_sentinel_t) const { return ray_.steps_ < 0; }
-
-   private:
-    friend class VoxelRay;
-    explicit iterator(const VoxelRay& ray) : ray_(ray) {}
-    VoxelRay ray_;
-  };
-
-  [[nodiscard]] iterator begin() const { return iterator(*this); }
+  [[nodiscard]] iterator begin() const;
   [[nodiscard]] static std::default_sentinel_t end() { return {}; }
   /// Number of cells on the walk.
   [[nodiscard]] std::int64_t size() const { return steps_ + 1; }
@@ -90,5 +71,28 @@ class VoxelRay {
   std::array<double, 3> delta_{};
   std::int64_t steps_ = 0;
 };
+
+class VoxelRay::iterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = VoxelIndex;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const VoxelIndex*;
+  using reference = VoxelIndex;
+
+  VoxelIndex operator*() const { return {ray_.cell_[0], ray_.cell_[1], ray_.cell_[2]}; }
+  iterator& operator++() {
+    ray_.advance();
+    return *this;
+  }
+  bool operator==(std::default_sentinel_t) const { return ray_.steps_ < 0; }
+
+ private:
+  friend class VoxelRay;
+  explicit iterator(const VoxelRay& ray) : ray_(ray) {}
+  VoxelRay ray_;
+};
+
+inline VoxelRay::iterator VoxelRay::begin() const { return iterator(*this); }
 
 }  // namespace vantage

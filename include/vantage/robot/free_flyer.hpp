@@ -11,6 +11,7 @@ struct FreeFlyerOptions {
   double radius_m = 0.3;  ///< the body is a sphere about the sensor, >= 0 (0: the sensor's own cell)
   double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor
   double max_height_m = std::numeric_limits<double>::infinity();   ///< highest admitted z of the sensor
+  double margin_m = 0.0;  ///< cells this much further off must be free too: a free cell may hold a corner of a wall
   bool yaw_only = false;  ///< the optical axis stays level (a multirotor with a fixed camera, a ground robot)
 };
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// How a whole run ended.
+enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget };
+
+[[nodiscard]] constexpr std::string_view to_string(RunOutcome outcome) {
+  switch (outcome) {
+    case RunOutcome::Explored:
+      return "explored";
+    case RunOutcome::Blocked:
+      return "blocked";
+    case RunOutcome::Budget:
+      break;
+  }
+  return "budget";
+}
+
+/// One integrated scan of a run and what was known after it.
+struct ViewRecord {
+  std::size_t view = 0;              ///< 1 for the first scan
+  Pose pose = Pose::Identity();      ///< world_from_sensor of the scan
+  std::optional<double> coverage;    ///< after this scan, where the true world is known
+  double path_length_m = 0.0;        ///< travelled so far
+  double insert_ms = 0.0;
+  double plan_ms = 0.0;              ///< 0 where the plan before was still being followed
+  double utility = 0.0;              ///< of the goal chosen after this scan
+  std::size_t frontier_cells = 0;    ///< after this scan; as last counted where no plan was made
+  std::size_t void_cells = 0;
+  Outcome outcome = Outcome::Move;   ///< of the plan made after this scan
+};
+
+/// The record of a run, by whatever host: enough for the report, the pictures and the tables.
+struct RunRecord {
+  std::string command;  ///< "explore", "reconstruct", "search", "replay"
+  std::string world;
+  std::string planner;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  double resolution_m = 0.0;
+  RunOutcome outcome = RunOutcome::Budget;
+  std::string reason;
+  std::optional<double> coverage;
+  std::size_t observable_cells = 0;
+  std::optional<double> surface_coverage;
+  Leftover leftover;
+  std::size_t collisions = 0;
+  std::uint64_t integration_operations = 0;  ///< cell updates by scans
+  std::uint64_t planning_operations = 0;     ///< PlanStatistics::ray_operations, summed
+  double peak_memory_mb = 0.0;
+  std::vector<ViewRecord> views;
+  std::vector<Eigen::Vector3d> travelled;  ///< successive sensor positions, the start first
+
+  [[nodiscard]] double path_length_m() const { return views.empty() ? 0.0 : views.back().path_length_m; }
+};
+
+}  // namespace vantage
