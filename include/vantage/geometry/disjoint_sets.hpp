@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace vantage {
+
+/// The partition of 0 .. size - 1 into sets that only ever merge (Tarjan 1975): union by size, paths halved on the way,
+/// so a call costs next to nothing however many came before.
+class DisjointSets {
+ public:
+  /// Every element alone.
+  explicit DisjointSets(std::size_t size) : parent_(size), size_(size, 1), count_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+
+  [[nodiscard]] std::size_t size() const { return parent_.size(); }
+  /// Number of sets.
+  [[nodiscard]] std::size_t count() const { return count_; }
+  /// The element that stands for the set of `element`, until the next merge.
+  [[nodiscard]] std::size_t find(std::size_t element) {
+    while (parent_[element] != element) {
+      parent_[element] = parent_[parent_[element]];
+      element = parent_[element];
+    }
+    return element;
+  }
+  [[nodiscard]] bool same(std::size_t a, std::size_t b) { return find(a) == find(b); }
+  /// Merges the sets of two elements; false if they were one already.
+  bool merge(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) {
+      return false;
+    }
+    if (size_[a] < size_[b]) {
+      std::swap(a, b);
+    }
+    parent_[b] = a;
+    size_[a] += size_[b];
+    --count_;
+    return true;
+  }
+  /// The set of every element, numbered from 0 in the order in which the sets first appear: the same for the same
+  /// partition, whatever the order of the merges.
+  [[nodiscard]] std::vector<std::size_t> labels() {
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> label_of_root(size(), kNone);
+    std::vector<std::size_t> labels(size());
+    std::size_t next = 0;
+    for (std::size_t element = 0; element < size(); ++element) {
+      std::size_t& label = label_of_root[find(element)];
+      if (label == kNone) {
+        label = next++;
+      }
+      labels[element] = label;
+    }
+    return labels;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+  std::vector<std::size_t> size_;
+  std::size_t count_;
+};
+
+}  // namespace vantage

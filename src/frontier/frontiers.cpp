@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/geometry/raster_order.hpp>
+
+namespace vantage {
+namespace {
+
+// Bits of a sub-brick (4 x 4 x 4, x fastest) with coordinate 0 along an axis; those with coordinate 3 lie `3 * stride`
+// bits higher.
+struct Axis {
+  std::uint64_t first;   // cells at coordinate 0
+  unsigned stride;       // bits between neighbours along the axis
+  std::size_t word_bit;  // which bit of the word number says "upper half of the brick"
+};
+constexpr std::array<Axis, 3> kAxes{
+    {{0x1111111111111111ULL, 1, 1}, {0x000F000F000F000FULL, 4, 2}, {0x000000000000FFFFULL, 16, 4}}};
+
+// Of four consecutive coordinates from `first`, those in [lo, hi), as bits.
+unsigned row_mask(std::int32_t first, std::int32_t lo, std::int32_t hi) {
+  unsigned mask = 0;
+  for (std::int32_t i = 0; i < 4; ++i) {
+    mask |= first + i >= lo && first + i < hi ? 1U << i : 0U;
+  }
+  return mask;
+}
+
+// The cells of a sub-brick that lie in `region`.
+std::uint64_t region_mask(const VoxelBox& region, const VoxelIndex& brick, std::size_t word) {
+  const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
+  const unsigned xs = row_mask(first.x, region.lo.x, region.hi.x);
+  const unsigned ys = row_mask(first.y, region.lo.y, region.hi.y);
+  const unsigned zs = row_mask(first.z, region.lo.z, region.hi.z);
+  std::uint64_t mask = 0;
+  for (unsigned row = 0; row < 16; ++row) {
+    if ((ys >> (row & 3U) & 1U) != 0 && (zs >> (row >> 2U) & 1U) != 0) {
+      mask |= std::uint64_t{xs} << (4 * row);
+    }
+  }
+  return mask;
+}
+
+// The unknown cells of a brick inside the region; a brick that is not stored is all unknown.
+BrickPlane unknown_plane(const OccupancyMap& map, const VoxelIndex& address, const Brick* brick) {
+  BrickPlane unknown;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    unknown[word] = brick == nullptr ? ~std::uint64_t{0} : ~brick->known[word];
+    if (map.region()) {
+      unknown[word] &= region_mask(*map.region(), address, word);
+    }
+  }
+  return unknown;
+}
+
+// For every cell of `plane` the bit of its neighbour one step down `axis`; `below` is the plane of the brick there.
+std::uint64_t from_below(const BrickPlane& plane, const BrickPlane& below, const Axis& axis, std::size_t word) {
+  const std::size_t other = word ^ axis.word_bit;
+  const std::uint64_t neighbour = (word & axis.word_bit) != 0 ? plane[other] : below[other];
+  return (plane[word] << axis.stride & ~axis.first) | (neighbour >> (3 * axis.stride) & axis.first);
+}
+
+std::uint64_t from_above(const BrickPlane& plane, const BrickPlane& above, const Axis& axis, std::size_t word) {
+  const std::uint64_t last = axis.first << (3 * axis.stride);
+  const std::size_t other = word ^ axis.word_bit;
+  const std::uint64_t neighbour = (word & axis.word_bit) == 0 ? plane[other] : above[other];
+  return (plane[word] >> axis.stride & ~last) | (neighbour << (3 * axis.stride) & last);
+}
+
+bool any(const BrickPlane& plane) {
+  return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
+}
+
+BrickPlane frontier_plane_of(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick) {
+  BrickPlane free;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    free[word] = brick.free(word);
+  }
+  if (!any(free)) {
+    return {};
+  }
+  const BrickPlane unknown = unknown_plane(map, address, &brick);
+  BrickPlane beside_unknown{};
+  for (std::size_t a = 0; a < kAxes.size(); ++a) {
+    const VoxelIndex lower = address + kFaceNeighbours[2 * a];
+    const VoxelIndex upper = address + kFaceNeighbours[2 * a + 1];
+    const BrickPlane below = unknown_plane(map, lower, map.find_brick(lower));
+    const BrickPlane above = unknown_plane(map, upper, map.find_brick(upper));
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      beside_unknown[word] |=
+          from_below(unknown, below, kAxes[a], word) | from_above(unknown, above, kAxes[a], word);
+    }
+  }
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    free[word] &= beside_unknown[word];
+  }
+  return free;
+}
+
+}  // namespace
+
+BrickPlane frontier_plane(const OccupancyMap& map, const VoxelIndex& brick) {
+  const Brick* stored = map.find_brick(brick);
+  return stored == nullptr ? BrickPlane{} : frontier_plane_of(map, brick, *stored);
+}
+
+std::vector<VoxelIndex> frontier_cells(const OccupancyMap& map) {
+  std::vector<VoxelIndex> cells;
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    const BrickPlane plane = frontier_plane_of(map, address, brick);
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(plane[word], word, [&](std::size_t offset) {
+        cells.push_back(Brick::first_cell(address) + Brick::cell_at(offset));
+      });
+    }
+  });
+  std::sort(cells.begin(), cells.end(), RasterOrder{});
+  return cells;
+}
+
+std::size_t count_frontier_cells(const OccupancyMap& map) {
+  std::size_t count = 0;
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    for (const std::uint64_t word : frontier_plane_of(map, address, brick)) {
+      count += static_cast<std::size_t>(std::popcount(word));
+    }
+  });
+  return count;
+}
+
+std::vector<std::vector<VoxelIndex>> frontier_clusters(const std::vector<VoxelIndex>& cells, Connectivity connectivity) {
+  return voxel_clusters(cells, connectivity);
+}
+
+}  // namespace vantage
