@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <random>
+#include <vantage/field/laplace_problem.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// A small random domain: a box of 1-6 cells an edge (flat ones among them) with a share of the cells taken out, a
+/// random source, and sinks. Cells not joined to the source are left in for the problem to drop.
+struct RandomLaplace {
+  std::vector<VoxelIndex> cells;
+  std::vector<VoxelIndex> sinks;
+  VoxelIndex source;
+
+  explicit RandomLaplace(std::mt19937& engine, std::int32_t longest = 6) {
+    const auto up_to = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(engine); };
+    const auto edge = [&] { return std::uniform_int_distribution<std::int32_t>(1, longest)(engine); };
+    const VoxelIndex lo{edge() - 4, edge() - 4, edge() - 4};
+    const double share_open = std::uniform_real_distribution<double>(0.6, 1.0)(engine);
+    std::bernoulli_distribution open(share_open);
+    while (cells.size() < 3) {
+      cells.clear();
+      const VoxelIndex extent{edge() + 1, edge(), edge()};
+      for_each_cell({lo, lo + extent}, [&](const VoxelIndex& cell) {
+        if (open(engine)) {
+          cells.push_back(cell);
+        }
+      });
+    }
+    source = cells[up_to(cells.size())];
+    const std::size_t wanted = 1 + up_to(3);
+    while (sinks.size() < wanted) {
+      if (const VoxelIndex sink = cells[up_to(cells.size())]; sink != source) {
+        sinks.push_back(sink);
+      }
+    }
+  }
+  [[nodiscard]] LaplaceProblem problem() const { return LaplaceProblem(cells, sinks, source); }
+};
+
+}  // namespace vantage
