@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vantage/raytrace/range_sensor.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+constexpr double radians(double degrees) { return degrees * kPi / 180.0; }
+
+void require(bool holds, const char* field, double value, const char* rule) {
+  if (!holds) {
+    std::ostringstream message;
+    message << "RangeSensor::" << field << " is " << value << ", must be " << rule;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+RangeSensor kinect() { return RangeSensor::pinhole(640, 480, radians(57.0), radians(43.0), 0.4, 4.0); }
+
+// Shade & Newman 2011, VI: a stereo camera of 65 degrees and 512 x 384 pixels; square pixels give the vertical angle.
+RangeSensor stereo() {
+  const double vertical_fov_rad = 2.0 * std::atan(std::tan(radians(65.0) / 2.0) * 384.0 / 512.0);
+  return RangeSensor::pinhole(512, 384, radians(65.0), vertical_fov_rad, 0.5, 5.0);
+}
+
+// The depth camera of a RealSense D435 in its 640 x 360 mode.
+RangeSensor realsense() { return RangeSensor::pinhole(640, 360, radians(87.0), radians(58.0), 0.3, 3.0); }
+
+// A spinning lidar of 128 beams over 90 degrees: at 10 m neighbouring beams are 0.12 m apart, columns 0.06 m.
+RangeSensor lidar() {
+  RangeSensor sensor = RangeSensor::spherical(1024, 128, 2.0 * kPi, kPi / 2.0, 0.1, 20.0);
+  sensor.reports_no_return = true;
+  return sensor;
+}
+
+// Half a degree both ways: at 10 m neighbouring rays are 0.09 m apart.
+RangeSensor panoramic() {
+  RangeSensor sensor = RangeSensor::spherical(720, 360, 2.0 * kPi, kPi, 0.0, 20.0);
+  sensor.reports_no_return = true;
+  return sensor;
+}
+
+// Vasquez-Gomez et al. 2013: the outermost *rays*, not the edges of the outermost pixels, are at these half angles.
+// (Their rays between are spaced by equal angles, a pinhole's by equal tangents: at most 8 mm off per metre.)
+RangeSensor vpl() {
+  RangeSensor sensor;
+  sensor.width = 176;
+  sensor.height = 144;
+  sensor.cx = 87.5;
+  sensor.cy = 71.5;
+  sensor.fx = sensor.cx / std::tan(radians(22.06));
+  sensor.fy = sensor.cy / std::tan(radians(18.76));
+  sensor.min_range_m = 0.0;
+  sensor.max_range_m = 4.0;
+  return sensor;
+}
+
+using Preset = std::pair<std::string_view, RangeSensor (*)()>;
+constexpr std::array<Preset, 6> kPresets{{{"kinect", &kinect},
+                                          {"stereo", &stereo},
+                                          {"realsense", &realsense},
+                                          {"lidar", &lidar},
+                                          {"panoramic", &panoramic},
+                                          {"vpl", &vpl}}};
+
+void validate_pinhole(const RangeSensor& sensor) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require(positive(sensor.fx), "fx", sensor.fx, "> 0");
+  require(positive(sensor.fy), "fy", sensor.fy, "> 0");
+  require(std::isfinite(sensor.cx), "cx", sensor.cx, "finite");
+  require(std::isfinite(sensor.cy), "cy", sensor.cy, "finite");
+}
+
+// Full turns are often written as 6.2832: let them pass.
+constexpr double kAngleSlackRad = 1e-3;
+
+void validate_spherical(const RangeSensor& sensor) {
+  require(sensor.horizontal_fov_rad > 0.0 && sensor.horizontal_fov_rad <= 2.0 * kPi + kAngleSlackRad,
+          "horizontal_fov_rad", sensor.horizontal_fov_rad, "in (0, 2 pi]");
+  require(sensor.vertical_fov_rad > 0.0 && sensor.vertical_fov_rad <= kPi + kAngleSlackRad, "vertical_fov_rad",
+          sensor.vertical_fov_rad, "in (0, pi]");
+}
+
+std::size_t rays_needed(double needed, std::size_t has) {
+  return needed >= static_cast<double>(has) ? has : std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(needed)));
+}
+
+}  // namespace
+
+RangeSensor RangeSensor::pinhole(std::size_t width, std::size_t height, double horizontal_fov_rad,
+                                 double vertical_fov_rad, double min_range_m, double max_range_m) {
+  require(horizontal_fov_rad > 0.0 && horizontal_fov_rad < kPi, "horizontal_fov_rad", horizontal_fov_rad,
+          "in (0, pi) for a pinhole");
+  require(vertical_fov_rad > 0.0 && vertical_fov_rad < kPi, "vertical_fov_rad", vertical_fov_rad,
+          "in (0, pi) for a pinhole");
+  RangeSensor sensor;
+  sensor.width = width;
+  sensor.height = height;
+  sensor.fx = 0.5 * static_cast<double>(width) / std::tan(0.5 * horizontal_fov_rad);
+  sensor.fy = 0.5 * static_cast<double>(height) / std::tan(0.5 * vertical_fov_rad);
+  sensor.cx = 0.5 * (static_cast<double>(width) - 1.0);
+  sensor.cy = 0.5 * (static_cast<double>(height) - 1.0);
+  sensor.min_range_m = min_range_m;
+  sensor.max_range_m = max_range_m;
+  sensor.validate();
+  return sensor;
+}
+
+RangeSensor RangeSensor::spherical(std::size_t width, std::size_t height, double horizontal_fov_rad,
+                                   double vertical_fov_rad, double min_range_m, double max_range_m) {
+  RangeSensor sensor;
+  sensor.projection = Projection::Spherical;
+  sensor.width = width;
+  sensor.height = height;
+  sensor.horizontal_fov_rad = horizontal_fov_rad;
+  sensor.vertical_fov_rad = vertical_fov_rad;
+  sensor.min_range_m = min_range_m;
+  sensor.max_range_m = max_range_m;
+  sensor.validate();
+  return sensor;
+}
+
+RangeSensor RangeSensor::preset(std::string_view name) {
+  const auto found = std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.first == name; });
+  if (found != kPresets.end()) {
+    return found->second();
+  }
+  std::string message = "there is no sensor \"" + std::string(name) + "\"; there are";
+  for (std::size_t i = 0; i < kPresets.size(); ++i) {
+    message += (i == 0 ? " " : ", ") + std::string(kPresets[i].first);
+  }
+  throw std::invalid_argument(message);
+}
+
+const std::vector<std::string_view>& RangeSensor::preset_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const Preset& preset : kPresets) {
+      all.push_back(preset.first);
+    }
+    return all;
+  }();
+  return names;
+}
+
+void RangeSensor::validate() const {
+  require(width > 0, "width", static_cast<double>(width), "> 0");
+  require(height > 0, "height", static_cast<double>(height), "> 0");
+  require(std::isfinite(min_range_m) && min_range_m >= 0.0, "min_range_m", min_range_m, ">= 0");
+  require(std::isfinite(max_range_m) && max_range_m > min_range_m, "max_range_m", max_range_m,
+          "finite and > min_range_m");
+  if (projection == Projection::Pinhole) {
+    validate_pinhole(*this);
+  } else {
+    validate_spherical(*this);
+  }
+}
+
+Eigen::Vector3d RangeSensor::direction(std::size_t column, std::size_t row) const {
+  if (projection == Projection::Pinhole) {
+    return Eigen::Vector3d((static_cast<double>(column) - cx) / fx, (static_cast<double>(row) - cy) / fy, 1.0)
+        .normalized();
+  }
+  const double right_rad =
+      horizontal_fov_rad * ((static_cast<double>(column) + 0.5) / static_cast<double>(width) - 0.5);
+  const double down_rad = vertical_fov_rad * ((static_cast<double>(row) + 0.5) / static_cast<double>(height) - 0.5);
+  return {std::cos(down_rad) * std::sin(right_rad), std::sin(down_rad), std::cos(down_rad) * std::cos(right_rad)};
+}
+
+std::vector<Eigen::Vector3f> RangeSensor::directions() const {
+  std::vector<Eigen::Vector3f> all;
+  all.reserve(width * height);
+  for (std::size_t row = 0; row < height; ++row) {
+    for (std::size_t column = 0; column < width; ++column) {
+      all.push_back(direction(column, row).cast<float>());
+    }
+  }
+  return all;
+}
+
+bool RangeSensor::in_view(const Eigen::Vector3d& direction) const {
+  if (!direction.allFinite() || direction.isZero(0.0)) {
+    return false;
+  }
+  if (projection == Projection::Pinhole) {
+    if (direction.z() <= 0.0) {
+      return false;
+    }
+    const double u = fx * direction.x() / direction.z() + cx;
+    const double v = fy * direction.y() / direction.z() + cy;
+    return u >= -0.5 && u < static_cast<double>(width) - 0.5 && v >= -0.5 && v < static_cast<double>(height) - 0.5;
+  }
+  constexpr double kRounding = 1e-9;  // a full sphere must hold its own poles and seam
+  const double level = std::hypot(direction.x(), direction.z());
+  return std::abs(std::atan2(direction.y(), level)) <= 0.5 * vertical_fov_rad + kRounding &&
+         std::abs(std::atan2(direction.x(), direction.z())) <= 0.5 * horizontal_fov_rad + kRounding;
+}
+
+double RangeSensor::horizontal_angle_rad() const {
+  return projection == Projection::Spherical
+             ? horizontal_fov_rad
+             : std::atan((cx + 0.5) / fx) + std::atan((static_cast<double>(width) - 0.5 - cx) / fx);
+}
+
+double RangeSensor::vertical_angle_rad() const {
+  return projection == Projection::Spherical
+             ? vertical_fov_rad
+             : std::atan((cy + 0.5) / fy) + std::atan((static_cast<double>(height) - 0.5 - cy) / fy);
+}
+
+RangeSensor RangeSensor::rays_for(double cell_m) const {
+  if (!(std::isfinite(cell_m) && cell_m > 0.0)) {
+    throw std::invalid_argument("rays_for: cell_m is " + std::to_string(cell_m) + ", must be > 0");
+  }
+  RangeSensor reduced = *this;
+  const auto columns = static_cast<double>(width);
+  const auto rows = static_cast<double>(height);
+  // A pinhole's rays are furthest apart, by 1 / f, at the principal point.
+  const bool pinhole = projection == Projection::Pinhole;
+  reduced.width = rays_needed((pinhole ? columns / fx : horizontal_fov_rad) * max_range_m / cell_m, width);
+  reduced.height = rays_needed((pinhole ? rows / fy : vertical_fov_rad) * max_range_m / cell_m, height);
+  if (pinhole) {
+    const double across = static_cast<double>(reduced.width) / columns;
+    const double down = static_cast<double>(reduced.height) / rows;
+    reduced.fx = fx * across;
+    reduced.fy = fy * down;
+    reduced.cx = (cx + 0.5) * across - 0.5;
+    reduced.cy = (cy + 0.5) * down - 0.5;
+  }
+  return reduced;
+}
+
+}  // namespace vantage
