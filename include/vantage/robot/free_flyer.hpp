@@ -26,6 +26,7 @@ class FreeFlyer final : public Platform {
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
+  [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
@@ -35,6 +36,10 @@ class FreeFlyer final : public Platform {
   [[nodiscard]] bool can_tilt() const override { return !options_.yaw_only; }
 
  private:
+  [[nodiscard]] double reach_m() const { return options_.radius_m + options_.margin_m; }
+  [[nodiscard]] bool height_allowed(double z_m) const {
+    return z_m >= options_.min_height_m && z_m <= options_.max_height_m;
+  }
   FreeFlyerOptions options_;
 };
 

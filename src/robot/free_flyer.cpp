@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/grid_path.hpp>
+
+#include "robot/swept_sphere.hpp"
+
+namespace vantage {
+namespace {
+
+void require(bool holds, const char* field, double value, const char* rule) {
+  if (!holds) {
+    std::ostringstream message;
+    message << "FreeFlyerOptions::" << field << " is " << value << ", must be " << rule;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+bool is_free(const OccupancyMap& map, const VoxelIndex& cell) { return map.at(cell) == Occupancy::Free; }
+
+// The free cells of a box, as 1.
+VoxelGrid<std::uint8_t> free_cells(const OccupancyMap& map, const VoxelBox& box) {
+  VoxelGrid<std::uint8_t> free(box);
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.free(word), word, [&](std::size_t offset) {
+        const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
+        if (box.contains(cell)) {
+          free[cell] = 1;
+        }
+      });
+    }
+  });
+  return free;
+}
+
+bool has_free_neighbour(const VoxelGrid<std::uint8_t>& free, const VoxelIndex& cell) {
+  for (const VoxelIndex& step : kAllNeighbours) {
+    if (free.value_or(cell + step, 0) != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+FreeFlyer::FreeFlyer(const FreeFlyerOptions& options) : options_(options) {
+  require(std::isfinite(options.radius_m) && options.radius_m >= 0.0, "radius_m", options.radius_m, ">= 0");
+  require(std::isfinite(options.margin_m) && options.margin_m >= 0.0, "margin_m", options.margin_m, ">= 0");
+  require(options.min_height_m <= options.max_height_m, "min_height_m", options.min_height_m, "<= max_height_m");
+}
+
+bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
+  const Eigen::Vector3d position = pose.translation();
+  if (!is_rigid(pose) || !map.frame().addressable(position) || !height_allowed(position.z())) {
+    return false;
+  }
+  if (options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6) {
+    return false;
+  }
+  return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
+                                       [&](const VoxelIndex& cell) { return is_free(map, cell); });
+}
+
+bool FreeFlyer::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
+  const Eigen::Vector3d centre = map.frame().centre_of(cell);
+  return height_allowed(centre.z()) &&
+         detail::swept_sphere_is_clear(map.frame(), centre, centre, reach_m(),
+                                       [&](const VoxelIndex& touched) { return is_free(map, touched); });
+}
+
+VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
+  // What a sphere at the centre of cell (0, 0, 0) touches; every cell that is not free forbids the centres around it.
+  const VoxelFrame& frame = map.frame();
+  const VoxelBox home{{0, 0, 0}, {1, 1, 1}};
+  const auto rings = static_cast<std::int32_t>(std::ceil(reach_m() / frame.size_m));
+  std::vector<VoxelIndex> touched;
+  for_each_cell(home.grown(rings), [&](const VoxelIndex& cell) {
+    if (frame.box_of(cell).distance_to(frame.centre_of({0, 0, 0})) < reach_m() - 1e-9 * frame.size_m) {
+      touched.push_back(cell);
+    }
+  });
+  const VoxelGrid<std::uint8_t> free = free_cells(map, box.grown(rings));
+  VoxelGrid<std::uint8_t> admitted(box);
+  for_each_cell(box, [&](const VoxelIndex& cell) {
+    admitted[cell] = free[cell] != 0 && height_allowed(frame.centre_of(cell).z()) ? 1 : 0;
+  });
+  for_each_cell(free.box(), [&](const VoxelIndex& cell) {
+    // Deep inside what is not free there is no centre left to forbid.
+    if (free[cell] != 0 || !has_free_neighbour(free, cell)) {
+      return;
+    }
+    for (const VoxelIndex& offset : touched) {
+      if (box.contains(cell - offset)) {
+        admitted[cell - offset] = 0;
+      }
+    }
+  });
+  return admitted;
+}
+
+bool FreeFlyer::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
+  const VoxelFrame& frame = map.frame();
+  const Eigen::Vector3d a = from.translation();
+  const Eigen::Vector3d b = to.translation();
+  if (!frame.addressable(a) || !frame.addressable(b) || !height_allowed(b.z())) {
+    return false;
+  }
+  const auto touched_already = [&](const VoxelIndex& cell) {
+    return frame.cell_of(a) == cell || frame.box_of(cell).distance_to(a) < reach_m();
+  };
+  return detail::swept_sphere_is_clear(
+      frame, a, b, reach_m(), [&](const VoxelIndex& cell) { return is_free(map, cell) || touched_already(cell); });
+}
+
+Pose FreeFlyer::facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const {
+  if (!options_.yaw_only) {
+    return pose_looking_along(position_m, direction);
+  }
+  const bool has_heading = std::hypot(direction.x(), direction.y()) > 1e-9;
+  return pose_looking(position_m, has_heading ? std::atan2(direction.y(), direction.x()) : 0.0);
+}
+
+double FreeFlyer::distance_m(const Pose& from, const Pose& to) const {
+  return (to.translation() - from.translation()).norm();
+}
+
+std::optional<std::vector<Pose>> FreeFlyer::path(const OccupancyMap& map, const Pose& from, const Pose& to) const {
+  return grid_path(map, *this, from, to);
+}
+
+Box FreeFlyer::body_box(const Pose& pose) const {
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(reach_m(), 1e-9));
+  return {pose.translation() - reach, pose.translation() + reach};
+}
+
+}  // namespace vantage

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vantage/geometry/box.hpp>
+#include <vantage/geometry/voxel.hpp>
+
+namespace vantage::detail {
+
+/// Distance between a segment and a box, metres. The squared distance along the segment is convex and piecewise
+/// quadratic, so its slope is monotone: bisection finds the nearest point.
+[[nodiscard]] inline double distance_to_segment(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d step = to - from;
+  const auto outside = [&](double t) -> Eigen::Vector3d {
+    const Eigen::Vector3d point = from + t * step;
+    return (point - box.max).cwiseMax(0.0) - (box.min - point).cwiseMax(0.0);
+  };
+  const auto slope = [&](double t) { return outside(t).dot(step); };
+  if (slope(0.0) >= 0.0) {
+    return outside(0.0).norm();
+  }
+  if (slope(1.0) <= 0.0) {
+    return outside(1.0).norm();
+  }
+  double below = 0.0;
+  double above = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (below + above);
+    (slope(middle) < 0.0 ? below : above) = middle;
+  }
+  return outside(0.5 * (below + above)).norm();
+}
+
+/// The box around what a sphere can touch of one slab of cells while its centre goes from `from` to `to`: `slab` is the
+/// slab's address along `axis`.
+[[nodiscard]] inline VoxelBox swept_cells_in_slab(const VoxelFrame& frame, const Eigen::Vector3d& from,
+                                                  const Eigen::Vector3d& to, double radius_m, Eigen::Index axis,
+                                                  std::int32_t slab) {
+  const double length = to[axis] - from[axis];
+  double t0 = 0.0;
+  double t1 = 1.0;
+  if (std::abs(length) > 1e-12) {
+    const double enters = (slab * frame.size_m - radius_m - from[axis]) / length;
+    const double leaves = ((slab + 1) * frame.size_m + radius_m - from[axis]) / length;
+    t0 = std::clamp(std::min(enters, leaves), 0.0, 1.0);
+    t1 = std::clamp(std::max(enters, leaves), 0.0, 1.0);
+  }
+  const Eigen::Vector3d a = from + t0 * (to - from);
+  const Eigen::Vector3d b = from + t1 * (to - from);
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m);
+  VoxelIndex lo = frame.cell_of(a.cwiseMin(b) - reach);
+  VoxelIndex hi = frame.cell_of(a.cwiseMax(b) + reach) + VoxelIndex{1, 1, 1};
+  (axis == 0 ? lo.x : axis == 1 ? lo.y : lo.z) = slab;
+  (axis == 0 ? hi.x : axis == 1 ? hi.y : hi.z) = slab + 1;
+  return {lo, hi};
+}
+
+/// Whether `clear(cell)` holds for every cell that a sphere touches while its centre goes from `from` to `to`. The
+/// cells that hold the two ends are always touched; a sphere that only grazes a cell does not touch it.
+template <class Clear>
+[[nodiscard]] bool swept_sphere_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                         double radius_m, Clear&& clear) {
+  if (!clear(frame.cell_of(from)) || !clear(frame.cell_of(to))) {
+    return false;
+  }
+  // A centre without extent still passes the cells between; so does the centre of a very thin sphere.
+  const double touching_m = std::max(radius_m - 1e-9 * frame.size_m, 1e-9 * frame.size_m);
+  Eigen::Index axis = 0;
+  (to - from).cwiseAbs().maxCoeff(&axis);
+  const auto first =
+      static_cast<std::int32_t>(std::floor((std::min(from[axis], to[axis]) - radius_m) / frame.size_m));
+  const auto last = static_cast<std::int32_t>(std::floor((std::max(from[axis], to[axis]) + radius_m) / frame.size_m));
+  for (std::int32_t slab = first; slab <= last; ++slab) {
+    const VoxelBox cells = swept_cells_in_slab(frame, from, to, radius_m, axis, slab);
+    for (std::int32_t z = cells.lo.z; z < cells.hi.z; ++z) {
+      for (std::int32_t y = cells.lo.y; y < cells.hi.y; ++y) {
+        for (std::int32_t x = cells.lo.x; x < cells.hi.x; ++x) {
+          const VoxelIndex cell{x, y, z};
+          if (!clear(cell) && distance_to_segment(frame.box_of(cell), from, to) < touching_m) {
+            return false;
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/grid_path.hpp>
+#include <vantage/robot/reachable_space.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr double kCell = 0.1;
+
+/// A block of known-free cells with single cells knocked out of it, occupied or unknown.
+OccupancyMap random_map(std::mt19937& engine, std::int32_t side, double blocked_share) {
+  OccupancyMap map({.resolution_m = kCell});
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for_each_cell({{0, 0, 0}, {side, side, side}}, [&](const VoxelIndex& cell) {
+    const double draw = share(engine);
+    if (draw > blocked_share) {
+      map.set(cell, Occupancy::Free);
+    } else if (draw > 0.5 * blocked_share) {
+      map.set(cell, Occupancy::Occupied);
+    }
+  });
+  return map;
+}
+
+/// The definition, spelled out: every cell whose box comes nearer than the radius is free.
+bool sphere_is_free(const OccupancyMap& map, const Eigen::Vector3d& centre, double radius_m) {
+  const VoxelIndex home = map.frame().cell_of(centre);
+  bool free = true;
+  for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(5), [&](const VoxelIndex& cell) {
+    if (cell == home || map.frame().box_of(cell).distance_to(centre) < radius_m - 1e-9) {
+      free = free && map.at(cell) == Occupancy::Free;
+    }
+  });
+  return free;
+}
+
+TEST(FreeFlyer, AdmitsExactlyWhereItsSphereTouchesFreeCellsOnly) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> metre(0.0, 1.6);
+  std::size_t admitted = 0;
+  std::size_t refused = 0;
+  for (const double radius_m : {0.0, 0.04, 0.1, 0.23}) {
+    const FreeFlyer flyer({.radius_m = radius_m});
+    const OccupancyMap map = random_map(engine, 16, 0.02);
+    for (int i = 0; i < 3000; ++i) {
+      const Eigen::Vector3d position(metre(engine), metre(engine), metre(engine));
+      const bool expected = sphere_is_free(map, position, radius_m);
+      ASSERT_EQ(flyer.admits(map, pose_looking(position, 1.0)), expected) << radius_m;
+      ++(expected ? admitted : refused);
+    }
+  }
+  EXPECT_GT(admitted, 2000U);
+  EXPECT_GT(refused, 2000U);
+}
+
+TEST(FreeFlyer, KnowsAllAdmittedCellsAtOnceAsItKnowsEach) {
+  std::mt19937 engine(2);
+  std::size_t compared = 0;
+  std::size_t admitted_count = 0;
+  for (const double radius_m : {0.0, 0.05, 0.15, 0.2, 0.28}) {
+    const FreeFlyer flyer({.radius_m = radius_m, .min_height_m = 0.3, .max_height_m = 1.2});
+    const OccupancyMap map = random_map(engine, 16, 0.01);
+    const VoxelBox box = map.bounds().grown(2);
+    const VoxelGrid<std::uint8_t> admitted = flyer.admitted_cells(map, box);
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      ASSERT_EQ(admitted[cell] != 0, flyer.admits_cell(map, cell)) << radius_m;
+      ++compared;
+      admitted_count += admitted[cell];
+    });
+  }
+  EXPECT_EQ(compared, 5U * 20U * 20U * 20U);
+  EXPECT_GT(admitted_count, 1000U);
+}
+
+TEST(FreeFlyer, AMotionIsAdmittedExactlyWhenEveryPoseOfItIs) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> metre(0.2, 1.4);
+  std::size_t admitted = 0;
+  std::size_t refused = 0;
+  for (const double radius_m : {0.03, 0.12}) {
+    const FreeFlyer flyer({.radius_m = radius_m});
+    const FreeFlyer fatter({.radius_m = radius_m + 2e-3});
+    const OccupancyMap map = random_map(engine, 16, 0.01);
+    for (int i = 0; i < 2000; ++i) {
+      const Pose from = pose_looking({metre(engine), metre(engine), metre(engine)}, 0.0);
+      const Pose to = pose_looking({metre(engine), metre(engine), metre(engine)}, 0.0);
+      if (!flyer.admits(map, from)) {
+        continue;
+      }
+      bool all = true;
+      bool all_fatter = true;
+      for (int s = 0; s <= 400; ++s) {
+        Pose between = from;
+        between.translation() += s / 400.0 * (to.translation() - from.translation());
+        all = all && flyer.admits(map, between);
+        all_fatter = all_fatter && fatter.admits(map, between);
+      }
+      const bool motion = flyer.admits_motion(map, from, to);
+      EXPECT_TRUE(!motion || all) << "an admitted motion passes admitted poses only";
+      EXPECT_TRUE(motion || !all_fatter) << "a refused motion passes a refused pose";
+      ++(motion ? admitted : refused);
+    }
+  }
+  EXPECT_GT(admitted, 100U);
+  EXPECT_GT(refused, 100U);
+}
+
+TEST(FreeFlyer, MayLeaveAPlaceFoundTooTightButNotEnterOne) {
+  OccupancyMap map({.resolution_m = kCell});
+  map.assume_free({{0, 0, 0}, {2, 1, 1}});
+  map.set({5, 3, 5}, Occupancy::Occupied);
+  const FreeFlyer flyer({.radius_m = 0.2});
+  const Pose tight = pose_looking({0.55, 0.55, 0.55}, 0.0);
+  const Pose wide = pose_looking({1.5, 0.55, 0.55}, 0.0);
+  EXPECT_FALSE(flyer.admits(map, tight));
+  EXPECT_TRUE(flyer.admits_motion(map, tight, wide));
+  EXPECT_FALSE(flyer.admits_motion(map, wide, tight));
+  const auto path = flyer.path(map, tight, wide);
+  ASSERT_TRUE(path.has_value());
+  EXPECT_TRUE(path->front().isApprox(tight));
+  EXPECT_TRUE(path->back().isApprox(wide));
+}
+
+TEST(FreeFlyer, AYawOnlyFlyerKeepsLevel) {
+  const FreeFlyer flyer({.yaw_only = true});
+  const Pose pose = flyer.facing({1, 2, 3}, {1, 1, 5});
+  EXPECT_NEAR(optical_axis(pose).z(), 0.0, 1e-12);
+  EXPECT_NEAR(optical_axis(pose).x(), optical_axis(pose).y(), 1e-12);
+}
+
+TEST(FreeFlyer, NamesTheOptionAtFault) {
+  try {
+    const FreeFlyer flyer({.radius_m = -0.5});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "FreeFlyerOptions::radius_m is -0.5, must be >= 0");
+  }
+  EXPECT_THROW(FreeFlyer({.margin_m = -1}), std::invalid_argument);
+  EXPECT_THROW(FreeFlyer({.min_height_m = 2, .max_height_m = 1}), std::invalid_argument);
+}
+
+TEST(GridPath, IsAsShortAsTheSlowSearchSaysAndKeepsToAdmittedPoses) {
+  std::mt19937 engine(4);
+  std::size_t ways = 0;
+  std::size_t dead_ends = 0;
+  for (int world = 0; world < 30; ++world) {
+    const OccupancyMap map = random_map(engine, 12, 0.35);
+    const FreeFlyer flyer({.radius_m = 0.0});
+    std::uniform_int_distribution<std::int32_t> coordinate(0, 11);
+    const auto draw = [&] {
+      VoxelIndex cell;
+      do {
+        cell = {coordinate(engine), coordinate(engine), coordinate(engine)};
+      } while (map.at(cell) != Occupancy::Free);
+      return cell;
+    };
+    const Pose from = pose_looking(map.frame().centre_of(draw()), 0.0);
+    const VoxelIndex goal = draw();
+    const Pose to = pose_looking(map.frame().centre_of(goal), 1.0);
+    const ReachableSpace space(map, flyer, from);
+    const auto path = flyer.path(map, from, to);
+    ASSERT_EQ(path.has_value(), space.contains(goal));
+    if (!path) {
+      ++dead_ends;
+      continue;
+    }
+    ++ways;
+    const GridPaths paths(space, map.frame());
+    const std::vector<VoxelIndex> goals{goal};
+    const auto length = [&](const std::vector<VoxelIndex>& cells) {
+      double sum = 0;
+      for (std::size_t i = 1; i < cells.size(); ++i) {
+        sum += (map.frame().centre_of(cells[i]) - map.frame().centre_of(cells[i - 1])).norm();
+      }
+      return sum;
+    };
+    EXPECT_NEAR(length(paths.to(goal)), length(paths.to_nearest(goals)), 1e-2 * kCell);
+    for (std::size_t i = 1; i < path->size(); ++i) {
+      EXPECT_TRUE(flyer.admits_motion(map, (*path)[i - 1], (*path)[i]));
+    }
+    EXPECT_TRUE(path->front().isApprox(from));
+    EXPECT_TRUE(path->back().isApprox(to));
+  }
+  EXPECT_GT(ways, 10U);
+  EXPECT_EQ(ways + dead_ends, 30U);
+}
+
+}  // namespace
+}  // namespace vantage
