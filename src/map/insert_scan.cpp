@@ -1,30 +1,92 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
+#include <map/mark_rays.hpp>
+#include <map/update_word.hpp>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/map/scan_cells.hpp>
 
 namespace vantage {
 
-ScanReport OccupancyMap::insert(const Scan& scan, RayPolicy policy) {
-  const ScanCells cells = scan_cells(scan, frame_, policy, region_);
-  ScanReport report = cells.report;
-  ++revision_;
-  const auto update = [&](const VoxelIndex& cell, std::int8_t delta) {
-    const Occupancy before = at(cell);
-    const Brick* brick = find_brick(Brick::of_cell(cell));
-    const int steps = (brick == nullptr ? 0 : brick->log_odds[Brick::offset_of(cell)]) + delta;
-    const auto clamped = static_cast<std::int8_t>(std::clamp<int>(steps, min_steps_, max_steps_));
-    const Occupancy after = clamped >= 0 ? Occupancy::Occupied : Occupancy::Free;
-    write(cell, after, clamped);
-    report.cells_changed += before != after ? 1 : 0;
-  };
-  for (const VoxelIndex& cell : cells.hit) {
-    update(cell, hit_steps_);
+/// First which cells, as bit planes; then one update for each, word by word.
+class ScanInserter {
+ public:
+  explicit ScanInserter(OccupancyMap& map)
+      : map_(map), model_{map.hit_steps_, map.miss_steps_, map.min_steps_, map.max_steps_} {}
+
+  ScanReport insert(const Scan& scan, RayPolicy policy) {
+    const ScanRays rays = rays_of(scan, map_.frame_);
+    report_ = rays.report;
+    ++map_.revision_;
+    if (!rays.rays.empty()) {
+      ScanMarks marks(rays.cells, map_.frame_.cell_of(rays.origin));
+      mark_rays(rays, map_.frame_, policy, marks);
+      marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
+        update(address, passed, hit);
+      });
+    }
+    return report_;
   }
-  for (const VoxelIndex& cell : cells.cleared) {
-    update(cell, miss_steps_);
+
+ private:
+  void update(const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
+    BrickMarks marks;
+    const bool cut = map_.region_ && !inside(address, *map_.region_);
+    std::uint64_t any = 0;
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      const std::uint64_t allowed = cut ? allowed_in(address, word) : ~std::uint64_t{0};
+      marks.hit[word] = hit[word] & allowed;
+      marks.passed[word] = passed[word] & ~hit[word] & allowed;
+      any |= marks.hit[word] | marks.passed[word];
+    }
+    if (any == 0) {
+      return;
+    }
+    const BrickDirectory::Number number = map_.brick_for(address);
+    if (update_brick(map_.bricks_[number].cells, marks)) {
+      map_.mark_changed(number);
+    }
   }
-  return report;
-}
+
+  // Whether a cell of the brick changed its state.
+  bool update_brick(Brick& brick, const BrickMarks& marks) {
+    std::uint64_t any_change = 0;
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      const std::uint64_t touched = marks.hit[word] | marks.passed[word];
+      if (touched == 0) {
+        continue;
+      }
+      const std::uint64_t positive = update_word(&brick.log_odds[word * 64], marks.hit[word], marks.passed[word], model_);
+      const std::uint64_t occupied = (brick.occupied[word] & ~touched) | (positive & touched);
+      const std::uint64_t changed = (touched & ~brick.known[word]) | (occupied ^ brick.occupied[word]);
+      brick.known[word] |= touched;
+      brick.occupied[word] = occupied;
+      any_change |= changed;
+      report_.cells_hit += static_cast<std::size_t>(std::popcount(marks.hit[word]));
+      report_.cells_cleared += static_cast<std::size_t>(std::popcount(marks.passed[word]));
+      report_.cells_changed += static_cast<std::size_t>(std::popcount(changed));
+    }
+    return any_change != 0;
+  }
+
+  static bool inside(const VoxelIndex& address, const VoxelBox& region) {
+    const VoxelIndex corner = Brick::first_cell(address);
+    return region.contains(corner) && region.contains(corner + VoxelIndex{7, 7, 7});
+  }
+  [[nodiscard]] std::uint64_t allowed_in(const VoxelIndex& address, std::size_t word) const {
+    const VoxelIndex corner = Brick::first_cell(address);
+    std::uint64_t allowed = 0;
+    for_each_offset(~std::uint64_t{0}, word, [&](std::size_t offset) {
+      const bool in = map_.region_->contains(corner + Brick::cell_at(offset));
+      allowed |= std::uint64_t{in} << (offset & 63U);
+    });
+    return allowed;
+  }
+
+  OccupancyMap& map_;
+  BeamSteps model_;
+  ScanReport report_;
+};
+
+ScanReport OccupancyMap::insert(const Scan& scan, RayPolicy policy) { return ScanInserter(*this).insert(scan, policy); }
 
 }  // namespace vantage

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/map/scan.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// A ray of a scan: where it ends, in metres, in the world.
+struct ScanRay {
+  Eigen::Vector3d end;
+  bool hits;  ///< whether it ended there by a return; else it only clears
+};
+
+/// The usable rays of a scan, all from one origin, and what became of the others.
+struct ScanRays {
+  Eigen::Vector3d origin;
+  std::vector<ScanRay> rays;
+  VoxelBox cells;  ///< holds the cells of the origin and of all ends
+  ScanReport report;
+};
+
+/// Throws std::invalid_argument if the pose is not rigid or the range is not positive.
+[[nodiscard]] ScanRays rays_of(const Scan& scan, const VoxelFrame& frame);
+
+}  // namespace vantage
