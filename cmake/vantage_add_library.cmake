@@ -1,21 +1,48 @@
 # SPDX-License-Identifier: MIT
 
-# vantage_add_library(<component> SOURCES ... HEADERS ... LINKS PUBLIC|PRIVATE ...)
-# HEADERS are the public ones, relative to include/; each must compile alone.
+# vantage_add_library(<component> SOURCES ... HEADERS ... [GENERATED_HEADERS ...]
+#                     [UMBRELLA ...] LINKS PUBLIC|PRIVATE ...)
+# HEADERS are the public ones, relative to include/; each must compile alone. GENERATED_HEADERS lie in the build tree, and
+# so does UMBRELLA, the header written here that includes all the others.
 function(vantage_add_library component)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "UMBRELLA" "SOURCES;HEADERS;GENERATED_HEADERS;LINKS")
   set(target vantage_${component})
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_COMPONENTS ${component})
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_HEADERS ${arg_HEADERS})
+  if(arg_UMBRELLA)
+    set(includes ${arg_HEADERS} ${arg_GENERATED_HEADERS})
+    list(SORT includes)
+    list(TRANSFORM includes REPLACE "(.+)" "#include <\\1>")
+    list(JOIN includes "\n" includes)
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/umbrella.hpp.in" "${PROJECT_BINARY_DIR}/include/${arg_UMBRELLA}" @ONLY)
+    list(APPEND arg_GENERATED_HEADERS ${arg_UMBRELLA})
+  endif()
   list(TRANSFORM arg_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/include/")
+  list(TRANSFORM arg_GENERATED_HEADERS PREPEND "${PROJECT_BINARY_DIR}/include/")
   add_library(${target} ${arg_SOURCES})
   add_library(vantage::${component} ALIAS ${target})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${arg_HEADERS})
+  target_sources(
+    ${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include"
+                     FILES ${arg_HEADERS} ${arg_GENERATED_HEADERS})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} ${arg_LINKS})
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} VERIFY_INTERFACE_HEADER_SETS ON)
+  set_target_properties(
+    ${target} PROPERTIES EXPORT_NAME ${component} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON
+                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   vantage_warnings(${target})
+  if(VANTAGE_INSTALL)
+    install(
+      TARGETS ${target}
+      EXPORT vantage-${component}-targets
+      RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
+      LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+      FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  endif()
 endfunction()
 
+# Our own warnings, for our own targets, and only when we are the project that is being built.
 function(vantage_warnings target)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(

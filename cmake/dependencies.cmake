@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: MIT
+# What each component needs from outside. Found here, at the root, so that src/ and tests/ both see the targets.
+vantage_find(core PUBLIC Eigen3 3.4 NO_MODULE)

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+# The installed package: one export file and one dependency file per component, and the config that reads them.
+include(CMakePackageConfigHelpers)
+
+set(vantage_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/vantage")
+set(vantage_package_build_dir "${PROJECT_BINARY_DIR}/package")
+get_property(vantage_components GLOBAL PROPERTY VANTAGE_COMPONENTS)
+
+# The component's own components, taken from what it links, then its packages. Whether private ones are needed is decided
+# here, where the type of the library is known, and not in the config, where it no longer is.
+function(vantage_write_dependencies component)
+  get_target_property(type vantage_${component} TYPE)
+  get_target_property(links vantage_${component} LINK_LIBRARIES)
+  get_property(packages GLOBAL PROPERTY VANTAGE_PUBLIC_DEPENDENCIES_${component})
+  if(type STREQUAL "STATIC_LIBRARY")
+    get_property(private_packages GLOBAL PROPERTY VANTAGE_PRIVATE_DEPENDENCIES_${component})
+    list(APPEND packages ${private_packages})
+  endif()
+  set(needed ${links})
+  list(FILTER needed INCLUDE REGEX "^vantage::")
+  list(TRANSFORM needed REPLACE "^vantage::" "")
+  set(content "# What vantage::${component} (${type}) needs.\nset(vantage_${component}_components \"${needed}\")\n")
+  string(APPEND content "set(vantage_${component}_packages \"${packages}\")\n")
+  file(CONFIGURE OUTPUT "${vantage_package_build_dir}/vantage-${component}-dependencies.cmake" CONTENT "${content}" @ONLY)
+  install(FILES "${vantage_package_build_dir}/vantage-${component}-dependencies.cmake"
+          DESTINATION "${vantage_package_dir}")
+  install(EXPORT vantage-${component}-targets NAMESPACE vantage:: DESTINATION "${vantage_package_dir}")
+endfunction()
+
+foreach(component IN LISTS vantage_components)
+  vantage_write_dependencies(${component})
+endforeach()
+
+configure_package_config_file(
+  "${PROJECT_SOURCE_DIR}/cmake/vantageConfig.cmake.in" "${vantage_package_build_dir}/vantageConfig.cmake"
+  INSTALL_DESTINATION "${vantage_package_dir}" NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+write_basic_package_version_file("${vantage_package_build_dir}/vantageConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${vantage_package_build_dir}/vantageConfig.cmake"
+              "${vantage_package_build_dir}/vantageConfigVersion.cmake" DESTINATION "${vantage_package_dir}")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# The package as a stranger gets it, three ways, and what it says when asked for what it does not have.
+set(consumer_source "${CMAKE_CURRENT_LIST_DIR}")
+set(consumer_build "${PROJECT_BINARY_DIR}/consumer")
+set(consumer_prefix "${consumer_build}/prefix")
+
+add_test(NAME package.install COMMAND "${CMAKE_COMMAND}" --install "${PROJECT_BINARY_DIR}" --prefix "${consumer_prefix}")
+set_tests_properties(package.install PROPERTIES FIXTURES_SETUP installed_package LABELS package)
+
+# vantage_consumer_test(<name> <option>...): configures, builds and runs the consumer. The options come before
+# --test-command, which takes everything that follows it.
+function(vantage_consumer_test name)
+  add_test(
+    NAME package.${name}
+    COMMAND
+      "${CMAKE_CTEST_COMMAND}" --build-and-test "${consumer_source}" "${consumer_build}/${name}" --build-generator
+      "${CMAKE_GENERATOR}" --build-options "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
+      "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}" ${ARGN} --test-command "${CMAKE_CTEST_COMMAND}"
+      --output-on-failure --no-tests=error)
+  set_tests_properties(package.${name} PROPERTIES LABELS package PROCESSORS 2)
+endfunction()
+
+set(without_heavy -DVANTAGE_BUILD_VISION=OFF -DVANTAGE_BUILD_SIM=OFF)
+foreach(package OpenCV embree Embree assimp nlohmann_json CLI11)
+  list(APPEND without_heavy -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+
+get_property(components GLOBAL PROPERTY VANTAGE_COMPONENTS)
+if(VANTAGE_INSTALL)
+  vantage_consumer_test(installed -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}")
+  vantage_consumer_test(installed_without_heavy -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}" ${without_heavy})
+  add_test(NAME package.unknown_component
+           COMMAND "${CMAKE_COMMAND}" -S "${consumer_source}" -B "${consumer_build}/unknown_component" -DWAY=installed
+                   "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DCOMPONENTS=core;telepathy")
+  list(JOIN components ", " components_text)
+  set_tests_properties(
+    package.unknown_component
+    PROPERTIES LABELS package PASS_REGULAR_EXPRESSION
+               "vantage[ \n]+was[ \n]+built[ \n]+without[ \n]+'telepathy';[ \n]+it[ \n]+has:[ \n]+core")
+  set_tests_properties(package.installed package.installed_without_heavy package.unknown_component
+                       PROPERTIES FIXTURES_REQUIRED installed_package)
+endif()
+vantage_consumer_test(subdirectory -DWAY=subdirectory "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}" ${without_heavy})
+vantage_consumer_test(fetchcontent -DWAY=fetchcontent "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
+                      -DFETCHCONTENT_FULLY_DISCONNECTED=ON ${without_heavy})
