@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/planner/failed_views.hpp>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/make_planner.hpp>
+
+namespace vantage {
+
+struct FrontierGainOptions {
+  std::size_t hypotheses = 100;   ///< random poses tried per plan, >= 1
+  /// Share of the hypotheses that stand where some frontier is known to be visible, in [0, 1]; the rest are anywhere in
+  /// the reachable space. 0 is the paper's; it then falls back on such poses only if no random one sees a frontier.
+  double aimed_share = 0.0;
+  /// What a metre of straight distance costs, in frontier cells, >= 0. 0 is the paper's: gain alone decides.
+  double cost_per_m = 0.0;
+  FrontierSurveyOptions survey = {};
+};
+
+/// The frontier method of Shade & Newman 2011, III-B.1, their baseline: poses are drawn at random in the free space that
+/// the platform can reach, the frontier cells that the sensor would see from each are counted by casting rays through
+/// the map, and the way to the best pose is found by A*.
+class FrontierGainPlanner final : public ExplorationPlanner {
+ public:
+  /// Throws std::invalid_argument naming the option at fault.
+  explicit FrontierGainPlanner(const PlannerSetup& setup, const FrontierGainOptions& options = {});
+
+  [[nodiscard]] std::string_view name() const override { return "frontier-gain"; }
+  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+
+ private:
+  PlannerSetup setup_;
+  FrontierGainOptions options_;
+  FailedViews failed_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/planner/failed_views.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/robot/platform.hpp>
+#include <vantage/robot/reachable_space.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// A frontier cell that the sensor can resolve, and one place to do it from.
+struct FrontierTarget {
+  VoxelIndex frontier;   ///< the free cell
+  VoxelIndex unknown;    ///< its unknown face neighbour that is to be seen
+  VoxelIndex viewpoint;  ///< a reachable cell from whose centre the centre of `unknown` is in plain sight and in range
+};
+
+/// What counts as worth a view, for every planner alike.
+struct FrontierSurveyOptions {
+  std::size_t min_cluster_cells = 1;  ///< smaller 26-connected frontier clusters are left as `too_small`, >= 1
+  std::size_t sight_directions = 512; ///< directions in which an unknown cell looks back for a viewpoint, >= 6
+  /// When nothing is observable along those directions, every pair of a frontier and a reachable cell is tried, up to
+  /// this many, before the map may be called explored.
+  std::size_t exhaustive_pairs = 20'000'000;
+};
+
+/// Where the platform can go, which frontier cells are left and which of them some reachable pose can resolve: the
+/// definitions of "reachable", "observable" and "leftover" that all planners share.
+///
+/// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one of
+/// its unknown face neighbours passes free cells only, is between the sensor's shortest and longest range, and falls
+/// into its field of view in an orientation that the platform can take there.
+struct FrontierSurvey {
+  ReachableSpace reachable;
+  std::vector<FrontierTarget> targets;  ///< the observable frontier cells, in raster order of `frontier`
+  std::size_t frontier_cells = 0;       ///< all of them, inside the region
+  Leftover leftover;
+  std::uint64_t ray_operations = 0;     ///< cells visited while looking for lines of sight
+};
+
+/// Surveys the map from `current`. Targets that `failed` has given up count as unobservable.
+[[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
+                                              const RangeSensor& sensor, const Pose& current,
+                                              const FrontierSurveyOptions& options, const FailedViews& failed);
+
+/// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free.
+/// `operations` counts the cells visited.
+[[nodiscard]] bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
+                                  std::uint64_t& operations);
+
+/// Whether a sensor at `pose` should resolve `unknown`: in range, in the field of view and in plain sight.
+[[nodiscard]] bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,
+                        std::uint64_t& operations);
+
+}  // namespace vantage

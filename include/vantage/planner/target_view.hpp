@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// A view and what it is meant to resolve.
+struct TargetView {
+  View view;                        ///< utility: the number of frontier targets seen
+  std::vector<VoxelIndex> unknown;  ///< their unknown cells, in the order of the survey's targets
+};
+
+/// What a given pose sees of the survey's targets.
+[[nodiscard]] TargetView targets_seen_from(const OccupancyMap& map, const RangeSensor& sensor,
+                                           const FrontierSurvey& survey, const Pose& pose, std::uint64_t& operations);
+
+/// The pose at the viewpoint of `wanted` that sees `wanted` and, of the orientations tried, most other targets too.
+[[nodiscard]] TargetView view_of_target(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
+                                        const FrontierSurvey& survey, const FrontierTarget& wanted,
+                                        std::uint64_t& operations);
+
+}  // namespace vantage

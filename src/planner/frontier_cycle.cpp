@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "planner/frontier_cycle.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vantage/robot/grid_path.hpp>
+
+namespace vantage::detail {
+namespace {
+
+void validate(const OccupancyMap& map, const Pose& current) {
+  if (!is_rigid(current)) {
+    throw std::invalid_argument("plan(): the current pose is not a rigid transform");
+  }
+  if (!map.frame().addressable(current.translation()) || !map.in_region(map.frame().cell_of(current.translation()))) {
+    throw std::invalid_argument("plan(): the current pose is outside the map's region");
+  }
+}
+
+FrontierSurvey checked_survey(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
+                              const FrontierSurveyOptions& options, FailedViews& failed) {
+  validate(map, current);
+  failed.review(map, current);
+  return survey_frontiers(map, *setup.platform, setup.sensor, current, options, failed);
+}
+
+}  // namespace
+
+FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
+                             const FrontierSurveyOptions& options, FailedViews& failed)
+    : map_(map), current_(current), setup_(setup), failed_(failed),
+      survey_(checked_survey(map, current, setup, options, failed)) {
+  plan_.leftover = survey_.leftover;
+  plan_.statistics.frontier_cells = survey_.frontier_cells;
+  plan_.statistics.observable_cells = survey_.targets.size();
+  plan_.statistics.reachable_cells = survey_.reachable.size();
+  plan_.statistics.ray_operations = survey_.ray_operations;
+  plan_.statistics.survey_ms = stopwatch_.lap_ms();
+  const Leftover& left = survey_.leftover;
+  if (survey_.frontier_cells > 0 && !survey_.reachable.start()) {
+    over_ = true;
+    plan_.outcome = Outcome::Blocked;
+    plan_.reason = "the platform does not admit the place where it is, and there is no free place beside it";
+  } else if (survey_.targets.empty()) {
+    over_ = true;
+    plan_.outcome = Outcome::Explored;
+    plan_.reason = survey_.frontier_cells == 0
+                       ? "no frontier is left"
+                       : "no observable frontier is left; given up: " + std::to_string(left.unreachable) +
+                             " unreachable, " + std::to_string(left.unobservable) + " unobservable, " +
+                             std::to_string(left.too_small) + " too small";
+  }
+}
+
+Plan FrontierCycle::go(TargetView chosen, std::span<const VoxelIndex> way) {
+  plan_.statistics.choose_ms += stopwatch_.lap_ms();
+  auto path = poses_along(map_, *setup_.platform, current_, way, chosen.view.pose);
+  if (!path) {
+    return blocked("the platform cannot follow the way to the chosen view");
+  }
+  return go(std::move(chosen), std::move(*path));
+}
+
+Plan FrontierCycle::go(TargetView chosen, std::vector<Pose> path) {
+  plan_.statistics.path_ms += stopwatch_.lap_ms();
+  plan_.outcome = Outcome::Move;
+  plan_.goal = chosen.view;
+  plan_.path = std::move(path);
+  plan_.reason = "a view of " + std::to_string(chosen.unknown.size()) + " frontier cells";
+  failed_.expect(map_, plan_.goal.pose, std::move(chosen.unknown));
+  return std::move(plan_);
+}
+
+Plan FrontierCycle::blocked(std::string reason) {
+  plan_.outcome = Outcome::Blocked;
+  plan_.reason = std::move(reason);
+  return std::move(plan_);
+}
+
+void validate(const PlannerSetup& setup) {
+  if (setup.platform == nullptr) {
+    throw std::invalid_argument("PlannerSetup::platform is null, must be a platform");
+  }
+  if (setup.threads < 1) {
+    throw std::invalid_argument("PlannerSetup::threads is " + std::to_string(setup.threads) + ", must be >= 1");
+  }
+  setup.sensor.validate();
+}
+
+void validate(const FrontierSurveyOptions& options) {
+  if (options.min_cluster_cells < 1) {
+    throw std::invalid_argument("FrontierSurveyOptions::min_cluster_cells is 0, must be >= 1");
+  }
+  if (options.sight_directions < 6) {
+    throw std::invalid_argument("FrontierSurveyOptions::sight_directions is " +
+                                std::to_string(options.sight_directions) + ", must be >= 6");
+  }
+}
+
+}  // namespace vantage::detail

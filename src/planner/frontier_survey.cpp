@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/planner/frontier_survey.hpp>
+
+namespace vantage {
+namespace {
+
+// Evenly spread unit vectors (a Fibonacci lattice on the sphere).
+std::vector<Eigen::Vector3d> spread_directions(std::size_t count) {
+  std::vector<Eigen::Vector3d> directions;
+  directions.reserve(count);
+  constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896964);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    const double angle = kGoldenAngle * static_cast<double>(i);
+    const double radius = std::sqrt(1.0 - z * z);
+    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return directions;
+}
+
+// The states of the known part of the map in one block: a survey asks for them millions of times.
+VoxelGrid<Occupancy> dense_states(const OccupancyMap& map) {
+  VoxelGrid<Occupancy> states(map.bounds(), Occupancy::Unknown);
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) { states[cell] = occupancy; });
+  return states;
+}
+
+// Finds a viewpoint for one unknown cell after another.
+class ViewpointSearch {
+ public:
+  ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
+                  const ReachableSpace& reachable, std::size_t direction_count)
+      : frame_(map.frame()), platform_(platform), sensor_(sensor), reachable_(reachable), states_(dense_states(map)),
+        directions_(spread_directions(direction_count)) {}
+
+  // Looks back from `unknown`, first straight away through the frontier cell, then all around.
+  std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
+    const Eigen::Vector3d centre = frame_.centre_of(unknown);
+    if (const auto found = along(unknown, (frame_.centre_of(frontier) - centre).normalized())) {
+      return found;
+    }
+    for (const Eigen::Vector3d& direction : directions_) {
+      if (const auto found = along(unknown, direction)) {
+        return found;
+      }
+    }
+    return std::nullopt;
+  }
+  std::optional<VoxelIndex> try_all(const VoxelIndex& unknown) {
+    for (const VoxelIndex& cell : reachable_.cells()) {
+      if (serves(cell, unknown)) {
+        return cell;
+      }
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] std::uint64_t operations() const { return operations_; }
+
+ private:
+  Occupancy state(const VoxelIndex& cell) const { return states_.value_or(cell, Occupancy::Unknown); }
+
+  std::optional<VoxelIndex> along(const VoxelIndex& unknown, const Eigen::Vector3d& direction) {
+    const Eigen::Vector3d centre = frame_.centre_of(unknown);
+    // No further than the known part of the map can reach: a sensor's range may be without bound.
+    const double furthest_m = std::min(sensor_.max_range_m, frame_.box_of(states_.box()).extent().norm() + frame_.size_m);
+    for (const VoxelIndex& cell : VoxelRay(frame_, centre, centre + furthest_m * direction)) {
+      if (cell == unknown) {
+        continue;
+      }
+      ++operations_;
+      if (state(cell) != Occupancy::Free) {
+        return std::nullopt;
+      }
+      if (reachable_.contains(cell) && serves(cell, unknown)) {
+        return cell;
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+    const Eigen::Vector3d from = frame_.centre_of(viewpoint);
+    const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
+    const double range_m = line.norm();
+    if (range_m < sensor_.min_range_m || range_m > sensor_.max_range_m) {
+      return false;
+    }
+    if (!platform_.can_tilt() && !sensor_.in_view(platform_.facing(from, line).linear().transpose() * line)) {
+      return false;
+    }
+    for (const VoxelIndex& cell : VoxelRay(frame_, from, frame_.centre_of(unknown))) {
+      ++operations_;
+      if (cell != unknown && state(cell) != Occupancy::Free) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  VoxelFrame frame_;
+  const Platform& platform_;
+  const RangeSensor& sensor_;
+  const ReachableSpace& reachable_;
+  VoxelGrid<Occupancy> states_;
+  std::vector<Eigen::Vector3d> directions_;
+  std::uint64_t operations_ = 0;
+};
+
+std::vector<VoxelIndex> unknown_neighbours(const OccupancyMap& map, const VoxelIndex& cell, const FailedViews& failed) {
+  std::vector<VoxelIndex> unknown;
+  for (const VoxelIndex& step : kFaceNeighbours) {
+    const VoxelIndex neighbour = cell + step;
+    if (map.in_region(neighbour) && map.at(neighbour) == Occupancy::Unknown && !failed.gave_up(neighbour)) {
+      unknown.push_back(neighbour);
+    }
+  }
+  return unknown;
+}
+
+// The frontier cells worth a view: the members of clusters that are large enough, in raster order.
+std::vector<VoxelIndex> large_enough(std::vector<VoxelIndex> frontier, std::size_t min_cluster_cells) {
+  if (min_cluster_cells <= 1) {
+    return frontier;
+  }
+  std::vector<VoxelIndex> kept;
+  for (const std::vector<VoxelIndex>& cluster : frontier_clusters(frontier)) {
+    if (cluster.size() >= min_cluster_cells) {
+      kept.insert(kept.end(), cluster.begin(), cluster.end());
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const VoxelIndex& a, const VoxelIndex& b) {
+    return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
+  });
+  return kept;
+}
+
+// Whether the platform comes close: some reachable cell lies within half its body, and one cell more.
+bool body_comes_near(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
+                     const VoxelIndex& cell) {
+  const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
+  const auto cells = static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1;
+  bool near = false;
+  for_each_cell(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(cells),
+                [&](const VoxelIndex& other) { near = near || reachable.contains(other); });
+  return near;
+}
+
+}  // namespace
+
+FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
+                                const Pose& current, const FrontierSurveyOptions& options, const FailedViews& failed) {
+  FrontierSurvey survey{.reachable = ReachableSpace(map, platform, current)};
+  std::vector<VoxelIndex> frontier = frontier_cells(map);
+  survey.frontier_cells = frontier.size();
+  frontier = large_enough(std::move(frontier), options.min_cluster_cells);
+  survey.leftover.too_small = survey.frontier_cells - frontier.size();
+
+  std::vector<VoxelIndex> hidden;
+  if (!frontier.empty() && survey.reachable.start()) {
+    ViewpointSearch search(map, platform, sensor, survey.reachable, options.sight_directions);
+    const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
+      for (const VoxelIndex& unknown : unknown_neighbours(map, cell, failed)) {
+        if (const std::optional<VoxelIndex> viewpoint = find(unknown)) {
+          survey.targets.push_back({cell, unknown, *viewpoint});
+          return true;
+        }
+      }
+      return false;
+    };
+    for (const VoxelIndex& cell : frontier) {
+      if (!try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); })) {
+        hidden.push_back(cell);
+      }
+    }
+    // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
+    if (survey.targets.empty() && hidden.size() * survey.reachable.size() <= options.exhaustive_pairs) {
+      std::erase_if(hidden, [&](const VoxelIndex& cell) {
+        return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown); });
+      });
+    }
+    survey.ray_operations = search.operations();
+  } else {
+    hidden = std::move(frontier);
+  }
+  for (const VoxelIndex& cell : hidden) {
+    ++(body_comes_near(map, platform, survey.reachable, cell) ? survey.leftover.unobservable
+                                                              : survey.leftover.unreachable);
+  }
+  return survey;
+}
+
+bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
+                    std::uint64_t& operations) {
+  for (const VoxelIndex& cell : VoxelRay(map.frame(), from, map.frame().centre_of(target))) {
+    ++operations;
+    if (cell != target && map.at(cell) != Occupancy::Free) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,
+          std::uint64_t& operations) {
+  const Eigen::Vector3d line = map.frame().centre_of(unknown) - pose.translation();
+  const double range_m = line.norm();
+  return range_m >= sensor.min_range_m && range_m <= sensor.max_range_m &&
+         sensor.in_view(pose.linear().transpose() * line) &&
+         in_plain_sight(map, pose.translation(), unknown, operations);
+}
+
+}  // namespace vantage

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vantage/planner/frontier_gain_planner.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/nearest_frontier_planner.hpp>
+
+namespace vantage {
+namespace {
+
+std::string listing(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (const std::string_view name : names) {
+    list += (list.empty() ? "" : ", ") + std::string(name);
+  }
+  return list;
+}
+
+// Reads settings into options: each name is known once, beside the field it sets.
+class SettingReader {
+ public:
+  SettingReader(std::string_view planner, const PlannerSettings& settings) : planner_(planner), settings_(settings) {}
+
+  template <class Number>
+  SettingReader& number(std::string_view name, Number& field) {
+    if (const std::string* text = find(name)) {
+      const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), field);
+      if (error != std::errc{} || end != text->data() + text->size()) {
+        refuse(name, *text, std::is_integral_v<Number> ? "a whole number" : "a number");
+      }
+    }
+    return *this;
+  }
+  SettingReader& flag(std::string_view name, bool& field) {
+    if (const std::string* text = find(name)) {
+      if (*text != "true" && *text != "false") {
+        refuse(name, *text, "true or false");
+      }
+      field = *text == "true";
+    }
+    return *this;
+  }
+  template <class Enum>
+  SettingReader& choice(std::string_view name, Enum& field, const std::vector<std::pair<std::string_view, Enum>>& values) {
+    if (const std::string* text = find(name)) {
+      std::vector<std::string_view> names;
+      for (const auto& [value_name, value] : values) {
+        if (value_name == *text) {
+          field = value;
+          return *this;
+        }
+        names.push_back(value_name);
+      }
+      refuse(name, *text, "one of " + listing(names));
+    }
+    return *this;
+  }
+  // Throws if a setting was given that none of the calls above knows.
+  void done() const {
+    for (const auto& [name, value] : settings_) {
+      if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+        throw std::invalid_argument("planner '" + std::string(planner_) + "' has no setting '" + name +
+                                    "'; it has: " + listing(known_));
+      }
+    }
+  }
+
+ private:
+  const std::string* find(std::string_view name) {
+    known_.push_back(name);
+    const auto setting = settings_.find(name);
+    return setting == settings_.end() ? nullptr : &setting->second;
+  }
+  [[noreturn]] void refuse(std::string_view name, const std::string& text, const std::string& rule) const {
+    throw std::invalid_argument("planner '" + std::string(planner_) + "': setting '" + std::string(name) + "' is '" +
+                                text + "', must be " + rule);
+  }
+
+  std::string_view planner_;
+  const PlannerSettings& settings_;
+  std::vector<std::string_view> known_;
+};
+
+SettingReader& read_survey(SettingReader& read, FrontierSurveyOptions& options) {
+  return read.number("min_cluster_cells", options.min_cluster_cells)
+      .number("sight_directions", options.sight_directions)
+      .number("exhaustive_pairs", options.exhaustive_pairs);
+}
+
+std::unique_ptr<ExplorationPlanner> make_frontier_gain(const PlannerSetup& setup, SettingReader& read) {
+  FrontierGainOptions options;
+  read_survey(read, options.survey)
+      .number("hypotheses", options.hypotheses)
+      .number("aimed_share", options.aimed_share)
+      .number("cost_per_m", options.cost_per_m)
+      .done();
+  return std::make_unique<FrontierGainPlanner>(setup, options);
+}
+
+std::unique_ptr<ExplorationPlanner> make_nearest_frontier(const PlannerSetup& setup, SettingReader& read) {
+  FrontierSurveyOptions options;
+  read_survey(read, options).done();
+  return std::make_unique<NearestFrontierPlanner>(setup, options);
+}
+
+using Maker = std::unique_ptr<ExplorationPlanner> (*)(const PlannerSetup&, SettingReader&);
+
+const std::vector<std::pair<std::string_view, Maker>>& makers() {
+  static const std::vector<std::pair<std::string_view, Maker>> all{
+      {"frontier-gain", make_frontier_gain},
+      {"nearest-frontier", make_nearest_frontier},
+  };
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<ExplorationPlanner> make_planner(std::string_view name, const PlannerSetup& setup,
+                                                 const PlannerSettings& settings) {
+  for (const auto& [known, make] : makers()) {
+    if (known == name) {
+      SettingReader read(name, settings);
+      return make(setup, read);
+    }
+  }
+  throw std::invalid_argument("there is no planner '" + std::string(name) + "'; there are: " + listing(planner_names()));
+}
+
+const std::vector<std::string_view>& planner_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const auto& [name, make] : makers()) {
+      all.push_back(name);
+    }
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace vantage

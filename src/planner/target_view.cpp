@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <vantage/planner/target_view.hpp>
+
+namespace vantage {
+namespace {
+
+struct Sighting {
+  VoxelIndex unknown;
+  Eigen::Vector3d line;  // from the viewpoint to the centre of the unknown cell
+};
+
+// The targets in range and in plain sight of a position, whichever way the sensor looks.
+std::vector<Sighting> sightings_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
+                                     const Eigen::Vector3d& position, std::uint64_t& operations) {
+  std::vector<Sighting> sightings;
+  for (const FrontierTarget& target : survey.targets) {
+    const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
+    const double range_m = line.norm();
+    if (range_m >= sensor.min_range_m && range_m <= sensor.max_range_m &&
+        in_plain_sight(map, position, target.unknown, operations)) {
+      sightings.push_back({target.unknown, line});
+    }
+  }
+  return sightings;
+}
+
+TargetView keep_in_view(const RangeSensor& sensor, const Pose& pose, const std::vector<Sighting>& sightings) {
+  TargetView seen{.view = {.pose = pose}};
+  for (const Sighting& sighting : sightings) {
+    if (sensor.in_view(pose.linear().transpose() * sighting.line)) {
+      seen.unknown.push_back(sighting.unknown);
+    }
+  }
+  seen.view.utility = static_cast<double>(seen.unknown.size());
+  return seen;
+}
+
+}  // namespace
+
+TargetView targets_seen_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
+                             const Pose& pose, std::uint64_t& operations) {
+  TargetView seen{.view = {.pose = pose}};
+  for (const FrontierTarget& target : survey.targets) {
+    if (sees(map, sensor, pose, target.unknown, operations)) {
+      seen.unknown.push_back(target.unknown);
+    }
+  }
+  seen.view.utility = static_cast<double>(seen.unknown.size());
+  return seen;
+}
+
+TargetView view_of_target(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
+                          const FrontierSurvey& survey, const FrontierTarget& wanted, std::uint64_t& operations) {
+  const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
+  const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
+  const std::vector<Sighting> sightings = sightings_from(map, sensor, survey, position, operations);
+  TargetView best = keep_in_view(sensor, platform.facing(position, line), sightings);
+  // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the wanted.
+  constexpr std::size_t kTried = 32;
+  const std::size_t stride = sightings.size() / kTried + 1;
+  for (std::size_t i = 0; i < sightings.size(); i += stride) {
+    const Eigen::Vector3d between = line.normalized() + sightings[i].line.normalized();
+    if (between.norm() < 1e-3) {
+      continue;
+    }
+    const Pose pose = platform.facing(position, between);
+    if (!sensor.in_view(pose.linear().transpose() * line)) {
+      continue;
+    }
+    TargetView candidate = keep_in_view(sensor, pose, sightings);
+    if (candidate.view.utility > best.view.utility) {
+      best = std::move(candidate);
+    }
+  }
+  return best;
+}
+
+}  // namespace vantage
