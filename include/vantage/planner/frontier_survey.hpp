@@ -38,9 +38,9 @@ struct FrontierSurveyOptions {
 /// into its field of view in an orientation that the platform can take there.
 struct FrontierSurvey {
   ReachableSpace reachable;
-  std::vector<FrontierTarget> targets;  ///< the observable frontier cells, in raster order of `frontier`
+  std::vector<FrontierTarget> targets = {};  ///< the observable frontier cells, in raster order of `frontier`
   std::size_t frontier_cells = 0;       ///< all of them, inside the region
-  Leftover leftover;
+  Leftover leftover = {};
   std::uint64_t ray_operations = 0;     ///< cells visited while looking for lines of sight
 };
 

@@ -10,7 +10,7 @@ namespace vantage {
 /// A view and what it is meant to resolve.
 struct TargetView {
   View view;                        ///< utility: the number of frontier targets seen
-  std::vector<VoxelIndex> unknown;  ///< their unknown cells, in the order of the survey's targets
+  std::vector<VoxelIndex> unknown = {};  ///< their unknown cells, in the order of the survey's targets
 };
 
 /// What a given pose sees of the survey's targets.
