@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/map/scan.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/sim/triangle_scene.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// How measurements differ from the truth. The default is a perfect sensor.
+struct SensorNoise {
+  /// Standard deviation of the depth z as a multiple of a Kinect's, 0.0012 + 0.0019 (z - 0.4)^2 metres (Nguyen, Izadi &
+  /// Lovell 2012, eq. 5), >= 0. A spherical sensor's depth is its range.
+  double axial = 0.0;
+  double dropped_share = 0.0;  ///< of all returns, lost at random, in [0, 1]
+};
+
+/// A range sensor in a world of triangles.
+class SimulatedSensor {
+ public:
+  /// Throws std::invalid_argument naming the field of the sensor or of the noise at fault.
+  SimulatedSensor(const TriangleScene& scene, const RangeSensor& sensor, const SensorNoise& noise = {},
+                  std::uint64_t seed = 1);
+
+  /// What the sensor measures at this pose, width x height points, row by row. A pixel is NaN where the nearest surface
+  /// is out of range or the return was dropped; a ray that meets no surface within range is listed in
+  /// `Scan::no_return` too, if the sensor reports that. The noise is drawn from the seed and the number of scans before
+  /// this one, so the same sequence of poses gives the same scans. Throws std::invalid_argument for a pose that is not
+  /// rigid.
+  [[nodiscard]] Scan scan(const Pose& world_from_sensor);
+
+  [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
+
+ private:
+  TriangleScene scene_;
+  RangeSensor sensor_;
+  SensorNoise noise_;
+  std::uint64_t seed_;
+  std::uint64_t scans_ = 0;
+  std::vector<Eigen::Vector3d> directions_;
+};
+
+}  // namespace vantage

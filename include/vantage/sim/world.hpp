@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vantage/geometry/box.hpp>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/sim/mesh_file.hpp>
+#include <vantage/sim/triangle_mesh.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// What a generated world is drawn from.
+struct WorldOptions {
+  std::uint64_t seed = 1;  ///< office and maze only
+  double length_m = 0.0;   ///< office and maze only: extent along x, 0 (the world's own) or in [4, 200]
+  double width_m = 0.0;    ///< office and maze only: extent along y, 0 (the world's own) or in [4, 200]
+};
+
+/// A known world: its surfaces, and the region that an exploration of it means.
+struct World {
+  std::string name;
+  TriangleMesh mesh;
+  Box region;  ///< metres; a closed world's walls are inside
+
+  /// A world by NAME:
+  /// - `rooms`: the test of Shade & Newman 2011: a closed cube of 10.2 m, 51 x 51 x 51 cells of 0.2 m, with horizontal
+  ///   and vertical walls one cell thick and openings in them; it does not vary with the seed;
+  /// - `office`: a corridor with furnished rooms on both sides, 20 x 14 x 3 m unless told;
+  /// - `maze`: passages 1.4 m wide and 2 m high with a few loops, 13 x 10 m unless told;
+  /// - `two-storey`: two floors of rooms joined by a stairwell, 12 x 9 x 5.8 m;
+  /// - `table`: a table (top at z = 0.427277 m, x +-0.4, y +-0.5) in an empty room, x +-1.8, y +-1.8, z 0..2 m, as in
+  ///   the reference data of Vasquez-Gomez et al.
+  /// All but the table are made of cells of 0.2 m, with surfaces 1 cm inside their cells (`surface_of_cells`). Throws
+  /// std::invalid_argument listing the names if there is no such world, or naming the option at fault.
+  [[nodiscard]] static World by_name(std::string_view name, const WorldOptions& options = {});
+  /// The names `by_name` knows.
+  [[nodiscard]] static const std::vector<std::string_view>& names();
+
+  /// A mesh file as world, its region the mesh's bounds. Errors as `read_mesh_file`.
+  [[nodiscard]] static World from_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
+  /// A map as ground truth: its free cells are the free space, and whatever bounds them is solid, occupied or not known:
+  /// a truth with holes would have no end to explore. Throws std::invalid_argument if no cell is free.
+  [[nodiscard]] static World from_map(std::string name, const OccupancyMap& map);
+  /// By what the file is: .bt and .ot are OctoMaps (`options` has no say), everything else a mesh. Throws
+  /// std::runtime_error naming the path.
+  [[nodiscard]] static World from_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
+};
+
+}  // namespace vantage

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/sim/simulated_sensor.hpp>
+
+namespace vantage {
+namespace {
+
+void validate(const SensorNoise& noise) {
+  const auto refuse = [](const char* field, double value, const char* rule) {
+    std::ostringstream message;
+    message << "SensorNoise::" << field << " is " << value << ", must be " << rule;
+    throw std::invalid_argument(message.str());
+  };
+  if (!(std::isfinite(noise.axial) && noise.axial >= 0.0)) {
+    refuse("axial", noise.axial, ">= 0");
+  }
+  if (!(noise.dropped_share >= 0.0 && noise.dropped_share <= 1.0)) {
+    refuse("dropped_share", noise.dropped_share, "in [0, 1]");
+  }
+}
+
+// Own transforms of the engine's bits: the distributions of the standard library differ between its implementations.
+class Chance {
+ public:
+  Chance(std::uint64_t seed, std::uint64_t scan) : engine_(seed * 0x9E3779B97F4A7C15ULL + scan) {}
+  double uniform() { return (static_cast<double>(engine_() >> 11U) + 0.5) * 0x1p-53; }
+  // Box & Muller 1958.
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+double kinect_sigma_m(double depth_m) { return 0.0012 + 0.0019 * (depth_m - 0.4) * (depth_m - 0.4); }
+
+}  // namespace
+
+SimulatedSensor::SimulatedSensor(const TriangleScene& scene, const RangeSensor& sensor, const SensorNoise& noise,
+                                 std::uint64_t seed)
+    : scene_(scene), sensor_(sensor), noise_(noise), seed_(seed) {
+  sensor.validate();
+  validate(noise);
+  directions_.reserve(sensor.width * sensor.height);
+  for (std::size_t row = 0; row < sensor.height; ++row) {
+    for (std::size_t column = 0; column < sensor.width; ++column) {
+      directions_.push_back(sensor.direction(column, row));
+    }
+  }
+}
+
+Scan SimulatedSensor::scan(const Pose& world_from_sensor) {
+  if (!is_rigid(world_from_sensor)) {
+    throw std::invalid_argument("SimulatedSensor::scan: the pose is not a rigid transform");
+  }
+  Chance chance(seed_, scans_++);
+  const bool noisy = noise_.axial > 0.0 || noise_.dropped_share > 0.0;
+  const bool pinhole = sensor_.projection == RangeSensor::Projection::Pinhole;
+  Scan scan;
+  scan.world_from_sensor = world_from_sensor;
+  scan.max_range_m = sensor_.max_range_m;
+  scan.width = sensor_.width;
+  scan.height = sensor_.height;
+  scan.points.assign(directions_.size(), Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  const Eigen::Vector3d origin = world_from_sensor.translation();
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const std::optional<double> range_m =
+        scene_.hit_distance(origin, world_from_sensor.linear() * directions_[i], sensor_.max_range_m);
+    if (!range_m) {
+      if (sensor_.reports_no_return) {
+        scan.no_return.push_back(directions_[i].cast<float>());
+      }
+      continue;
+    }
+    double measured_m = *range_m;
+    if (noisy) {
+      if (chance.uniform() < noise_.dropped_share) {
+        continue;
+      }
+      const double along_axis = pinhole ? directions_[i].z() : 1.0;
+      measured_m += noise_.axial * kinect_sigma_m(measured_m * along_axis) * chance.normal() / along_axis;
+    }
+    if (measured_m > 0.0 && *range_m >= sensor_.min_range_m) {
+      scan.points[i] = (measured_m * directions_[i]).cast<float>();
+    }
+  }
+  return scan;
+}
+
+}  // namespace vantage

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vantage/sim/world.hpp>
+
+#include "sim/cell_worlds.hpp"
+
+namespace vantage {
+namespace {
+
+using Builder = World (*)(const WorldOptions&);
+using Named = std::pair<std::string_view, Builder>;
+
+World rooms_world(const WorldOptions&) { return world_of_cells("rooms", rooms_cells()); }
+World office_world(const WorldOptions& options) { return world_of_cells("office", office_cells(options)); }
+World maze_world(const WorldOptions& options) { return world_of_cells("maze", maze_cells(options)); }
+World two_storey_world(const WorldOptions&) { return world_of_cells("two-storey", two_storey_cells()); }
+
+World table_world(const WorldOptions&) {
+  World world;
+  world.name = "table";
+  world.region = {{-1.8, -1.8, 0.0}, {1.8, 1.8, 2.0}};
+  constexpr double kBehind = 1e-3;  // the room's walls lie just outside the region, never on the border of its cells
+  const Eigen::Vector3d behind = Eigen::Vector3d::Constant(kBehind);
+  world.mesh.add_box({world.region.min - behind, world.region.max + behind});
+  world.mesh.add_box({{-0.4, -0.5, 0.387277}, {0.4, 0.5, 0.427277}});
+  return world;
+}
+
+constexpr std::array<Named, 5> kWorlds{{{"rooms", &rooms_world},
+                                        {"office", &office_world},
+                                        {"maze", &maze_world},
+                                        {"two-storey", &two_storey_world},
+                                        {"table", &table_world}}};
+
+void validate(const WorldOptions& options) {
+  const auto check = [](double metres, const char* field) {
+    if (!(metres == 0.0 || (metres >= 4.0 && metres <= 200.0))) {
+      std::ostringstream message;
+      message << "WorldOptions::" << field << " is " << metres << ", must be 0 or in [4, 200]";
+      throw std::invalid_argument(message.str());
+    }
+  };
+  check(options.length_m, "length_m");
+  check(options.width_m, "width_m");
+}
+
+}  // namespace
+
+World World::by_name(std::string_view name, const WorldOptions& options) {
+  validate(options);
+  const auto found = std::find_if(kWorlds.begin(), kWorlds.end(), [&](const Named& w) { return w.first == name; });
+  if (found != kWorlds.end()) {
+    return found->second(options);
+  }
+  std::string message = "there is no world \"" + std::string(name) + "\"; there are";
+  for (std::size_t i = 0; i < kWorlds.size(); ++i) {
+    message += (i == 0 ? " " : ", ") + std::string(kWorlds[i].first);
+  }
+  throw std::invalid_argument(message);
+}
+
+const std::vector<std::string_view>& World::names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const Named& world : kWorlds) {
+      all.push_back(world.first);
+    }
+    return all;
+  }();
+  return names;
+}
+
+World World::from_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options) {
+  World world;
+  world.name = path.filename().string();
+  world.mesh = read_mesh_file(path, options);
+  world.region = world.mesh.bounds();
+  return world;
+}
+
+World World::from_map(std::string name, const OccupancyMap& map) {
+  if (map.counts().free == 0) {
+    throw std::invalid_argument("World::from_map: the map has no free cell");
+  }
+  VoxelGrid<std::uint8_t> solid(map.bounds(), 1);
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+    if (occupancy == Occupancy::Free) {
+      solid[cell] = 0;
+    }
+  });
+  constexpr double kInsetShare = 0.05;  // as the built-in worlds: 1 cm of 0.2 m
+  World world;
+  world.name = std::move(name);
+  world.mesh = surface_of_cells(solid, map.frame(), kInsetShare * map.resolution_m());
+  world.region = map.frame().box_of(map.bounds());
+  return world;
+}
+
+}  // namespace vantage
