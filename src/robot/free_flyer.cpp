@@ -79,7 +79,7 @@ VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const
   const auto rings = static_cast<std::int32_t>(std::ceil(reach_m() / frame.size_m));
   std::vector<VoxelIndex> touched;
   for_each_cell(home.grown(rings), [&](const VoxelIndex& cell) {
-    if (frame.box_of(cell).distance_to(frame.centre_of({0, 0, 0})) < reach_m() - 1e-9 * frame.size_m) {
+    if (detail::sphere_touches(frame, frame.centre_of({0, 0, 0}), reach_m(), cell)) {
       touched.push_back(cell);
     }
   });
@@ -109,11 +109,9 @@ bool FreeFlyer::admits_motion(const OccupancyMap& map, const Pose& from, const P
   if (!frame.addressable(a) || !frame.addressable(b) || !height_allowed(b.z())) {
     return false;
   }
-  const auto touched_already = [&](const VoxelIndex& cell) {
-    return frame.cell_of(a) == cell || frame.box_of(cell).distance_to(a) < reach_m();
-  };
-  return detail::swept_sphere_is_clear(
-      frame, a, b, reach_m(), [&](const VoxelIndex& cell) { return is_free(map, cell) || touched_already(cell); });
+  return detail::swept_sphere_is_clear(frame, a, b, reach_m(), [&](const VoxelIndex& cell) {
+    return is_free(map, cell) || detail::sphere_touches(frame, a, reach_m(), cell);
+  });
 }
 
 Pose FreeFlyer::facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const {

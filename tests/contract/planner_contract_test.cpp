@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+//
+// The contract of ExplorationPlanner, held over every planner there is, in worlds small enough to check each claim by
+// trying everything.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/reachable_space.hpp>
+
+#include "contract/cell_world.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::CellWorld;
+using testing::Furniture;
+
+constexpr std::size_t kMaxViews = 120;
+constexpr std::uint32_t kSeeds = 3;
+
+RangeSensor all_round() {
+  RangeSensor sensor = RangeSensor::spherical(180, 90, 2 * std::numbers::pi, std::numbers::pi, 0.0, 3.0);
+  sensor.reports_no_return = true;
+  return sensor;
+}
+
+RangeSensor camera() {
+  RangeSensor sensor = RangeSensor::pinhole(96, 72, 1.2, 0.95, 0.1, 6.0);
+  sensor.reports_no_return = true;
+  return sensor;
+}
+
+bool same(const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); }
+
+bool same(const Plan& a, const Plan& b) {
+  return a.outcome == b.outcome && a.leftover == b.leftover && same(a.goal.pose, b.goal.pose) &&
+         a.goal.utility == b.goal.utility && a.path.size() == b.path.size() &&
+         std::equal(a.path.begin(), a.path.end(), b.path.begin(),
+                    [](const Pose& p, const Pose& q) { return same(p, q); });
+}
+
+/// By trying every reachable cell against every unknown neighbour of every frontier cell.
+bool anything_observable(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
+                         const Pose& current) {
+  const ReachableSpace space(map, platform, current);
+  for (const VoxelIndex& frontier : frontier_cells(map)) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex unknown = frontier + step;
+      if (!map.in_region(unknown) || map.at(unknown) != Occupancy::Unknown) {
+        continue;
+      }
+      for (const VoxelIndex& from : space.cells()) {
+        const Eigen::Vector3d line = map.frame().centre_of(unknown) - map.frame().centre_of(from);
+        if (line.norm() < sensor.min_range_m || line.norm() > sensor.max_range_m) {
+          continue;
+        }
+        bool in_sight = true;
+        for (const VoxelIndex& cell : VoxelRay(map.frame(), map.frame().centre_of(from), map.frame().centre_of(unknown))) {
+          in_sight = in_sight && (cell == unknown || map.at(cell) == Occupancy::Free);
+        }
+        if (in_sight) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+struct Setting {
+  std::string planner;
+  bool narrow = false;
+};
+
+/// One robot in one world, driven by the simplest host there can be.
+class Robot {
+ public:
+  Robot(const Setting& setting, Furniture furniture, std::uint32_t seed)
+      : world_(testing::make_cell_world(furniture, seed)), sensor_(setting.narrow ? camera() : all_round()),
+        platform_(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1})),
+        map_({.resolution_m = world_.frame.size_m, .region = world_.frame.box_of(world_.solid.box())}),
+        pose_(pose_looking(world_.frame.centre_of(world_.start), 0.3)) {
+    map_.assume_free(platform_->body_box(pose_));
+    look();
+  }
+
+  [[nodiscard]] PlannerSetup setup(int threads = 1) const { return {sensor_, platform_, 7, threads}; }
+  void look() { map_.insert(testing::scan_cells_of(world_, sensor_, pose_)); }
+  void go(const Plan& plan) {
+    pose_ = plan.goal.pose;
+    look();
+  }
+  [[nodiscard]] const OccupancyMap& map() const { return map_; }
+  [[nodiscard]] const Pose& pose() const { return pose_; }
+  [[nodiscard]] const Platform& platform() const { return *platform_; }
+  [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
+
+ private:
+  CellWorld world_;
+  RangeSensor sensor_;
+  std::shared_ptr<const FreeFlyer> platform_;
+  OccupancyMap map_;
+  Pose pose_;
+};
+
+class PlannerContract : public ::testing::TestWithParam<Setting> {
+ protected:
+  /// Runs to the end in each world, `check(robot, planner, plan)` after every plan, and says how many plans there were.
+  template <class Check>
+  std::size_t in_every_world(Check&& check) {
+    std::size_t plans = 0;
+    for (const Furniture furniture : {Furniture::Rooms, Furniture::Pillars, Furniture::Boxes}) {
+      for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+        Robot robot(GetParam(), furniture, seed);
+        const auto planner = make_planner(GetParam().planner, robot.setup());
+        std::size_t views = 0;
+        for (; views < kMaxViews; ++views) {
+          const Plan plan = planner->plan(robot.map(), robot.pose());
+          ++plans;
+          check(robot, *planner, plan);
+          if (plan.outcome != Outcome::Move || HasFatalFailure()) {
+            break;
+          }
+          robot.go(plan);
+        }
+        EXPECT_LT(views, kMaxViews) << "the run does not end by itself";
+      }
+    }
+    return plans;
+  }
+};
+
+TEST_P(PlannerContract, ThePathLeadsFromHereToTheGoalThroughAdmittedPoses) {
+  std::size_t poses = 0;
+  const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan& plan) {
+    if (plan.outcome != Outcome::Move) {
+      EXPECT_TRUE(plan.path.empty());
+      return;
+    }
+    ASSERT_GE(plan.path.size(), 2U);
+    EXPECT_TRUE(same(plan.path.front(), robot.pose()));
+    EXPECT_TRUE(same(plan.path.back(), plan.goal.pose));
+    EXPECT_TRUE(robot.platform().admits(robot.map(), plan.goal.pose));
+    for (std::size_t i = 1; i < plan.path.size(); ++i) {
+      for (int s = 0; s <= 20; ++s) {
+        Pose between = plan.path[i];
+        between.translation() = plan.path[i - 1].translation() +
+                                s / 20.0 * (plan.path[i].translation() - plan.path[i - 1].translation());
+        ASSERT_TRUE(robot.platform().admits(robot.map(), between));
+        ++poses;
+      }
+    }
+  });
+  EXPECT_GE(plans, 9U * 2U);
+  EXPECT_GT(poses, 400U);
+}
+
+TEST_P(PlannerContract, ItSaysExploredExactlyWhenNothingObservableIsLeft) {
+  std::size_t explored = 0;
+  in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan& plan) {
+    EXPECT_NE(plan.outcome, Outcome::Blocked) << plan.reason;
+    EXPECT_EQ(plan.outcome == Outcome::Explored,
+              !anything_observable(robot.map(), robot.platform(), robot.sensor(), robot.pose()));
+    explored += plan.outcome == Outcome::Explored ? 1 : 0;
+  });
+  EXPECT_EQ(explored, 3U * kSeeds);
+}
+
+TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedTheMap) {
+  const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan& plan) {
+    EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup())->plan(robot.map(), robot.pose())));
+  });
+  EXPECT_GE(plans, 9U * 2U);
+}
+
+TEST_P(PlannerContract, PlanningTwiceAndOnMoreThreadsChangesNothing) {
+  const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner& planner, const Plan& plan) {
+    EXPECT_TRUE(same(plan, planner.plan(robot.map(), robot.pose())));
+    const OccupancyMap::Revision before = robot.map().revision();
+    EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup(2))->plan(robot.map(), robot.pose())));
+    EXPECT_EQ(robot.map().revision(), before);
+  });
+  EXPECT_GE(plans, 9U * 2U);
+}
+
+TEST_P(PlannerContract, RefusesAPoseThatIsNone) {
+  const Robot robot(GetParam(), Furniture::Boxes, 1);
+  const auto planner = make_planner(GetParam().planner, robot.setup());
+  Pose bad = robot.pose();
+  bad.linear() *= 2.0;
+  EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
+  bad = robot.pose();
+  bad.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
+  bad.translation().x() = 1e6;
+  EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
+}
+
+TEST_P(PlannerContract, SaysWhyItIsBlockedWhenThePlatformCannotMove) {
+  OccupancyMap map({.resolution_m = 0.2});
+  map.set({0, 0, 0}, Occupancy::Free);
+  const PlannerSetup setup{all_round(), std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.5}), 1, 1};
+  const Plan plan = make_planner(GetParam().planner, setup)->plan(map, pose_looking({0.1, 0.1, 0.1}, 0.0));
+  EXPECT_EQ(plan.outcome, Outcome::Blocked);
+  EXPECT_FALSE(plan.reason.empty());
+  EXPECT_EQ(plan.leftover.unreachable, 1U);
+}
+
+std::vector<Setting> settings() {
+  std::vector<Setting> all;
+  for (const std::string_view name : planner_names()) {
+    all.push_back({std::string(name), false});
+    all.push_back({std::string(name), true});
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, PlannerContract, ::testing::ValuesIn(settings()),
+                         [](const ::testing::TestParamInfo<Setting>& setting) {
+                           std::string name = setting.param.planner + (setting.param.narrow ? "_camera" : "_all_round");
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {
+  const PlannerSetup setup{all_round(), std::make_shared<FreeFlyer>(), 1, 1};
+  const auto message = [&](std::string_view name, const PlannerSettings& settings) -> std::string {
+    try {
+      (void)make_planner(name, setup, settings);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("best", {}).find("there is no planner 'best'; there are: "), std::string::npos);
+  EXPECT_NE(message("frontier-gain", {{"hypothesis", "3"}}).find("has no setting 'hypothesis'"), std::string::npos);
+  EXPECT_NE(message("frontier-gain", {{"hypotheses", "many"}}).find("must be a whole number"), std::string::npos);
+  EXPECT_EQ(message("frontier-gain", {{"hypotheses", "0"}}), "FrontierGainOptions::hypotheses is 0, must be >= 1");
+  EXPECT_EQ(message("frontier-gain", {{"hypotheses", "30"}, {"cost_per_m", "2.5"}}), "");
+  EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), nullptr, 1, 1}), std::invalid_argument);
+  EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), std::make_shared<FreeFlyer>(), 1, 0}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vantage
