@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# cmake/install_dependencies.sh <group>...: installs the packages of cmake/debian-packages.txt that carry one of these
+# words (build, test, check) and are missing. Says what it will install first; asks for sudo only when it must.
+set -euo pipefail
+list="$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt"
+
+missing=()
+while read -r package _ group; do
+  for wanted in "$@"; do
+    if [[ "$group" == "$wanted" && "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]]; then
+      missing+=("$package")
+    fi
+  done
+done < <(grep -v '^#' "$list")
+
+if [[ ${#missing[@]} -eq 0 ]]; then
+  exit 0
+fi
+echo "Installing what is missing from cmake/debian-packages.txt: ${missing[*]}"
+as_root=()
+if [[ $EUID -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "These packages must be installed by root, and there is no sudo here: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+# Quiet, but not when it fails.
+log="$(mktemp)"
+trap 'rm -f "$log"' EXIT
+if ! { "${as_root[@]}" apt-get update && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+       apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  tail -n 30 "$log" >&2
+  echo "Installing ${missing[*]} failed." >&2
+  exit 1
+fi
