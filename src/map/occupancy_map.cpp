@@ -175,16 +175,24 @@ void OccupancyMap::set(const VoxelIndex& cell, Occupancy occupancy) {
   write(cell, occupancy, steps);
 }
 
-void OccupancyMap::set_log_odds(const VoxelIndex& cell, double log_odds) {
-  if (!std::isfinite(log_odds)) {
-    throw std::invalid_argument("set_log_odds: the log-odds must be finite");
+void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
+  if (std::isnan(log_odds)) {
+    throw std::invalid_argument("set_log_odds: the log-odds must be a number");
   }
-  if (!in_region(cell)) {
+  VoxelBox inside = cells;
+  if (region_) {
+    inside.lo = {std::max(cells.lo.x, region_->lo.x), std::max(cells.lo.y, region_->lo.y),
+                 std::max(cells.lo.z, region_->lo.z)};
+    inside.hi = {std::min(cells.hi.x, region_->hi.x), std::min(cells.hi.y, region_->hi.y),
+                 std::min(cells.hi.z, region_->hi.z)};
+  }
+  if (inside.empty()) {
     return;
   }
   ++revision_;
   const std::int8_t steps = to_steps(log_odds);
-  write(cell, steps >= 0 ? Occupancy::Occupied : Occupancy::Free, steps);
+  const Occupancy state = steps >= 0 ? Occupancy::Occupied : Occupancy::Free;
+  for_each_cell(inside, [&](const VoxelIndex& cell) { write(cell, state, steps); });
 }
 
 void OccupancyMap::assume_free(const Box& box) {
@@ -254,7 +262,8 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
 }
 
 std::int8_t OccupancyMap::to_steps(double log_odds) const {
-  return static_cast<std::int8_t>(std::clamp<double>(std::round(log_odds / step_), min_steps_, max_steps_));
+  const auto steps = static_cast<std::int8_t>(std::clamp<double>(std::round(log_odds / step_), min_steps_, max_steps_));
+  return log_odds < 0.0 ? std::min(steps, std::int8_t{-1}) : steps;  // rounding must not make a free cell occupied
 }
 
 }  // namespace vantage

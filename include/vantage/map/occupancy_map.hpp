@@ -123,8 +123,13 @@ class OccupancyMap {
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Sets the state of a cell outright, at the clamping limit; Unknown forgets it. Outside the region: no effect.
   void set(const VoxelIndex& cell, Occupancy occupancy);
-  /// Sets the log-odds of a cell, clamped and rounded to a step. Outside the region: no effect.
-  void set_log_odds(const VoxelIndex& cell, double log_odds);
+  /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free. Outside
+  /// the region: no effect. Throws std::invalid_argument for NaN.
+  void set_log_odds(const VoxelIndex& cell, double log_odds) {
+    set_log_odds(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}, log_odds);
+  }
+  /// The same for every cell of a box, in one revision.
+  void set_log_odds(const VoxelBox& cells, double log_odds);
   /// Declares the still unknown cells that `box` touches free, as a host may for the space its robot stands in.
   void assume_free(const Box& box);
 

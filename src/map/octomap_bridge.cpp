@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <octomap/OcTree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vantage/map/octomap_bridge.hpp>
+#include <vector>
+
+#include "map/octomap_file.hpp"
+
+namespace vantage {
+namespace {
+
+using detail::kOctomapDepth;
+using detail::kOctomapReach;
+using detail::OctomapLeaf;
+
+// A tree may set its threshold elsewhere than at 0; the state is what counts.
+double log_odds_of(const OctomapLeaf& leaf) {
+  return leaf.occupied ? std::max(leaf.log_odds, 0.0) : std::min(leaf.log_odds, -1e-9);
+}
+
+void write_leaf(const OctomapLeaf& leaf, OccupancyMap& map) {
+  const std::int32_t edge = std::int32_t{1} << leaf.level;
+  map.set_log_odds(VoxelBox{leaf.first, leaf.first + VoxelIndex{edge, edge, edge}}, log_odds_of(leaf));
+}
+
+// Fills a new map from anything that has `for_each_leaf(visit)`: once to count, so that what is too large costs nothing,
+// and once to write.
+template <class ForEachLeaf>
+OctomapImport import_leaves(double resolution_m, const OctomapImportOptions& options, const std::string& what,
+                            const ForEachLeaf& for_each_leaf) {
+  OccupancyMapOptions map_options = options.map;
+  map_options.resolution_m = resolution_m;
+  OctomapImport import{OccupancyMap(map_options)};
+  std::uint64_t cells = 0;
+  for_each_leaf([&](const OctomapLeaf& leaf) {
+    cells += leaf.cells();  // at most 2^48 in all: the leaves of a tree are disjoint
+    if (cells > options.max_cells) {
+      throw std::runtime_error(what + ": its leaves stand for more than " + std::to_string(options.max_cells) +
+                               " finest cells (OctomapImportOptions::max_cells)");
+    }
+    if (std::isnan(leaf.log_odds)) {
+      throw std::runtime_error(what + ": a node has log-odds that are not a number");
+    }
+  });
+  for_each_leaf([&](const OctomapLeaf& leaf) {
+    write_leaf(leaf, import.map);
+    const std::optional<double> held = import.map.log_odds(leaf.first);
+    if (held && std::isfinite(leaf.log_odds)) {
+      import.log_odds_rounding = std::max(import.log_odds_rounding, std::abs(*held - leaf.log_odds));
+    }
+  });
+  return import;
+}
+
+VoxelIndex cell_of(const octomap::OcTreeKey& key) {
+  return VoxelIndex{key[0], key[1], key[2]} - VoxelIndex{kOctomapReach, kOctomapReach, kOctomapReach};
+}
+
+octomap::OcTreeKey key_of(const VoxelIndex& cell) {
+  const auto reachable = [](std::int32_t i) { return i >= -kOctomapReach && i < kOctomapReach; };
+  if (!reachable(cell.x) || !reachable(cell.y) || !reachable(cell.z)) {
+    throw std::invalid_argument("cell (" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " +
+                                std::to_string(cell.z) + ") lies outside an OctoMap, which holds -32768 to 32767");
+  }
+  const auto key = [](std::int32_t i) { return static_cast<octomap::key_type>(i + kOctomapReach); };
+  return {key(cell.x), key(cell.y), key(cell.z)};
+}
+
+template <class Visit>
+void for_each_leaf_of(const octomap::OcTree& tree, const Visit& visit) {
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    const int level = kOctomapDepth - static_cast<int>(leaf.getDepth());
+    visit(OctomapLeaf{cell_of(leaf.getIndexKey()), level, leaf->getLogOdds(), tree.isNodeOccupied(*leaf)});
+  }
+}
+
+enum class Keep : std::uint8_t { LogOdds, States };
+
+std::unique_ptr<octomap::OcTree> make_octree(const OccupancyMap& map, Keep keep) {
+  const OccupancyMapOptions& options = map.options();
+  auto tree = std::make_unique<octomap::OcTree>(map.resolution_m());
+  tree->setProbHit(octomap::probability(options.log_odds_hit));
+  tree->setProbMiss(octomap::probability(options.log_odds_miss));
+  tree->setClampingThresMin(octomap::probability(options.log_odds_min));
+  tree->setClampingThresMax(octomap::probability(options.log_odds_max));
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+    const double clamp = state == Occupancy::Occupied ? options.log_odds_max : options.log_odds_min;
+    const double log_odds = keep == Keep::States ? clamp : map.log_odds(cell).value();
+    tree->setNodeValue(key_of(cell), static_cast<float>(log_odds), true);
+  });
+  tree->updateInnerOccupancy();
+  tree->prune();
+  return tree;
+}
+
+// OctoMap's own writers round the resolution to six digits and talk to stderr in debug builds.
+class OctreeWriter {
+ public:
+  explicit OctreeWriter(const octomap::OcTree& tree) : tree_(tree) {}
+
+  std::string write(Keep keep) {
+    std::ostringstream header;
+    header.imbue(std::locale::classic());
+    header.precision(17);
+    header << "# Octomap OcTree " << (keep == Keep::States ? "binary " : "") << "file\n"
+           << "# (the first line must stay as it is)\nid OcTree\nsize " << tree_.size() << "\nres "
+           << tree_.getResolution() << "\ndata\n";
+    bytes_ = header.str();
+    if (const octomap::OcTreeNode* root = tree_.getRoot()) {
+      keep == Keep::States ? write_states(*root) : write_log_odds(*root);
+    }
+    return std::move(bytes_);
+  }
+
+ private:
+  const octomap::OcTreeNode* child(const octomap::OcTreeNode& node, unsigned index) const {
+    return tree_.nodeChildExists(&node, index) ? tree_.getNodeChild(&node, index) : nullptr;
+  }
+  void write_states(const octomap::OcTreeNode& node) {
+    unsigned states = 0;
+    for (unsigned i = 0; i < 8; ++i) {
+      if (const octomap::OcTreeNode* below = child(node, i)) {
+        states |= (tree_.nodeHasChildren(below) ? 3U : tree_.isNodeOccupied(below) ? 2U : 1U) << (2 * i);
+      }
+    }
+    bytes_.push_back(static_cast<char>(static_cast<unsigned char>(states & 0xFFU)));
+    bytes_.push_back(static_cast<char>(static_cast<unsigned char>(states >> 8U)));
+    for (unsigned i = 0; i < 8; ++i) {
+      const octomap::OcTreeNode* below = child(node, i);
+      if (below != nullptr && tree_.nodeHasChildren(below)) {
+        write_states(*below);
+      }
+    }
+  }
+  void write_log_odds(const octomap::OcTreeNode& node) {
+    const float log_odds = node.getLogOdds();
+    char raw[sizeof log_odds];
+    std::memcpy(raw, &log_odds, sizeof log_odds);
+    bytes_.append(raw, sizeof log_odds);
+    unsigned children = 0;
+    for (unsigned i = 0; i < 8; ++i) {
+      children |= tree_.nodeChildExists(&node, i) ? 1U << i : 0U;
+    }
+    bytes_.push_back(static_cast<char>(static_cast<unsigned char>(children)));
+    for (unsigned i = 0; i < 8; ++i) {
+      if (const octomap::OcTreeNode* below = child(node, i)) {
+        write_log_odds(*below);
+      }
+    }
+  }
+
+  const octomap::OcTree& tree_;
+  std::string bytes_;
+};
+
+}  // namespace
+
+OctomapImport load_octomap(const std::filesystem::path& path, const OctomapImportOptions& options) {
+  const detail::OctomapFile file(path);
+  return import_leaves(file.resolution_m(), options, path.string(),
+                       [&](const std::function<void(const OctomapLeaf&)>& visit) { file.for_each_leaf(visit); });
+}
+
+void save_octomap(const OccupancyMap& map, const std::filesystem::path& path) {
+  const std::filesystem::path extension = path.extension();
+  if (extension != ".bt" && extension != ".ot") {
+    throw std::invalid_argument("save_octomap: " + path.string() + " must end in .bt or .ot");
+  }
+  const Keep keep = extension == ".bt" ? Keep::States : Keep::LogOdds;
+  const std::string bytes = OctreeWriter(*make_octree(map, keep)).write(keep);
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error(path.string() + ": cannot be written");
+  }
+}
+
+std::unique_ptr<octomap::OcTree> to_octree(const OccupancyMap& map) { return make_octree(map, Keep::LogOdds); }
+
+OctomapImport from_octree(const octomap::OcTree& tree, const OctomapImportOptions& options) {
+  return import_leaves(tree.getResolution(), options, "from_octree",
+                       [&](const auto& visit) { for_each_leaf_of(tree, visit); });
+}
+
+OctomapFollower::OctomapFollower(octomap::OcTree& tree, const OctomapImportOptions& options)
+    : tree_(tree), options_(options), map_(from_octree(tree, options).map) {
+  tree_.enableChangeDetection(true);
+  tree_.resetChangeDetection();
+}
+
+std::size_t OctomapFollower::update() {
+  check_resolution();
+  if (tree_.size() == 0) {
+    return resync();
+  }
+  std::size_t changed = 0;
+  for (auto entry = tree_.changedKeysBegin(); entry != tree_.changedKeysEnd(); ++entry) {
+    const VoxelIndex cell = cell_of(entry->first);
+    const Occupancy before = map_.at(cell);
+    if (const octomap::OcTreeNode* node = tree_.search(entry->first)) {
+      write_leaf({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)}, map_);
+    } else {
+      map_.set(cell, Occupancy::Unknown);
+    }
+    changed += map_.at(cell) != before ? 1U : 0U;
+  }
+  tree_.resetChangeDetection();
+  return changed;
+}
+
+std::size_t OctomapFollower::resync() {
+  check_resolution();
+  const OccupancyMap current = from_octree(tree_, options_).map;
+  std::vector<VoxelIndex> differing;
+  std::size_t changed = 0;
+  map_.for_each_known([&](const VoxelIndex& cell, Occupancy) {
+    if (current.at(cell) == Occupancy::Unknown) {
+      differing.push_back(cell);
+    }
+  });
+  changed += differing.size();
+  for (const VoxelIndex& cell : differing) {
+    map_.set(cell, Occupancy::Unknown);
+  }
+  current.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+    changed += map_.at(cell) != state ? 1U : 0U;
+    if (map_.log_odds(cell) != current.log_odds(cell)) {
+      map_.set_log_odds(cell, current.log_odds(cell).value());
+    }
+  });
+  tree_.resetChangeDetection();
+  return changed;
+}
+
+void OctomapFollower::check_resolution() const {
+  if (tree_.getResolution() != map_.resolution_m()) {
+    std::ostringstream message;
+    message << "OctomapFollower: the octree's resolution is now " << tree_.getResolution() << " m, the map's is "
+            << map_.resolution_m() << " m";
+    throw std::runtime_error(message.str());
+  }
+}
+
+}  // namespace vantage

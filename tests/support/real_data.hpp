@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace vantage::test {
+
+/// A file or folder of the real data, or an empty path where VANTAGE_DATA is not set.
+inline std::filesystem::path real_data(const std::filesystem::path& relative) {
+  const char* root = std::getenv("VANTAGE_DATA");
+  return root == nullptr || *root == '\0' ? std::filesystem::path() : std::filesystem::path(root) / relative;
+}
+
+}  // namespace vantage::test
+
+/// Declares `path` as a file or folder of the real data, or skips the test and says how to run it.
+#define VANTAGE_REAL_DATA(path, relative)                                                              \
+  const std::filesystem::path path = ::vantage::test::real_data(relative);                             \
+  if (path.empty()) {                                                                                  \
+    GTEST_SKIP() << "needs " << (relative) << ": set VANTAGE_DATA to the folder with the real data";   \
+  }                                                                                                    \
+  ASSERT_TRUE(std::filesystem::exists(path)) << path
