@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vantage/field/laplace_problem.hpp>
+#include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/planner/failed_views.hpp>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// How the harmonic field is found.
+enum class FieldSolver : std::uint8_t {
+  CoarseToFine,  ///< a first guess from coarse to fine, then a few sweeps of the relaxation
+  GaussSeidel,   ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
+};
+
+struct HarmonicOptions {
+  FieldSolver solver = FieldSolver::CoarseToFine;
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;
+  double tolerance = 1e-4;             ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
+  std::size_t smoothing_sweeps = 20;   ///< CoarseToFine: sweeps after the guess
+  std::size_t max_sweeps = 50000;      ///< no plan takes more, > 0
+  double over_relaxation = 1.0;        ///< in (0, 2); 1 is Gauss-Seidel
+  double uniform_source = 1e-4;        ///< see RelaxationOptions; 0 is the field of the paper
+  int patience = 2;                    ///< views that may fail to resolve a cell before it is given up, > 0
+  FrontierSurveyOptions survey = {};   ///< what counts as observable
+};
+
+/// The field behind a plan, for pictures and for those who want to look.
+struct HarmonicField {
+  LaplaceProblem problem;
+  std::vector<double> phi;                   ///< by position in the problem
+  std::vector<Eigen::Vector3d> streamline;   ///< from the sensor to the sink that was chosen
+  LaplaceReport report;
+  std::size_t stuck_cells = 0;  ///< cells without a strictly lower neighbour; 0: descent from every cell ends in a sink
+  bool followed = true;  ///< false: descent from the source got stuck, and the plan takes the shortest way instead
+};
+
+/// Harmonic exploration, Shade & Newman 2011: solve Laplace's equation over the space the platform can reach, 1 at the
+/// sensor, 0 at the boundaries to explore, no flow through the rest, and follow the steepest streamline down.
+///
+/// The paper's sensor is a point; here the domain is the platform's reachable space, and a frontier cell that lies
+/// outside it is represented by the reachable cell from which its unknown neighbour is seen (FrontierSurvey). Only a
+/// way that is known to end at a sink is ever followed. docs/harmonic.md names the place of every equation.
+class HarmonicPlanner final : public ExplorationPlanner {
+ public:
+  /// Throws std::invalid_argument naming the option or the part of the setup at fault.
+  explicit HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options = {});
+
+  [[nodiscard]] std::string_view name() const override { return "harmonic"; }
+  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+
+  [[nodiscard]] const HarmonicOptions& options() const { return options_; }
+  /// The field of the last plan; none where it needed none (nothing left, or the sensor looks from where it is).
+  [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
+
+ private:
+  void solve(const FrontierSurvey& survey, PlanStatistics& statistics);
+  [[nodiscard]] std::vector<VoxelIndex> way_down(const OccupancyMap& map, const Pose& current,
+                                                 const FrontierSurvey& survey);
+
+  PlannerSetup setup_;
+  HarmonicOptions options_;
+  FailedViews failed_;
+  std::optional<HarmonicField> field_;
+};
+
+}  // namespace vantage

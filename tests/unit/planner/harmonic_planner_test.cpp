@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <vantage/field/streamline.hpp>
+#include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+
+#include "grid_world.hpp"
+
+namespace vantage {
+namespace {
+
+PlannerSetup setup_with(const RangeSensor& sensor, const FreeFlyerOptions& body = {.radius_m = 0.15}) {
+  return {.sensor = sensor, .platform = std::make_shared<FreeFlyer>(body)};
+}
+
+RangeSensor all_around() {
+  RangeSensor sensor = RangeSensor::spherical(120, 60, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0);
+  sensor.reports_no_return = true;
+  return sensor;
+}
+
+// A closed box of 20 x 16 x 12 free cells with one opening of 2 x 2 cells in the wall at x = 20; beyond it, unknown.
+OccupancyMap box_with_opening() {
+  OccupancyMap map({.resolution_m = 0.2});
+  for_each_cell({{-1, -1, -1}, {21, 17, 13}}, [&](const VoxelIndex& cell) {
+    const bool inside = VoxelBox{{0, 0, 0}, {20, 16, 12}}.contains(cell);
+    const bool opening = cell.x == 20 && cell.y >= 11 && cell.y < 13 && cell.z >= 5 && cell.z < 7;
+    map.set(cell, inside || opening ? Occupancy::Free : Occupancy::Occupied);
+  });
+  return map;
+}
+
+void expect_admitted(const OccupancyMap& map, const Platform& platform, const Pose& current, const Plan& plan) {
+  ASSERT_GE(plan.path.size(), 2U);
+  EXPECT_TRUE(plan.path.front().isApprox(current));
+  EXPECT_TRUE(plan.path.back().isApprox(plan.goal.pose));
+  for (std::size_t i = 1; i < plan.path.size(); ++i) {
+    EXPECT_TRUE(platform.admits(map, plan.path[i])) << i;
+    EXPECT_TRUE(platform.admits_motion(map, plan.path[i - 1], plan.path[i])) << i;
+  }
+}
+
+// The boundary conditions of the paper (IV-B), and what they are for: the streamline leads to the opening.
+TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
+  const OccupancyMap map = box_with_opening();
+  const Pose current = pose_looking({0.5, 0.5, 0.5}, 0.0);
+  for (const FieldSolver solver : {FieldSolver::CoarseToFine, FieldSolver::GaussSeidel}) {
+    for (const NeumannScheme neumann : {NeumannScheme::FiniteVolume, NeumannScheme::Mirror}) {
+      const PlannerSetup setup = setup_with(all_around());
+      HarmonicPlanner planner(setup, {.solver = solver, .neumann = neumann});
+      const Plan plan = planner.plan(map, current);
+      ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
+      expect_admitted(map, *setup.platform, current, plan);
+      EXPECT_LT((plan.goal.pose.translation() - Eigen::Vector3d(4.0, 2.4, 1.2)).norm(), 0.7);
+      EXPECT_GT(optical_axis(plan.goal.pose).x(), 0.5);  // looks out, into the unknown
+
+      ASSERT_TRUE(planner.field());
+      const HarmonicField& field = *planner.field();
+      EXPECT_TRUE(field.followed);
+      EXPECT_EQ(field.stuck_cells, 0U);
+      EXPECT_EQ(field.phi.size(), plan.statistics.reachable_cells);
+      EXPECT_EQ(field.phi[static_cast<std::size_t>(field.problem.source())], 1.0);
+      EXPECT_EQ(field.problem.cell(field.problem.source()), map.frame().cell_of(current.translation()));
+      std::size_t sinks = 0;
+      for (std::size_t i = 0; i < field.phi.size(); ++i) {
+        if (field.problem.kind(static_cast<LaplaceProblem::Position>(i)) == LaplaceCell::Sink) {
+          EXPECT_EQ(field.phi[i], 0.0);
+          ++sinks;
+        }
+      }
+      EXPECT_EQ(sinks, field.problem.sink_count());
+      EXPECT_GE(sinks, 1U);
+      EXPECT_EQ(plan.statistics.solver_sweeps, field.report.sweeps);
+    }
+  }
+}
+
+TEST(HarmonicPlanner, SameMapSamePlanAndPlanningTwiceChangesNothing) {
+  const OccupancyMap map = box_with_opening();
+  const Pose current = pose_looking({0.7, 2.5, 1.5}, 1.0);
+  HarmonicPlanner planner(setup_with(all_around()));
+  HarmonicPlanner other(setup_with(all_around()));
+  const Plan first = planner.plan(map, current);
+  const Plan second = planner.plan(map, current);
+  const Plan third = other.plan(map, current);
+  ASSERT_EQ(first.path.size(), second.path.size());
+  ASSERT_EQ(first.path.size(), third.path.size());
+  for (std::size_t i = 0; i < first.path.size(); ++i) {
+    EXPECT_EQ(first.path[i].matrix(), second.path[i].matrix());
+    EXPECT_EQ(first.path[i].matrix(), third.path[i].matrix());
+  }
+}
+
+// A height band one cell high makes the problem of the paper's own experiments: a plane.
+TEST(HarmonicPlanner, APlatformThatKeepsItsHeightSolvesInThePlane) {
+  const OccupancyMap map = box_with_opening();
+  const Pose current = pose_looking({0.5, 0.5, 1.1}, 0.0);
+  const PlannerSetup setup = setup_with(
+      all_around(), {.radius_m = 0.15, .min_height_m = 1.05, .max_height_m = 1.15, .yaw_only = true});
+  HarmonicPlanner planner(setup);
+  const Plan plan = planner.plan(map, current);
+  ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
+  expect_admitted(map, *setup.platform, current, plan);
+  ASSERT_TRUE(planner.field());
+  for (const VoxelIndex& cell : planner.field()->problem.cells()) {
+    EXPECT_EQ(cell.z, 5);
+  }
+  EXPECT_GT(planner.field()->problem.size(), 200U);
+  for (const Pose& pose : plan.path) {
+    EXPECT_NEAR(pose.translation().z(), 1.1, 1e-9);
+    EXPECT_NEAR(optical_axis(pose).z(), 0.0, 1e-9);
+  }
+}
+
+GridWorld two_rooms() {
+  GridWorld world{{0.2}, VoxelGrid<std::uint8_t>({{0, 0, 0}, {30, 14, 10}}, 0)};
+  for_each_cell(world.occupied.box(), [&](const VoxelIndex& cell) {
+    const bool wall = cell.x == 14 && !(cell.y >= 8 && cell.y < 12 && cell.z >= 1 && cell.z < 7);
+    const bool pillar = cell.x >= 20 && cell.x < 22 && cell.y >= 4 && cell.y < 6;
+    world.occupied[cell] = wall || pillar ? 1 : 0;
+  });
+  return world;
+}
+
+void explore(const RangeSensor& sensor, std::size_t most_views) {
+  const GridWorld world = two_rooms();
+  const PlannerSetup setup = setup_with(sensor);
+  HarmonicPlanner planner(setup);
+  OccupancyMap map({.resolution_m = world.frame.size_m});
+  Pose pose = pose_looking({0.9, 0.9, 0.9}, 0.5);
+  map.assume_free(setup.platform->body_box(pose));
+  Plan plan;
+  std::size_t views = 0;
+  for (; views < most_views; ++views) {
+    map.insert(world.scan(sensor, pose));
+    plan = planner.plan(map, pose);
+    if (plan.outcome != Outcome::Move) {
+      break;
+    }
+    expect_admitted(map, *setup.platform, pose, plan);
+    pose = plan.goal.pose;
+  }
+  EXPECT_EQ(plan.outcome, Outcome::Explored) << plan.reason;
+  EXPECT_LT(views, most_views);
+  std::size_t missed = 0;
+  std::size_t free = 0;
+  for_each_cell(world.occupied.box(), [&](const VoxelIndex& cell) {
+    if (!world.blocked(cell)) {
+      ++free;
+      missed += map.at(cell) == Occupancy::Free ? 0U : 1U;
+    }
+  });
+  EXPECT_GT(free, 3500U);
+  EXPECT_LE(missed, free / 100) << views << " views, left " << plan.leftover.unobservable << " unobservable, "
+                                << plan.leftover.unreachable << " unreachable";
+}
+
+TEST(HarmonicPlanner, ExploresTwoRoomsLookingAllAround) { explore(all_around(), 60); }
+
+TEST(HarmonicPlanner, ExploresTwoRoomsThroughANarrowView) {
+  explore(RangeSensor::pinhole(96, 72, 1.2, 0.95, 0.3, 4.0), 400);
+}
+
+TEST(HarmonicPlanner, RefusesOptionsByName) {
+  const auto message = [](const PlannerSetup& setup, const HarmonicOptions& options) {
+    try {
+      HarmonicPlanner planner(setup, options);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const PlannerSetup setup = setup_with(all_around());
+  EXPECT_EQ(message(setup, {}), "");
+  EXPECT_NE(message(setup, {.patience = 0}).find("HarmonicOptions::patience"), std::string::npos);
+  EXPECT_NE(message(setup, {.tolerance = -1.0}).find("tolerance"), std::string::npos);
+  EXPECT_NE(message({.sensor = all_around()}, {}).find("PlannerSetup::platform"), std::string::npos);
+  HarmonicPlanner planner(setup);
+  Pose bent = Pose::Identity();
+  bent.linear() *= 2.0;
+  EXPECT_THROW((void)planner.plan(box_with_opening(), bent), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vantage
