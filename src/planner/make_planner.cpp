@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
+#include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
 
@@ -106,11 +107,29 @@ std::unique_ptr<ExplorationPlanner> make_nearest_frontier(const PlannerSetup& se
   return std::make_unique<NearestFrontierPlanner>(setup, options);
 }
 
+std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, SettingReader& read) {
+  HarmonicOptions options;
+  read_survey(read, options.survey)
+      .choice("solver", options.solver,
+              {{"coarse-to-fine", FieldSolver::CoarseToFine}, {"gauss-seidel", FieldSolver::GaussSeidel}})
+      .choice("neumann", options.neumann,
+              {{"finite-volume", NeumannScheme::FiniteVolume}, {"mirror", NeumannScheme::Mirror}})
+      .number("tolerance", options.tolerance)
+      .number("smoothing_sweeps", options.smoothing_sweeps)
+      .number("max_sweeps", options.max_sweeps)
+      .number("over_relaxation", options.over_relaxation)
+      .number("uniform_source", options.uniform_source)
+      .number("patience", options.patience)
+      .done();
+  return std::make_unique<HarmonicPlanner>(setup, options);
+}
+
 using Maker = std::unique_ptr<ExplorationPlanner> (*)(const PlannerSetup&, SettingReader&);
 
 const std::vector<std::pair<std::string_view, Maker>>& makers() {
   static const std::vector<std::pair<std::string_view, Maker>> all{
       {"frontier-gain", make_frontier_gain},
+      {"harmonic", make_harmonic},
       {"nearest-frontier", make_nearest_frontier},
   };
   return all;
