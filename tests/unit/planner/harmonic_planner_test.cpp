@@ -178,7 +178,7 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   EXPECT_EQ(message(setup, {}), "");
   EXPECT_NE(message(setup, {.patience = 0}).find("HarmonicOptions::patience"), std::string::npos);
   EXPECT_NE(message(setup, {.tolerance = -1.0}).find("tolerance"), std::string::npos);
-  EXPECT_NE(message({.sensor = all_around()}, {}).find("PlannerSetup::platform"), std::string::npos);
+  EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"), std::string::npos);
   HarmonicPlanner planner(setup);
   Pose bent = Pose::Identity();
   bent.linear() *= 2.0;
