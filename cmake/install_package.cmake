@@ -37,5 +37,6 @@ configure_package_config_file(
 write_basic_package_version_file("${vantage_package_build_dir}/vantageConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${vantage_package_build_dir}/vantageConfig.cmake"
-              "${vantage_package_build_dir}/vantageConfigVersion.cmake" DESTINATION "${vantage_package_dir}")
+              "${vantage_package_build_dir}/vantageConfigVersion.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindVantageOpenCV.cmake" DESTINATION "${vantage_package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vantage/vision/picture.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// One curve of a LinePlot: points in order, NaN where there is none.
+struct LineSeries {
+  std::string name = {};  ///< for the legend; a single series needs none
+  std::vector<double> x = {};
+  std::vector<double> y = {};
+};
+
+/// Curves over common axes.
+struct LinePlot {
+  std::string title = {};
+  std::string x_label = {};
+  std::string y_label = {};
+  std::vector<LineSeries> series = {};
+  std::optional<std::pair<double, double>> y_range = std::nullopt;  ///< none: as the points ask for
+  std::string value_unit = {};  ///< follows the last value of a curve, which is written beside its end
+};
+
+/// Draws the plots side by side. Throws std::invalid_argument if there is no plot or x and y of a series differ in
+/// length.
+[[nodiscard]] Picture draw_line_plots(std::span<const LinePlot> plots);
+
+}  // namespace vantage

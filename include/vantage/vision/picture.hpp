@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace vantage {
+
+/// A colour picture: rows from the top, pixels from the left, three bytes each (red, green, blue).
+struct Picture {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  std::vector<std::uint8_t> rgb;  ///< 3 * width * height bytes
+};
+
+/// Writes `picture` as a PNG file. Throws std::invalid_argument if the picture is empty or its bytes do not fit its
+/// size, std::runtime_error naming the file if it cannot be written.
+void write_png(const Picture& picture, const std::filesystem::path& file);
+
+}  // namespace vantage

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vantage/report/report_json.hpp>
+#include <vantage/version.hpp>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json pose_json(const Pose& pose) {
+  Eigen::Quaterniond q(pose.linear());
+  if (q.w() < 0.0) {
+    q.coeffs() = -q.coeffs();  // the same rotation; one of the two spellings always
+  }
+  const Eigen::Vector3d t = pose.translation();
+  return ordered_json::array({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
+}
+
+ordered_json median_and_max(std::vector<double> values) {
+  if (values.empty()) {
+    return {{"median", nullptr}, {"max", nullptr}};
+  }
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  const double median = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  return {{"median", median}, {"max", values.back()}};
+}
+
+ordered_json times_json(const RunRecord& record) {
+  std::vector<double> insert_ms;
+  std::vector<double> plan_ms;
+  for (const ViewRecord& view : record.views) {
+    insert_ms.push_back(view.insert_ms);
+    if (view.plan_ms > 0.0) {  // 0: the plan before was still being followed
+      plan_ms.push_back(view.plan_ms);
+    }
+  }
+  return {{"insert", median_and_max(std::move(insert_ms))}, {"plan", median_and_max(std::move(plan_ms))}};
+}
+
+ordered_json cycle_json(const ViewRecord& view) {
+  return {{"view", view.view},
+          {"pose", pose_json(view.pose)},
+          {"coverage", or_null(view.coverage)},
+          {"path_length_m", view.path_length_m},
+          {"insert_ms", view.insert_ms},
+          {"plan_ms", view.plan_ms},
+          {"utility", view.utility},
+          {"frontier_cells", view.frontier_cells},
+          {"void_cells", view.void_cells},
+          {"outcome", to_string(view.outcome)}};
+}
+
+ordered_json summary_json(const RunRecord& record) {
+  return {{"vantage", VANTAGE_VERSION_STRING},
+          {"command", record.command},
+          {"world", record.world},
+          {"planner", record.planner},
+          {"seed", record.seed},
+          {"threads", record.threads},
+          {"resolution_m", record.resolution_m},
+          {"outcome", to_string(record.outcome)},
+          {"reason", record.reason},
+          {"views", record.views.size()},
+          {"path_length_m", record.path_length_m()},
+          {"coverage", or_null(record.coverage)},
+          {"observable_cells", record.coverage ? ordered_json(record.observable_cells) : ordered_json(nullptr)},
+          {"surface_coverage", or_null(record.surface_coverage)},
+          {"leftover",
+           {{"unreachable", record.leftover.unreachable},
+            {"unobservable", record.leftover.unobservable},
+            {"too_small", record.leftover.too_small}}},
+          {"collisions", record.collisions},
+          {"ray_operations", {{"integration", record.integration_operations}, {"planning", record.planning_operations}}},
+          {"time_ms", times_json(record)},
+          {"peak_memory_mb", record.peak_memory_mb}};
+}
+
+// A world's file name may be any bytes: what is not UTF-8 is replaced, never thrown at the end of a long run.
+std::string dump(const ordered_json& value, int indent = -1) {
+  return value.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string report_json(const RunRecord& record) {
+  std::string text = dump(summary_json(record), 2);
+  text.erase(text.size() - 2);  // "\n}": the cycles follow, one per line
+  text += ",\n  \"cycles\": [";
+  for (std::size_t i = 0; i < record.views.size(); ++i) {
+    text += (i == 0 ? "\n    " : ",\n    ") + dump(cycle_json(record.views[i]));
+  }
+  text += record.views.empty() ? "]\n}\n" : "\n  ]\n}\n";
+  return text;
+}
+
+void write_report_json(const RunRecord& record, const std::filesystem::path& file) {
+  std::ofstream out(file, std::ios::binary);
+  out << report_json(record);
+  out.close();
+  if (!out) {
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <vantage/vision/picture.hpp>
+
+namespace vantage {
+
+void write_png(const Picture& picture, const std::filesystem::path& file) {
+  if (picture.width == 0 || picture.height == 0 || picture.rgb.size() != 3 * picture.width * picture.height) {
+    throw std::invalid_argument("Picture::rgb has " + std::to_string(picture.rgb.size()) + " bytes, must be 3 * " +
+                                std::to_string(picture.width) + " * " + std::to_string(picture.height) + " and not 0");
+  }
+  cv::Mat bgr(static_cast<int>(picture.height), static_cast<int>(picture.width), CV_8UC3);
+  for (std::size_t pixel = 0; pixel < picture.width * picture.height; ++pixel) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      bgr.data[3 * pixel + channel] = picture.rgb[3 * pixel + 2 - channel];
+    }
+  }
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", bgr, bytes)) {
+    throw std::runtime_error(file.string() + ": the picture cannot be encoded as PNG");
+  }
+  std::ofstream out(file, std::ios::binary);
+  // OpenCV's imwrite says only "no"; a stream of our own fails at a full disk as well as at a missing folder.
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) {
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <vantage/vision/field_picture.hpp>
+#include <vantage/vision/floor_plan.hpp>
+#include <vantage/vision/line_plot.hpp>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+OccupancyMap walled_room() {
+  OccupancyMap map({.resolution_m = 0.1});
+  for_each_cell(VoxelBox{{0, 0, 0}, {60, 40, 20}}, [&](const VoxelIndex& cell) {
+    const bool wall = cell.x == 0 || cell.y == 0 || cell.x == 59 || cell.y == 39 || (cell.x == 30 && cell.y < 25);
+    if (cell.x < 50 || wall) {
+      map.set(cell, wall ? Occupancy::Occupied : Occupancy::Free);
+    }
+  });
+  return map;
+}
+
+FloorPlanContent walk() {
+  FloorPlanContent content;
+  content.title = "walled room";
+  content.travelled = {{1.0, 1.0, 1.0}, {1.5, 3.2, 1.0}, {4.2, 3.0, 1.0}};
+  content.views = {pose_looking({1.0, 1.0, 1.0}, 0.0), pose_looking({1.5, 3.2, 1.0}, -1.0),
+                   pose_looking({4.2, 3.0, 1.0}, 2.0)};
+  return content;
+}
+
+// How many pixels have nearly this colour.
+std::size_t count(const Picture& picture, int red, int green, int blue) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    const auto near = [&](std::size_t channel, int value) { return std::abs(int(picture.rgb[i + channel]) - value) <= 6; };
+    found += near(0, red) && near(1, green) && near(2, blue) ? 1U : 0U;
+  }
+  return found;
+}
+
+TEST(FloorPlan, ShowsFreeOccupiedUnknownAndTheJourney) {
+  const Picture picture = draw_floor_plan(walled_room(), walk());
+  ASSERT_EQ(picture.rgb.size(), 3 * picture.width * picture.height);
+  const double area = 880.0 * 880.0 * 40.0 / 60.0;  // of the map, pixels
+  EXPECT_NEAR(static_cast<double>(count(picture, 183, 189, 199)) / area, 9.0 * 38.0 / 2400.0, 0.02) << "unknown";
+  EXPECT_NEAR(static_cast<double>(count(picture, 29, 32, 40)) / area, (2400.0 - 58.0 * 38.0 + 24.0) / 2400.0, 0.02) << "walls";
+  EXPECT_GT(count(picture, 22, 145, 84), 100U) << "start";
+  EXPECT_GT(count(picture, 206, 43, 55), 100U) << "end";
+  EXPECT_EQ(picture.rgb, draw_floor_plan(walled_room(), walk()).rgb) << "the same input, the same bytes";
+}
+
+TEST(FloorPlan, ASliceShowsItsOwnHeightOnly) {
+  OccupancyMap map = walled_room();
+  map.set({10, 10, 15}, Occupancy::Occupied);
+  FloorPlanContent content;
+  content.slice_z_m = 0.55;
+  const std::size_t low = count(draw_floor_plan(map, content), 29, 32, 40);
+  content.slice_z_m = 1.55;
+  const std::size_t high = count(draw_floor_plan(map, content), 29, 32, 40);
+  EXPECT_GT(high, low);
+}
+
+TEST(FloorPlan, RefusesNothingToShow) {
+  EXPECT_THROW((void)draw_floor_plan(OccupancyMap(), {}), std::invalid_argument);
+  FloorPlanContent content;
+  content.extent = Box{};
+  EXPECT_THROW((void)draw_floor_plan(walled_room(), content), std::invalid_argument);
+}
+
+TEST(FloorPlan, ManagesVeryLongAndVeryWideMaps) {
+  OccupancyMap map({.resolution_m = 0.05});
+  map.set({0, 0, 0}, Occupancy::Free);
+  map.set({30000, 3, 0}, Occupancy::Occupied);
+  const Picture picture = draw_floor_plan(map, {});
+  EXPECT_LT(picture.width, 2000U);
+  EXPECT_LT(picture.height, 2000U);
+}
+
+TEST(FieldPicture, ShowsTheFrontierAndTheStreamline) {
+  const OccupancyMap map = walled_room();
+  std::vector<VoxelIndex> cells;
+  std::vector<double> phi;
+  std::vector<VoxelIndex> frontier;
+  for (std::int32_t x = 1; x < 30; ++x) {
+    for (std::int32_t y = 1; y < 39; ++y) {
+      cells.push_back({x, y, 10});
+      phi.push_back(1.0 - x / 29.0);
+      if (x == 29) {
+        frontier.push_back(cells.back());
+      }
+    }
+  }
+  FieldContent content{.title = "field", .cells = cells, .phi = phi, .frontier = frontier, .streamline = {}};
+  content.sensor_m = {0.2, 2.0, 1.05};
+  const std::vector<Eigen::Vector3d> way{{0.2, 2.0, 1.05}, {2.9, 2.0, 1.05}};
+  content.streamline = way;
+  const Picture picture = draw_field(map, content);
+  EXPECT_GT(count(picture, 226, 38, 45), 38U * 100U);
+  phi.pop_back();
+  content.phi = phi;
+  EXPECT_THROW((void)draw_field(map, content), std::invalid_argument);
+}
+
+TEST(LinePlot, DrawsCurvesAndRefusesMismatch) {
+  LinePlot plot{.title = "t", .x_label = "x", .y_label = "y", .series = {{"a", {0, 1, 2}, {0, 50, 99}}}};
+  plot.series.push_back({"b", {0, 1, 2}, {0, std::numeric_limits<double>::quiet_NaN(), 30}});
+  const Picture picture = draw_line_plots(std::vector<LinePlot>{plot, plot});
+  EXPECT_GT(count(picture, 35, 84, 173), 500U);
+  EXPECT_GT(picture.width, 2 * picture.height);
+  EXPECT_NO_THROW((void)draw_line_plots(std::vector<LinePlot>{LinePlot{}})) << "no data is a plot without curves";
+  plot.series[0].y.pop_back();
+  EXPECT_THROW((void)draw_line_plots(std::vector<LinePlot>{plot}), std::invalid_argument);
+  EXPECT_THROW((void)draw_line_plots({}), std::invalid_argument);
+}
+
+TEST(Png, WritesAFileOrSaysWhyNot) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("vantage_picture_" + std::to_string(::getpid()) + ".png");
+  write_png(draw_floor_plan(walled_room(), walk()), file);
+  std::string magic(4, '\0');
+  std::ifstream(file, std::ios::binary).read(magic.data(), 4);
+  EXPECT_EQ(magic, "\x89PNG");
+  std::filesystem::remove(file);
+  EXPECT_THROW(write_png(Picture{}, file), std::invalid_argument);
+  EXPECT_THROW(write_png(draw_line_plots(std::vector<LinePlot>{LinePlot{}}), "/nowhere/a.png"), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+}  // namespace
+}  // namespace vantage
