@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/report/run_record.hpp>
+#include <vantage/robot/platform.hpp>
+#include <vantage/sim/simulated_sensor.hpp>
+#include <vantage/sim/triangle_scene.hpp>
+#include <vantage/sim/truth.hpp>
+#include <vantage/sim/world.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// How a simulated exploration goes.
+struct ExplorationRunOptions {
+  OccupancyMapOptions map = {};                    ///< without a region: the world's own
+  RayPolicy ray_policy = RayPolicy::EveryReturn;
+  std::size_t max_views = 500;                     ///< the budget, > 0
+  double scan_spacing_m = 0.5;                     ///< a scan every so far along the way, >= 0; 0: at goals only
+  std::uint64_t seed = 1;                          ///< of the sensor's noise
+  SensorNoise noise = {};
+  /// Of the sphere whose touching a true surface is a collision, >= 0; none: half the least extent of
+  /// Platform::body_box.
+  std::optional<double> body_radius_m = std::nullopt;
+  int threads = 1;                                 ///< for the observable cells, > 0
+};
+
+/// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
+/// sensor scans every `scan_spacing_m`; when a scan shows that the rest of the way is no longer admitted, the run plans
+/// again. The same world, planner and options give the same record, but for its times and memory.
+class ExplorationRun {
+ public:
+  /// Called after every scan, with what was recorded and the map then.
+  using OnView = std::function<void(const ViewRecord&, const OccupancyMap&)>;
+
+  /// Throws std::invalid_argument naming the option at fault.
+  ExplorationRun(const World& world, const RangeSensor& sensor, std::shared_ptr<const Platform> platform,
+                 const ExplorationRunOptions& options = {});
+
+  [[nodiscard]] const Truth& truth() const { return truth_; }
+  /// The map of the last run.
+  [[nodiscard]] const OccupancyMap& map() const { return map_; }
+
+  /// Runs until the planner says that it is done, or the budget ends it. The space of the body at `start` is declared
+  /// free first. Throws std::invalid_argument if the platform is not admitted at `start` in the true world.
+  RunRecord run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view = {});
+
+ private:
+  struct Progress;
+  void check_start(const Pose& start) const;
+  void assume_body_free(const Pose& start);
+  void scan(Progress& progress);
+  void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
+  void follow(Progress& progress, const Plan& plan, const OnView& on_view);
+  [[nodiscard]] bool still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const;
+  void move(Progress& progress, const Pose& to);
+
+  World world_;
+  RangeSensor sensor_;
+  std::shared_ptr<const Platform> platform_;
+  ExplorationRunOptions options_;
+  TriangleScene scene_;
+  Truth truth_;
+  OccupancyMap map_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vantage/sim/exploration_run.hpp>
+
+namespace vantage {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+template <class Value>
+void require(bool holds, const char* field, const Value& value, const char* rule) {
+  if (!holds) {
+    std::ostringstream message;
+    message << "ExplorationRunOptions::" << field << " is " << value << ", must be " << rule;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+ExplorationRunOptions checked(ExplorationRunOptions options, const World& world) {
+  require(options.max_views > 0, "max_views", options.max_views, "> 0");
+  require(std::isfinite(options.scan_spacing_m) && options.scan_spacing_m >= 0.0, "scan_spacing_m",
+          options.scan_spacing_m, ">= 0");
+  const double radius_m = options.body_radius_m.value_or(0.0);
+  require(std::isfinite(radius_m) && radius_m >= 0.0, "body_radius_m", radius_m, ">= 0");
+  require(options.threads > 0, "threads", options.threads, "> 0");
+  if (!options.map.region) {
+    options.map.region = world.region;
+  }
+  return options;
+}
+
+Pose between(const Pose& from, const Pose& to, double share) {
+  const Eigen::Quaterniond first(from.linear());
+  const Eigen::Quaterniond last(to.linear());
+  Pose pose = Pose::Identity();
+  pose.linear() = first.slerp(share, last).normalized().toRotationMatrix();
+  pose.translation() = from.translation() + share * (to.translation() - from.translation());
+  return pose;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / 1024.0 : 0.0;
+}
+
+std::shared_ptr<const Platform> given(std::shared_ptr<const Platform> platform) {
+  if (platform == nullptr) {
+    throw std::invalid_argument("ExplorationRun needs a platform");
+  }
+  return platform;
+}
+
+}  // namespace
+
+struct ExplorationRun::Progress {
+  SimulatedSensor sensor;
+  Pose pose;
+  double body_radius_m = 0.0;
+  double path_length_m = 0.0;
+  double since_scan_m = 0.0;
+  std::vector<VoxelIndex> observable;
+  RunRecord record;
+};
+
+ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor, std::shared_ptr<const Platform> platform,
+                               const ExplorationRunOptions& options)
+    : world_(world),
+      sensor_(sensor),
+      platform_(given(std::move(platform))),
+      options_(checked(options, world)),
+      scene_(world.mesh),
+      truth_(world, options_.map.resolution_m, *options_.map.region),
+      map_(options_.map) {
+  (void)SimulatedSensor(scene_, sensor, options_.noise);  // checks both
+}
+
+void ExplorationRun::check_start(const Pose& start) const {
+  const auto refuse = [&](const char* what) {
+    std::ostringstream message;
+    message << "the start (" << start.translation().x() << ", " << start.translation().y() << ", "
+            << start.translation().z() << ") " << what;
+    throw std::invalid_argument(message.str());
+  };
+  if (!is_rigid(start)) {
+    refuse("is not a rigid transform");
+  }
+  if (!truth_.map().frame().addressable(start.translation()) ||
+      !truth_.map().in_region(truth_.map().frame().cell_of(start.translation()))) {
+    refuse("is outside the region");
+  }
+  if (!platform_->admits(truth_.map(), start)) {
+    refuse("is in or too near a wall or the edge of the region for the robot's body");
+  }
+}
+
+// Of the body's box only the ellipsoid in it: the box's corners may hold a wall.
+void ExplorationRun::assume_body_free(const Pose& start) {
+  const Box body = platform_->body_box(start);
+  const VoxelFrame& frame = map_.frame();
+  const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
+  const VoxelBox cells{frame.cell_of(body.min), frame.cell_of(body.max) + VoxelIndex{1, 1, 1}};
+  for_each_cell(cells, [&](const VoxelIndex& cell) {
+    const Box box = frame.box_of(cell);
+    const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
+    if ((nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9) {
+      const Eigen::Vector3d within = 0.25 * box.extent();
+      map_.assume_free({box.min + within, box.max - within});
+    }
+  });
+}
+
+void ExplorationRun::scan(Progress& progress) {
+  const Scan scan = progress.sensor.scan(progress.pose);
+  const Clock::time_point start = Clock::now();
+  const ScanReport report = map_.insert(scan, options_.ray_policy);
+  ViewRecord view;
+  view.insert_ms = milliseconds_since(start);
+  RunRecord& record = progress.record;
+  if (!record.views.empty()) {
+    view.frontier_cells = record.views.back().frontier_cells;
+    view.void_cells = record.views.back().void_cells;
+    view.utility = record.views.back().utility;
+  }
+  record.integration_operations += report.cells_hit + report.cells_cleared;
+  view.view = record.views.size() + 1;
+  view.pose = progress.pose;
+  view.path_length_m = progress.path_length_m;
+  view.coverage = truth_.coverage(map_, progress.observable);
+  record.coverage = view.coverage;
+  record.views.push_back(view);
+  progress.since_scan_m = 0.0;
+}
+
+void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner, Plan& plan) {
+  const Clock::time_point start = Clock::now();
+  plan = planner.plan(map_, progress.pose);
+  ViewRecord& view = progress.record.views.back();
+  view.plan_ms = milliseconds_since(start);
+  view.utility = plan.goal.utility;
+  view.frontier_cells = plan.statistics.frontier_cells;
+  view.void_cells = plan.statistics.void_cells;
+  view.outcome = plan.outcome;
+  progress.record.planning_operations += plan.statistics.ray_operations;
+  progress.record.leftover = plan.leftover;
+}
+
+void ExplorationRun::move(Progress& progress, const Pose& to) {
+  const double length_m = (to.translation() - progress.pose.translation()).norm();
+  if (length_m > 0.0) {
+    const bool hit = scene_.touches(progress.pose.translation(), to.translation(), progress.body_radius_m);
+    progress.record.collisions += hit ? 1U : 0U;
+    progress.record.travelled.push_back(to.translation());
+  }
+  progress.path_length_m += length_m;
+  progress.since_scan_m += length_m;
+  progress.pose = to;
+}
+
+bool ExplorationRun::still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const {
+  for (Pose from = pose; next < path.size(); from = path[next++]) {
+    if (!platform_->admits_motion(map_, from, path[next])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// To the goal, or to where a scan on the way has closed it or spent the budget. The last scan is left to be reported
+// with the plan that comes of it.
+void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
+  for (std::size_t next = 1; next < plan.path.size(); ++next) {
+    const Pose from = progress.pose;
+    const Pose& to = plan.path[next];
+    const double length_m = (to.translation() - from.translation()).norm();
+    double done_m = 0.0;
+    while (options_.scan_spacing_m > 0.0 && done_m + options_.scan_spacing_m - progress.since_scan_m < length_m) {
+      done_m += options_.scan_spacing_m - progress.since_scan_m;
+      move(progress, between(from, to, done_m / length_m));
+      scan(progress);
+      const bool spent = progress.record.views.size() >= options_.max_views;
+      if (spent || !still_admitted(progress.pose, plan.path, next)) {
+        return;
+      }
+      if (on_view) {
+        on_view(progress.record.views.back(), map_);
+      }
+    }
+    move(progress, to);
+  }
+  scan(progress);
+}
+
+RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
+  check_start(start);
+  map_ = OccupancyMap(options_.map);
+  Progress progress{SimulatedSensor(scene_, sensor_, options_.noise, options_.seed), start, 0.0, 0.0, 0.0, {}, {}};
+  progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
+  progress.body_radius_m =
+      options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
+  RunRecord& record = progress.record;
+  record.command = "explore";
+  record.world = world_.name;
+  record.planner = std::string(planner.name());
+  record.seed = options_.seed;
+  record.threads = options_.threads;
+  record.resolution_m = map_.resolution_m();
+  record.observable_cells = progress.observable.size();
+  record.travelled.push_back(start.translation());
+  assume_body_free(start);
+  scan(progress);
+  for (;;) {
+    Plan next;
+    plan(progress, planner, next);
+    if (on_view) {
+      on_view(record.views.back(), map_);
+    }
+    if (next.outcome != Outcome::Move || next.path.empty()) {
+      record.outcome = next.outcome == Outcome::Explored ? RunOutcome::Explored : RunOutcome::Blocked;
+      record.reason = next.reason;
+      break;
+    }
+    if (record.views.size() >= options_.max_views) {
+      record.outcome = RunOutcome::Budget;
+      record.reason = "the budget of " + std::to_string(options_.max_views) + " views is spent";
+      break;
+    }
+    follow(progress, next, on_view);
+  }
+  record.peak_memory_mb = peak_memory_mb();
+  return std::move(progress.record);
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/sim/truth.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// Whether a sensor at the centre of one cell of the true world sees another cell (Truth::observable has the words).
+class Sight {
+ public:
+  Sight(const VoxelGrid<CellTruth>& cells, const VoxelFrame& frame, const RangeSensor& sensor, bool can_tilt)
+      : cells_(cells), frame_(frame), sensor_(sensor), can_tilt_(can_tilt) {}
+
+  [[nodiscard]] bool sees(const VoxelIndex& pose, const VoxelIndex& cell) const;
+  [[nodiscard]] bool is_free(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free) == CellTruth::Free; }
+  [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
+  [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
+
+ private:
+  [[nodiscard]] bool ends_on_a_surface(const Eigen::Vector3d& pose_m, const Eigen::Vector3d& cell_m) const;
+
+  const VoxelGrid<CellTruth>& cells_;
+  VoxelFrame frame_;
+  RangeSensor sensor_;
+  bool can_tilt_;
+};
+
+/// The cells of the region that at least one of the poses sees, in raster order.
+[[nodiscard]] std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region,
+                                                 const std::vector<VoxelIndex>& poses, int threads);
+
+}  // namespace vantage

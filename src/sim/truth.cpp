@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/robot/reachable_space.hpp>
+#include <vantage/sim/truth.hpp>
+
+#include "sim/rasterise.hpp"
+#include "sim/sight.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kGrazedShare = 0.02;
+constexpr double kLatticeM = 0.4;
+constexpr double kBeyondM = 25.0;  // further than any preset ranges: surfaces beyond cannot end a ray through the region
+
+OccupancyMapOptions map_options(double resolution_m, const Box& region) {
+  if (!(std::isfinite(resolution_m) && resolution_m > 0.0)) {
+    std::ostringstream message;
+    message << "the resolution is " << resolution_m << " m, must be > 0";
+    throw std::invalid_argument(message.str());
+  }
+  return {.resolution_m = resolution_m, .region = region};
+}
+
+VoxelBox covering(const VoxelFrame& frame, const VoxelBox& region, const Box& mesh) {
+  const Box inner = frame.box_of(region);
+  Box outer{inner.min.cwiseMin(mesh.min), inner.max.cwiseMax(mesh.max)};
+  outer.min = outer.min.cwiseMax(inner.min - Eigen::Vector3d::Constant(kBeyondM));
+  outer.max = outer.max.cwiseMin(inner.max + Eigen::Vector3d::Constant(kBeyondM));
+  return {frame.cell_of(outer.min) - VoxelIndex{1, 1, 1}, frame.cell_of(outer.max) + VoxelIndex{2, 2, 2}};
+}
+
+// The largest set of nonzero cells joined face to face; of equals the first in raster order.
+std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitted) {
+  VoxelGrid<std::uint8_t> seen(admitted.box(), 0);
+  std::vector<VoxelIndex> largest;
+  for_each_cell(admitted.box(), [&](const VoxelIndex& first) {
+    if (admitted[first] == 0 || seen[first] != 0) {
+      return;
+    }
+    std::vector<VoxelIndex> component{first};
+    seen[first] = 1;
+    for (std::size_t next = 0; next < component.size(); ++next) {
+      for (const VoxelIndex& step : kFaceNeighbours) {
+        const VoxelIndex neighbour = component[next] + step;
+        if (admitted.value_or(neighbour, 0) != 0 && seen[neighbour] == 0) {
+          seen[neighbour] = 1;
+          component.push_back(neighbour);
+        }
+      }
+    }
+    if (component.size() > largest.size()) {
+      largest = std::move(component);
+    }
+  });
+  return largest;
+}
+
+}  // namespace
+
+Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(map_options(resolution_m, region)) {
+  region_ = *map_.region();
+  if (region_.empty()) {
+    throw std::invalid_argument("the region holds no cell");
+  }
+  const VoxelFrame& frame = map_.frame();
+  cells_ = VoxelGrid<CellTruth>(covering(frame, region_, world.mesh.bounds()), CellTruth::Free);
+  rasterise(world.mesh, frame, kGrazedShare, cells_);
+  for_each_cell(region_, [&](const VoxelIndex& cell) {
+    map_.set(cell, at(cell) == CellTruth::Free ? Occupancy::Free : Occupancy::Occupied);
+  });
+}
+
+std::optional<Pose> Truth::draw_start(const Platform& platform, std::uint64_t seed) const {
+  const std::vector<VoxelIndex> space = largest_component(platform.admitted_cells(map_, region_));
+  if (space.empty()) {
+    return std::nullopt;
+  }
+  std::mt19937_64 engine(seed);
+  const auto draw = [&engine] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
+  const auto at_random = static_cast<std::size_t>(draw() * static_cast<double>(space.size()));
+  const double yaw_rad = 2.0 * std::numbers::pi * draw();
+  return platform.facing(map_.frame().centre_of(space[at_random]), {std::cos(yaw_rad), std::sin(yaw_rad), 0.0});
+}
+
+std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& start) const {
+  const auto pitch = std::max<std::int32_t>(1, static_cast<std::int32_t>(std::lround(kLatticeM / map_.resolution_m())));
+  const ReachableSpace space(map_, platform, start);
+  std::vector<VoxelIndex> lattice;
+  for (const VoxelIndex& cell : space.cells()) {
+    if (cell == *space.start() || (cell.x % pitch == 0 && cell.y % pitch == 0 && cell.z % pitch == 0)) {
+      lattice.push_back(cell);
+    }
+  }
+  return lattice;
+}
+
+std::vector<VoxelIndex> Truth::observable(const Platform& platform, const RangeSensor& sensor, const Pose& start,
+                                          int threads) const {
+  sensor.validate();
+  const std::vector<VoxelIndex> poses = lattice(platform, start);
+  const Sight sight(cells_, map_.frame(), sensor, platform.can_tilt());
+  return seen_cells(sight, region_, poses, threads);
+}
+
+double Truth::coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const {
+  if (cells.empty()) {
+    return 1.0;
+  }
+  std::size_t right = 0;
+  for (const VoxelIndex& cell : cells) {
+    const Occupancy known = map.at(cell);
+    const CellTruth truth = at(cell);
+    const bool fits = truth == CellTruth::Grazed || (truth == CellTruth::Occupied) == (known == Occupancy::Occupied);
+    right += known != Occupancy::Unknown && fits ? 1U : 0U;
+  }
+  return static_cast<double>(right) / static_cast<double>(cells.size());
+}
+
+}  // namespace vantage
