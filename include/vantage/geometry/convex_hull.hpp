@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+/// The smallest convex body that holds a set of points, by Quickhull (Barber, Dobkin & Huhdanpaa 1996).
+class ConvexHull {
+ public:
+  /// A facet's plane: `normal` (unit, outward) . p + `offset` is the signed distance of p, <= 0 inside.
+  struct Plane {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    double offset = 0.0;
+
+    [[nodiscard]] double distance(const Eigen::Vector3d& point) const { return normal.dot(point) + offset; }
+  };
+
+  /// An empty hull, which holds nothing.
+  ConvexHull() = default;
+  /// The hull of `points`. Points without volume (fewer than four, or all in one plane) give an empty hull, with the
+  /// reason. Throws std::invalid_argument if a coordinate is not finite.
+  explicit ConvexHull(const std::vector<Eigen::Vector3d>& points);
+
+  [[nodiscard]] bool empty() const { return planes_.empty(); }
+  /// Why the hull is empty; empty where it is not.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
+  /// Whether `point` lies in the hull or at most `tolerance` beyond one of its planes.
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point, double tolerance = 1e-9) const;
+
+ private:
+  std::vector<Plane> planes_;
+  std::string reason_ = "there are no points";
+};
+
+}  // namespace vantage

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "apps/map_command.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/map/octomap_bridge.hpp>
+
+namespace vantage::apps {
+namespace {
+
+void print(const nlohmann::json& summary, std::ostream& out) {
+  const nlohmann::json& cells = summary.at("cells");
+  const nlohmann::json& bounds = summary.at("bounds_m");
+  out << summary.at("file").get<std::string>() << '\n'
+      << "  resolution  " << summary.at("resolution_m") << " m\n"
+      << "  free        " << cells.at("free") << " cells, " << cells.at("frontier") << " of them frontier\n"
+      << "  occupied    " << cells.at("occupied") << " cells\n"
+      << "  void        " << cells.at("void") << " cells (unknown, inside the hull of the occupied ones)\n";
+  out << "  bounds     ";
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out << ' ' << kAxes[axis] << ' ' << bounds.at(axis) << " to " << bounds.at(axis + 3) << (axis < 2 ? "," : " m\n");
+  }
+  out << "  memory      " << summary.at("memory_mb") << " MB\n";
+}
+
+}  // namespace
+
+nlohmann::json map_summary(const std::filesystem::path& file) {
+  const OccupancyMap map = load_octomap(file).map;
+  const OccupancyMap::Counts counts = map.counts();
+  const Box bounds = map.frame().box_of(map.bounds());
+  return {{"file", file.string()},
+          {"resolution_m", map.resolution_m()},
+          {"cells",
+           {{"free", counts.free},
+            {"occupied", counts.occupied},
+            {"frontier", count_frontier_cells(map)},
+            {"void", count_void_cells(map)}}},
+          {"bounds_m",
+           {bounds.min.x(), bounds.min.y(), bounds.min.z(), bounds.max.x(), bounds.max.y(), bounds.max.z()}},
+          {"memory_mb", static_cast<double>(map.memory_bytes()) / 1e6}};
+}
+
+int run_map_command(const std::filesystem::path& file, const std::string& json, std::ostream& out) {
+  const nlohmann::json summary = map_summary(file);
+  if (json == "-") {
+    out << summary.dump(2) << '\n';
+    return 0;
+  }
+  if (!json.empty()) {
+    std::ofstream stream(json);
+    stream << summary.dump(2) << '\n';
+    stream.close();
+    if (!stream) {
+      throw std::runtime_error(json + ": cannot be written");
+    }
+  }
+  print(summary, out);
+  return 0;
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vantage/frontier/void_cells.hpp>
+
+namespace vantage {
+namespace {
+
+// The centre of a cell on a facet belongs to the hull; this is what rounding may do to it, in cells.
+constexpr double kOnFacet = 1e-6;
+
+Eigen::Vector3d point_of(const VoxelIndex& cell) { return Eigen::Vector3d(cell.x, cell.y, cell.z); }
+
+// The cells of the row (., y, z) inside the hull: [first, last), by cutting the row with every facet's plane.
+std::pair<std::int32_t, std::int32_t> row_span(const ConvexHull& hull, const VoxelBox& box, std::int32_t y,
+                                               std::int32_t z) {
+  double lo = box.lo.x;
+  double hi = box.hi.x - 1;
+  for (const ConvexHull::Plane& plane : hull.planes()) {
+    const double slope = plane.normal.x();
+    const double rest = plane.distance({0.0, static_cast<double>(y), static_cast<double>(z)}) - kOnFacet;
+    if (std::abs(slope) < 1e-12) {
+      if (rest > 0.0) {
+        return {box.lo.x, box.lo.x};
+      }
+    } else if (slope > 0.0) {
+      hi = std::min(hi, std::floor(-rest / slope));
+    } else {
+      lo = std::max(lo, std::ceil(-rest / slope));
+    }
+  }
+  return lo <= hi ? std::pair(static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi) + 1)
+                  : std::pair(box.lo.x, box.lo.x);
+}
+
+VoxelBox box_around(const ConvexHull& hull, const OccupancyMap& map) {
+  VoxelBox box = map.bounds();
+  if (hull.empty()) {
+    return {};
+  }
+  if (map.region()) {
+    const VoxelBox& region = *map.region();
+    box.lo = {std::max(box.lo.x, region.lo.x), std::max(box.lo.y, region.lo.y), std::max(box.lo.z, region.lo.z)};
+    box.hi = {std::min(box.hi.x, region.hi.x), std::min(box.hi.y, region.hi.y), std::min(box.hi.z, region.hi.z)};
+  }
+  return box;
+}
+
+template <class Visit>
+void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
+  const ConvexHull hull = occupied_hull(map);
+  const VoxelBox box = box_around(hull, map);
+  for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
+    for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
+      const auto [first, last] = row_span(hull, box, y, z);
+      const Brick* brick = nullptr;
+      for (std::int32_t x = first; x < last; ++x) {
+        const VoxelIndex cell{x, y, z};
+        if (x == first || (x & (Brick::kSide - 1)) == 0) {
+          brick = map.find_brick(Brick::of_cell(cell));
+        }
+        if (brick == nullptr || brick->at(Brick::offset_of(cell)) == Occupancy::Unknown) {
+          visit(cell);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ConvexHull occupied_hull(const OccupancyMap& map) {
+  // Only the two ends of a row of occupied cells can be corners of the hull.
+  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>> ends;
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
+        const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
+        auto& row = ends.try_emplace({cell.z, cell.y}, cell.x, cell.x).first->second;
+        row = {std::min(row.first, cell.x), std::max(row.second, cell.x)};
+      });
+    }
+  });
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& [row, xs] : ends) {
+    points.push_back(point_of({xs.first, row.second, row.first}));
+    if (xs.second != xs.first) {
+      points.push_back(point_of({xs.second, row.second, row.first}));
+    }
+  }
+  return ConvexHull(points);
+}
+
+std::vector<VoxelIndex> void_cells(const OccupancyMap& map) {
+  std::vector<VoxelIndex> cells;
+  for_each_void_cell(map, [&](const VoxelIndex& cell) { cells.push_back(cell); });
+  return cells;
+}
+
+std::size_t count_void_cells(const OccupancyMap& map) {
+  std::size_t count = 0;
+  for_each_void_cell(map, [&](const VoxelIndex&) { ++count; });
+  return count;
+}
+
+}  // namespace vantage

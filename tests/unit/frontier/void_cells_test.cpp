@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vantage/frontier/void_cells.hpp>
+
+#include "support/random_maps.hpp"
+
+namespace vantage {
+namespace {
+
+TEST(VoidCells, AreTheUnknownCellsInTheHullCellByCell) {
+  std::mt19937 engine(31);
+  std::size_t void_count = 0;
+  for (int world = 0; world < 12; ++world) {
+    OccupancyMapOptions options{.resolution_m = 0.1};
+    if (world % 2 == 1) {
+      options.region = Box{{-1.1, -0.7, -2.0}, {2.3, 1.9, 0.9}};
+    }
+    OccupancyMap map(options);
+    for (int scan = 0; scan < 3; ++scan) {
+      map.insert(test::random_scan(engine, 60 + 5 * static_cast<std::size_t>(world)));
+    }
+    const ConvexHull hull = occupied_hull(map);
+    ASSERT_FALSE(hull.empty()) << hull.reason();
+    map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+      const Eigen::Vector3d point(cell.x, cell.y, cell.z);
+      EXPECT_TRUE(state != Occupancy::Occupied || hull.contains(point, 1e-6));
+    });
+    std::vector<VoxelIndex> expected;
+    for_each_cell(map.bounds().grown(2), [&](const VoxelIndex& cell) {
+      const Eigen::Vector3d point(cell.x, cell.y, cell.z);
+      if (map.in_region(cell) && map.at(cell) == Occupancy::Unknown && hull.contains(point, 1e-6)) {
+        expected.push_back(cell);
+      }
+    });
+    EXPECT_EQ(void_cells(map), expected);
+    EXPECT_EQ(count_void_cells(map), expected.size());
+    void_count += expected.size();
+  }
+  EXPECT_GT(void_count, 500'000U);
+}
+
+TEST(VoidCells, AFacetBelongsToTheHull) {
+  OccupancyMap map({.resolution_m = 0.1});
+  for (int corner = 0; corner < 8; ++corner) {
+    map.set({4 * (corner & 1), 5 * (corner >> 1 & 1), 6 * (corner >> 2)}, Occupancy::Occupied);
+  }
+  EXPECT_EQ(count_void_cells(map), 5U * 6 * 7 - 8);
+  map.set({1, 1, 1}, Occupancy::Free);
+  EXPECT_EQ(count_void_cells(map), 5U * 6 * 7 - 9);
+}
+
+TEST(VoidCells, WithoutVolumeThereAreNone) {
+  OccupancyMap map;
+  EXPECT_TRUE(void_cells(map).empty());
+  for (std::int32_t i = 0; i < 30; ++i) {
+    map.set({i % 5, i / 5, 3}, Occupancy::Occupied);
+  }
+  EXPECT_TRUE(void_cells(map).empty());
+  EXPECT_EQ(occupied_hull(map).reason(), "all points lie in one plane");
+}
+
+}  // namespace
+}  // namespace vantage
