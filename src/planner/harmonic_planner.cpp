@@ -57,7 +57,7 @@ std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const P
   }
   poses.push_back(goal);
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    if (!platform.admits_motion(map, poses[i - 1], poses[i])) {
+    if (!platform.admits_motion(map, poses[i - 1], poses[i]) || !platform.admits(map, poses[i])) {
       return std::nullopt;
     }
   }
