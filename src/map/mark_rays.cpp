@@ -1,30 +1,101 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map/mark_rays.hpp>
+#include <map/ray_lanes.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 
 namespace vantage {
 namespace {
 
-// VoxelRay with the time along the ray as an integer, in which ties and their order are the same but comparing and adding
-// take one cycle each, and without branches: which axis steps next cannot be predicted.
 class RayMarker {
  public:
   RayMarker(const VoxelFrame& frame, const Eigen::Vector3d& origin, ScanMarks& marks)
-      : frame_(frame),
-        origin_(origin),
-        first_(frame.cell_of(origin)),
-        marks_(marks),
-        passed_(marks.passed()),
-        along_{marks.along(0), marks.along(1), marks.along(2)} {}
+      : frame_(frame), origin_(origin), first_(frame.cell_of(origin)), marks_(marks) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lanes_.mask[axis] = static_cast<std::int64_t>(marks.mask(axis));
+    }
+  }
 
-  // Marks the cells from that of the origin up to, and without, `last`, the cell of `end`.
-  void mark(const Eigen::Vector3d& end, const VoxelIndex& last) {
-    if (marks_.in_window(last)) {
-      mark_in_window(end, last);
+  // Marks the cells from that of the origin up to, and without, the cell of each end. `end_of(i)` is the i-th of `count`.
+  template <class EndOf>
+  void mark(std::size_t count, EndOf&& end_of) {
+    // Neighbours in the list mark the same words, and would wait for each other: each lane takes its own part of it.
+    std::array<std::size_t, RayLanes::kLanes> ray{};
+    std::array<std::size_t, RayLanes::kLanes> ray_end{};
+    left_.fill(0);
+    for (std::size_t lane = 0; lane < RayLanes::kLanes; ++lane) {
+      ray[lane] = count * lane / RayLanes::kLanes;
+      ray_end[lane] = count * (lane + 1) / RayLanes::kLanes;
+    }
+    while (true) {
+      std::int64_t steps = kNoRay;
+      for (std::size_t lane = 0; lane < RayLanes::kLanes; ++lane) {
+        while (left_[lane] == 0) {
+          if (ray[lane] == ray_end[lane]) {
+            park(lane);
+          } else {
+            start(lane, end_of(ray[lane]++));
+          }
+        }
+        steps = std::min(steps, left_[lane]);
+      }
+      if (steps == kNoRay) {
+        return;
+      }
+      lanes_.walk(steps, marks_.passed());
+      for (std::int64_t& left : left_) {
+        left -= left == kNoRay ? 0 : steps;
+      }
+    }
+  }
+
+ private:
+  static constexpr double kUnit = 0x1p60;  // the time of the end of a ray; leaves room for a step beyond it
+  static constexpr std::int64_t kNever = std::int64_t{1} << 62U;
+  static constexpr std::int64_t kNoRay = std::numeric_limits<std::int64_t>::max();
+
+  void park(std::size_t lane) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lanes_.at[axis][lane] = lanes_.step[axis][lane] = lanes_.next[axis][lane] = lanes_.delta[axis][lane] = 0;
+    }
+    lanes_.base[lane] = static_cast<std::int64_t>(marks_.nowhere());
+    left_[lane] = kNoRay;
+  }
+
+  void start(std::size_t lane, const Eigen::Vector3d& end) {
+    const VoxelIndex last = frame_.cell_of(end);
+    if (!marks_.in_window(last)) {
+      mark_far(end, last);
       return;
     }
+    lanes_.base[lane] = 0;
+    left_[lane] = start(lane, 0, origin_.x(), end.x(), first_.x, last.x) +
+                  start(lane, 1, origin_.y(), end.y(), first_.y, last.y) +
+                  start(lane, 2, origin_.z(), end.z(), first_.z, last.z);
+  }
+
+  // One axis of a ray; returns how many faces it crosses.
+  std::int64_t start(std::size_t lane, std::size_t axis, double from, double to, std::int32_t first, std::int32_t last) {
+    const std::uint64_t mask = marks_.mask(axis);
+    const std::uint64_t one = std::uint64_t{1} << 2U * axis;
+    const bool up = last > first;
+    lanes_.at[axis][lane] = static_cast<std::int64_t>(marks_.part(axis, first));
+    lanes_.step[axis][lane] = static_cast<std::int64_t>(up ? ~mask + one : ~one + 1);
+    if (first == last) {
+      lanes_.next[axis][lane] = kNever;
+      lanes_.delta[axis][lane] = 0;
+      return 0;
+    }
+    const double scale = kUnit / (to - from);
+    const double face_m = (first + (up ? 1 : 0)) * frame_.size_m;
+    lanes_.next[axis][lane] = static_cast<std::int64_t>((face_m - from) * scale);
+    lanes_.delta[axis][lane] = static_cast<std::int64_t>(std::min(frame_.size_m * std::abs(scale), 2.0 * kUnit));
+    return std::abs(last - first);
+  }
+
+  void mark_far(const Eigen::Vector3d& end, const VoxelIndex& last) {
     for (const VoxelIndex& cell : VoxelRay(frame_, origin_, end)) {
       if (cell != last) {
         marks_.mark_passed(cell);
@@ -32,70 +103,36 @@ class RayMarker {
     }
   }
 
- private:
-  using Time = std::int64_t;
-  static constexpr double kUnit = 0x1p60;  // the end of the ray; leaves room for a step beyond it
-  static constexpr Time kNever = Time{1} << 62U;
-
-  struct Axis {
-    Time next;
-    Time delta;
-    std::int64_t sign;
-    std::size_t at;
-  };
-  [[nodiscard]] Axis axis(double from, double to, std::int32_t first, std::int32_t last, std::int32_t lo) const {
-    Axis a{kNever, 0, last >= first ? 1 : -1, static_cast<std::size_t>(first - lo)};
-    if (first != last) {
-      const double scale = kUnit / (to - from);
-      const double face_m = (first + (a.sign > 0 ? 1 : 0)) * frame_.size_m;
-      a.next = static_cast<Time>((face_m - from) * scale);
-      a.delta = static_cast<Time>(std::min(frame_.size_m * std::abs(scale), 2.0 * kUnit));  // beyond the end is enough
-    }
-    return a;
-  }
-
-  void mark_in_window(const Eigen::Vector3d& end, const VoxelIndex& last) {
-    const VoxelIndex lo = marks_.window().lo;
-    Axis x = axis(origin_.x(), end.x(), first_.x, last.x, lo.x);
-    Axis y = axis(origin_.y(), end.y(), first_.y, last.y, lo.y);
-    Axis z = axis(origin_.z(), end.z(), first_.z, last.z, lo.z);
-    const std::int32_t steps = std::abs(last.x - first_.x) + std::abs(last.y - first_.y) + std::abs(last.z - first_.z);
-    for (std::int32_t step = 0; step < steps; ++step) {
-      const std::size_t position = std::size_t{along_[0][x.at]} + along_[1][y.at] + along_[2][z.at];
-      passed_[position >> 6U] |= std::uint64_t{1} << (position & 63U);
-      const std::int64_t step_x = -static_cast<std::int64_t>((x.next <= y.next) & (x.next <= z.next));
-      const std::int64_t step_y = ~step_x & -static_cast<std::int64_t>(y.next <= z.next);
-      const std::int64_t step_z = ~step_x & ~step_y;
-      x.next += x.delta & step_x;
-      y.next += y.delta & step_y;
-      z.next += z.delta & step_z;
-      x.at += static_cast<std::size_t>(x.sign & step_x);
-      y.at += static_cast<std::size_t>(y.sign & step_y);
-      z.at += static_cast<std::size_t>(z.sign & step_z);
-    }
-  }
-
   const VoxelFrame& frame_;
   Eigen::Vector3d origin_;
   VoxelIndex first_;
   ScanMarks& marks_;
-  std::uint64_t* passed_;
-  std::array<const std::uint32_t*, 3> along_;
+  RayLanes lanes_;
+  std::array<std::int64_t, RayLanes::kLanes> left_{};  // steps to the end of the lane's ray
 };
 
 }  // namespace
 
 void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, ScanMarks& marks) {
   RayMarker marker(frame, rays.origin, marks);
+  if (policy == RayPolicy::EveryReturn) {
+    for (const ScanRay& ray : rays.rays) {
+      if (ray.hits) {
+        marks.mark_hit(frame.cell_of(ray.end));
+      }
+    }
+    marker.mark(rays.rays.size(), [&](std::size_t i) { return rays.rays[i].end; });
+    return;
+  }
+  std::vector<Eigen::Vector3d> ends;
   for (const ScanRay& ray : rays.rays) {
-    const VoxelIndex last = frame.cell_of(ray.end);
-    const bool is_new = ray.hits && marks.mark_hit(last);
-    if (!ray.hits || policy == RayPolicy::EveryReturn) {
-      marker.mark(ray.end, last);
-    } else if (is_new) {
-      marker.mark(frame.centre_of(last), last);
+    if (!ray.hits) {
+      ends.push_back(ray.end);
+    } else if (marks.mark_hit(frame.cell_of(ray.end))) {
+      ends.push_back(frame.centre_of(frame.cell_of(ray.end)));
     }
   }
+  marker.mark(ends.size(), [&](std::size_t i) { return ends[i]; });
 }
 
 }  // namespace vantage

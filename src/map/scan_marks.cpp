@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <map/scan_marks.hpp>
 #include <new>
 
 namespace vantage {
 namespace {
+
+// Bits that hold the numbers below `count`.
+unsigned bits_for(std::int32_t count) { return static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(count - 1))); }
 
 // The bricks of `cells`; if they hold too many cells, those within the largest distance of `origin` that does not.
 VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
@@ -18,7 +23,7 @@ VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
   };
   const auto fits = [](const VoxelBox& box) {
     const VoxelIndex extent = box.extent();
-    return static_cast<double>(extent.x) * extent.y * extent.z * static_cast<double>(Brick::kCells) <=
+    return std::ldexp(extent.z, static_cast<int>(9 + bits_for(extent.x) + bits_for(extent.y))) <=
            static_cast<double>(ScanMarks::kMaxWindow);
   };
   std::int32_t reach = (kFurthestVoxel >> 3) + 1;
@@ -33,19 +38,10 @@ VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
 ScanMarks::ScanMarks(const VoxelBox& cells, const VoxelIndex& origin) : bricks_(bricks_around(cells, origin)) {
   window_ = {Brick::first_cell(bricks_.lo), Brick::first_cell(bricks_.hi)};
   const VoxelIndex extent = bricks_.extent();
-  const VoxelIndex size = window_.extent();
-  const std::array<std::int32_t, 3> sizes{size.x, size.y, size.z};
-  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(extent.x),
-                                          static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y)};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    along_[axis].resize(static_cast<std::size_t>(sizes[axis]));
-    for (std::size_t i = 0; i < along_[axis].size(); ++i) {
-      const std::size_t in_brick = (i & 3U) << 2U * axis | (i >> 2U & 1U) << (6U + axis);
-      along_[axis][i] = static_cast<std::uint32_t>((i >> 3U) * stride[axis] * Brick::kCells + in_brick);
-    }
-  }
-  passed_ = zeros(bricks_.size() * Brick::kWords);
-  hit_ = zeros(bricks_.size() * Brick::kWords);
+  shift_ = {9, 9 + bits_for(extent.x), 9 + bits_for(extent.x) + bits_for(extent.y)};
+  words_ = (static_cast<std::size_t>(extent.z) << shift_[2]) / 64;
+  passed_ = zeros(words_ + 1);
+  hit_ = zeros(words_);
 }
 
 // Not a vector: pages of calloc that no ray touches are never written.

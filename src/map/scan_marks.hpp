@@ -18,8 +18,11 @@ struct BrickMarks {
   std::array<std::uint64_t, Brick::kWords> hit{};
 };
 
-/// The cells that a scan touches, as bit planes in the layout of bricks: a dense window around the scan, in which a
-/// cell is found by three table look-ups, and a hash table for what a few far rays touch outside of it.
+/// The cells that a scan touches, as bit planes in the layout of bricks: a dense window around the scan, and a hash table
+/// for what a few far rays touch outside of it.
+///
+/// The position of a cell of the window, word * 64 + bit, is the sum of one part for each axis, and the parts have no bits
+/// in common: rows and columns of bricks are padded to powers of two.
 class ScanMarks {
  public:
   /// The largest window, in cells: one plane of it takes 128 MiB of address space, of which only what is touched counts.
@@ -31,13 +34,22 @@ class ScanMarks {
   /// The cells of the window.
   [[nodiscard]] const VoxelBox& window() const { return window_; }
   [[nodiscard]] bool in_window(const VoxelIndex& cell) const { return window_.contains(cell); }
-  /// Position of a cell of the window: word * 64 + bit is the sum of one entry for each axis, at (cell - window().lo).
-  [[nodiscard]] std::size_t position_of(const VoxelIndex& cell) const {
-    const VoxelIndex at = cell - window_.lo;
-    return std::size_t{along_[0][static_cast<std::size_t>(at.x)]} + along_[1][static_cast<std::size_t>(at.y)] +
-           along_[2][static_cast<std::size_t>(at.z)];
+  /// The part of the position that stands for a coordinate of a cell of the window.
+  [[nodiscard]] std::uint64_t part(std::size_t axis, std::int32_t coordinate) const {
+    const std::array<std::int32_t, 3> lo{window_.lo.x, window_.lo.y, window_.lo.z};
+    const auto at = static_cast<std::uint64_t>(coordinate - lo[axis]);
+    return (at & 3U) << 2U * axis | (at >> 2U & 1U) << (6U + axis) | at >> 3U << shift_[axis];
   }
-  [[nodiscard]] const std::uint32_t* along(std::size_t axis) const { return along_[axis].data(); }
+  /// The bits of a position that belong to an axis.
+  [[nodiscard]] std::uint64_t mask(std::size_t axis) const {
+    const std::uint64_t bricks = axis == 2 ? ~std::uint64_t{0} : (std::uint64_t{1} << (shift_[axis + 1] - shift_[axis])) - 1;
+    return std::uint64_t{3} << 2U * axis | std::uint64_t{1} << (6U + axis) | bricks << shift_[axis];
+  }
+  [[nodiscard]] std::uint64_t position_of(const VoxelIndex& cell) const {
+    return part(0, cell.x) | part(1, cell.y) | part(2, cell.z);
+  }
+  /// A position behind the window, for marks that nobody reads.
+  [[nodiscard]] std::uint64_t nowhere() const { return words_ * 64; }
   [[nodiscard]] std::uint64_t* passed() { return passed_.get(); }
   [[nodiscard]] std::uint64_t* hit() { return hit_.get(); }
 
@@ -48,9 +60,10 @@ class ScanMarks {
   /// Calls `visit(brick address, passed words, hit words)` for each brick that holds a mark, always in the same order.
   template <class Visit>
   void for_each_marked_brick(Visit&& visit) const {
-    const std::uint64_t* passed = passed_.get();
-    const std::uint64_t* hit = hit_.get();
     for_each_cell(bricks_, [&](const VoxelIndex& brick) {
+      const std::uint64_t first = position_of(Brick::first_cell(brick)) >> 6U;
+      const std::uint64_t* passed = &passed_[first];
+      const std::uint64_t* hit = &hit_[first];
       std::uint64_t any = 0;
       for (std::size_t word = 0; word < Brick::kWords; ++word) {
         any |= passed[word] | hit[word];
@@ -58,8 +71,6 @@ class ScanMarks {
       if (any != 0) {
         visit(brick, passed, hit);
       }
-      passed += Brick::kWords;
-      hit += Brick::kWords;
     });
     for (const VoxelIndex& brick : far_order_) {
       const BrickMarks& marks = far_.at(brick);
@@ -77,7 +88,7 @@ class ScanMarks {
   BrickMarks& far_brick(const VoxelIndex& brick);
   bool mark(const VoxelIndex& cell, std::uint64_t* plane, std::array<std::uint64_t, Brick::kWords> BrickMarks::*far_plane) {
     const bool near = in_window(cell);
-    const std::size_t position = near ? position_of(cell) : Brick::offset_of(cell);
+    const std::uint64_t position = near ? position_of(cell) : Brick::offset_of(cell);
     std::uint64_t& word = near ? plane[position >> 6U] : (far_brick(Brick::of_cell(cell)).*far_plane)[position >> 6U];
     const std::uint64_t bit = std::uint64_t{1} << (position & 63U);
     const bool is_new = (word & bit) == 0;
@@ -87,7 +98,8 @@ class ScanMarks {
 
   VoxelBox bricks_;
   VoxelBox window_;
-  std::array<std::vector<std::uint32_t>, 3> along_;
+  std::array<unsigned, 3> shift_{};  // of the brick's coordinate in a position
+  std::size_t words_ = 0;
   Plane passed_;
   Plane hit_;
   std::unordered_map<VoxelIndex, BrickMarks> far_;
