@@ -18,9 +18,9 @@ class RayMarker {
     }
   }
 
-  // Marks the cells from that of the origin up to, and without, the cell of each end. `end_of(i)` is the i-th of `count`.
-  template <class EndOf>
-  void mark(std::size_t count, EndOf&& end_of) {
+  // Marks the cells of each ray, from that of the origin up to, and without, that of its end.
+  void mark(const std::vector<ScanRay>& rays) {
+    const std::size_t count = rays.size();
     // Neighbours in the list mark the same words, and would wait for each other: each lane takes its own part of it.
     std::array<std::size_t, RayLanes::kLanes> ray{};
     std::array<std::size_t, RayLanes::kLanes> ray_end{};
@@ -36,7 +36,7 @@ class RayMarker {
           if (ray[lane] == ray_end[lane]) {
             park(lane);
           } else {
-            start(lane, end_of(ray[lane]++));
+            start(lane, rays[ray[lane]++]);
           }
         }
         steps = std::min(steps, left_[lane]);
@@ -64,8 +64,9 @@ class RayMarker {
     left_[lane] = kNoRay;
   }
 
-  void start(std::size_t lane, const Eigen::Vector3d& end) {
-    const VoxelIndex last = frame_.cell_of(end);
+  void start(std::size_t lane, const ScanRay& ray) {
+    const Eigen::Vector3d& end = ray.end;
+    const VoxelIndex& last = ray.cell;
     if (!marks_.in_window(last)) {
       mark_far(end, last);
       return;
@@ -118,21 +119,21 @@ void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, 
   if (policy == RayPolicy::EveryReturn) {
     for (const ScanRay& ray : rays.rays) {
       if (ray.hits) {
-        marks.mark_hit(frame.cell_of(ray.end));
+        marks.mark_hit(ray.cell);
       }
     }
-    marker.mark(rays.rays.size(), [&](std::size_t i) { return rays.rays[i].end; });
+    marker.mark(rays.rays);
     return;
   }
-  std::vector<Eigen::Vector3d> ends;
+  std::vector<ScanRay> drawn;
   for (const ScanRay& ray : rays.rays) {
     if (!ray.hits) {
-      ends.push_back(ray.end);
-    } else if (marks.mark_hit(frame.cell_of(ray.end))) {
-      ends.push_back(frame.centre_of(frame.cell_of(ray.end)));
+      drawn.push_back(ray);
+    } else if (marks.mark_hit(ray.cell)) {
+      drawn.push_back({frame.centre_of(ray.cell), ray.cell, true});
     }
   }
-  marker.mark(ends.size(), [&](std::size_t i) { return ends[i]; });
+  marker.mark(drawn);
 }
 
 }  // namespace vantage

@@ -20,7 +20,8 @@ void validate(const Scan& scan) {
 class RayCollector {
  public:
   RayCollector(const Scan& scan, const VoxelFrame& frame, ScanRays& rays)
-      : max_range_m_(scan.max_range_m),
+      : frame_(frame),
+        max_range_m_(scan.max_range_m),
         rotation_(scan.world_from_sensor.linear()),
         origin_(scan.world_from_sensor.translation()),
         furthest_m_(frame.size_m * kFurthestVoxel),
@@ -49,12 +50,13 @@ class RayCollector {
       return;
     }
     ++(ends_here ? report.hits : is_return ? report.beyond_range : report.no_return);
-    rays_.rays.push_back({end, ends_here});
+    rays_.rays.push_back({end, frame_.cell_of(end), ends_here});
     ends_.extend(end);
   }
   [[nodiscard]] const Box& ends() const { return ends_; }
 
  private:
+  VoxelFrame frame_;
   double max_range_m_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;

@@ -8,9 +8,10 @@
 
 namespace vantage {
 
-/// A ray of a scan: where it ends, in metres, in the world.
+/// A ray of a scan: where it ends, in metres, in the world, and in which cell.
 struct ScanRay {
   Eigen::Vector3d end;
+  VoxelIndex cell;
   bool hits;  ///< whether it ended there by a return; else it only clears
 };
 

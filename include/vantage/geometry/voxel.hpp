@@ -122,7 +122,9 @@ struct VoxelFrame {
 
  private:
   [[nodiscard]] std::int32_t coordinate_of(double metres) const {
-    return static_cast<std::int32_t>(std::floor(metres / size_m));
+    const double cells = metres / size_m;
+    const auto towards_zero = static_cast<std::int32_t>(cells);  // std::floor is a call before SSE 4.1
+    return towards_zero - (towards_zero > cells ? 1 : 0);
   }
 };
 
