@@ -14,7 +14,7 @@ class ScanInserter {
       : map_(map), model_{map.hit_steps_, map.miss_steps_, map.min_steps_, map.max_steps_} {}
 
   ScanReport insert(const Scan& scan, RayPolicy policy) {
-    const ScanRays rays = rays_of(scan, map_.frame_);
+    const ScanRays rays = rays_of(scan, map_.frame_, policy);
     report_ = rays.report;
     ++map_.revision_;
     if (!rays.rays.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map/scan_rays.hpp>
 #include <stdexcept>
 #include <string>
@@ -19,9 +20,11 @@ void validate(const Scan& scan) {
 
 class RayCollector {
  public:
-  RayCollector(const Scan& scan, const VoxelFrame& frame, ScanRays& rays)
+  RayCollector(const Scan& scan, const VoxelFrame& frame, RayPolicy policy, ScanRays& rays)
       : frame_(frame),
+        each_end_cell_(policy == RayPolicy::EachEndCell),
         max_range_m_(scan.max_range_m),
+        unlimited_(std::isinf(scan.max_range_m)),
         rotation_(scan.world_from_sensor.linear()),
         origin_(scan.world_from_sensor.translation()),
         furthest_m_(frame.size_m * kFurthestVoxel),
@@ -41,39 +44,49 @@ class RayCollector {
       ++report.zero_length;
       return;
     }
-    const double range_m = std::sqrt(squared_m2);
-    const bool ends_here = is_return && range_m <= max_range_m_;
-    const Eigen::Vector3d reach = ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (max_range_m_ / range_m));
+    bool ends_here = is_return;
+    Eigen::Vector3d reach = point_sensor;
+    if (!is_return || !unlimited_) {
+      const double range_m = std::sqrt(squared_m2);
+      ends_here = is_return && range_m <= max_range_m_;
+      reach = ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (max_range_m_ / range_m));
+    }
     const Eigen::Vector3d end = rotation_ * reach + origin_;
     if (!origin_addressable_ || !(end.array().abs() <= furthest_m_).all()) {
       ++report.not_addressable;
       return;
     }
     ++(ends_here ? report.hits : is_return ? report.beyond_range : report.no_return);
-    rays_.rays.push_back({end, frame_.cell_of(end), ends_here});
-    ends_.extend(end);
+    const VoxelIndex cell = frame_.cell_of(end);
+    const bool known = each_end_cell_ && ends_here && !rays_.rays.empty() && rays_.rays.back().hits &&
+                       rays_.rays.back().cell == cell;
+    if (!known) {
+      rays_.rays.push_back({end, cell, ends_here});
+    }
   }
-  [[nodiscard]] const Box& ends() const { return ends_; }
 
  private:
   VoxelFrame frame_;
+  bool each_end_cell_;
   double max_range_m_;
+  bool unlimited_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
   double furthest_m_;
   bool origin_addressable_;
   ScanRays& rays_;
-  Box ends_;
 };
 
 }  // namespace
 
-ScanRays rays_of(const Scan& scan, const VoxelFrame& frame) {
+ScanRays rays_of(const Scan& scan, const VoxelFrame& frame, RayPolicy policy) {
   validate(scan);
   ScanRays rays;
   rays.origin = scan.world_from_sensor.translation();
-  rays.rays.reserve(scan.points.size() + scan.no_return.size());
-  RayCollector collector(scan, frame, rays);
+  if (policy == RayPolicy::EveryReturn) {
+    rays.rays.reserve(scan.points.size() + scan.no_return.size());
+  }
+  RayCollector collector(scan, frame, policy, rays);
   for (const Eigen::Vector3f& point : scan.points) {
     collector.add(point, true);
   }
@@ -81,9 +94,13 @@ ScanRays rays_of(const Scan& scan, const VoxelFrame& frame) {
     collector.add(direction, false);
   }
   if (!rays.rays.empty()) {
-    Box box = collector.ends();
-    box.extend(rays.origin);
-    rays.cells = {frame.cell_of(box.min), frame.cell_of(box.max) + VoxelIndex{1, 1, 1}};
+    VoxelIndex lo = frame.cell_of(rays.origin);
+    VoxelIndex hi = lo;
+    for (const ScanRay& ray : rays.rays) {
+      lo = {std::min(lo.x, ray.cell.x), std::min(lo.y, ray.cell.y), std::min(lo.z, ray.cell.z)};
+      hi = {std::max(hi.x, ray.cell.x), std::max(hi.y, ray.cell.y), std::max(hi.z, ray.cell.z)};
+    }
+    rays.cells = {lo, hi + VoxelIndex{1, 1, 1}};
   }
   return rays;
 }

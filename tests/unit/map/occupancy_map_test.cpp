@@ -67,26 +67,95 @@ TEST(OccupancyMap, LogOddsStayWithinTheClamps) {
   EXPECT_NEAR(map.log_odds({3, 0, 0}).value(), -2.0, 1e-12);
 }
 
+// A depth image of a random scene: every pixel meets one of a few planes, and some have no measurement.
+Scan random_depth_image(std::mt19937& engine) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Scan scan;
+  scan.width = 32;
+  scan.height = 24;
+  scan.world_from_sensor = pose_looking({2 * unit(engine), 2 * unit(engine), unit(engine)}, 3 * unit(engine), unit(engine));
+  std::array<Eigen::Vector3d, 3> planes;  // n with n . p = 1
+  for (Eigen::Vector3d& plane : planes) {
+    plane = {0.3 * unit(engine), 0.3 * unit(engine), 0.5 + 0.3 * unit(engine)};
+  }
+  for (std::size_t i = 0; i < scan.width * scan.height; ++i) {
+    const Eigen::Vector3d pixel((static_cast<double>(i % scan.width) - 15.5) / 26.0,
+                                (static_cast<double>(i / scan.width) - 11.5) / 26.0, 1.0);
+    double depth_m = 6.0;
+    for (const Eigen::Vector3d& plane : planes) {
+      const double inverse = plane.dot(pixel);
+      depth_m = inverse > 0.0 ? std::min(depth_m, 1.0 / inverse) : depth_m;
+    }
+    const Eigen::Vector3f point = (pixel * depth_m).cast<float>();
+    const bool is_hole = unit(engine) > 0.8;
+    scan.points.push_back(is_hole ? Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()) : point);
+    if (is_hole && unit(engine) > 0.5) {
+      scan.no_return.push_back(pixel.cast<float>());
+    }
+  }
+  scan.max_range_m = 4.0;
+  return scan;
+}
+
+std::size_t compare_with_definition(const Scan& scan, const OccupancyMapOptions& options, RayPolicy policy) {
+  OccupancyMap map(options);
+  const ScanCells expected = scan_cells(scan, map.frame(), policy, map.region());
+  const ScanReport report = map.insert(scan, policy);
+  EXPECT_EQ(report.hits, expected.report.hits);
+  EXPECT_EQ(report.beyond_range, expected.report.beyond_range);
+  EXPECT_EQ(report.no_return, expected.report.no_return);
+  EXPECT_EQ(report.not_finite, expected.report.not_finite);
+  EXPECT_EQ(report.cells_hit, expected.hit.size());
+  EXPECT_EQ(report.cells_cleared, expected.cleared.size());
+  EXPECT_EQ(report.cells_changed, expected.hit.size() + expected.cleared.size());
+  std::size_t known = 0;
+  std::size_t wrong = 0;
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+    wrong += (occupancy == Occupancy::Occupied ? expected.hit : expected.cleared).contains(cell) ? 0U : 1U;
+    ++known;
+  });
+  EXPECT_EQ(wrong, 0U);
+  EXPECT_EQ(known, expected.hit.size() + expected.cleared.size());
+  return known;
+}
+
 TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCells) {
   std::mt19937 engine(1);
   std::size_t cells_compared = 0;
   for (int world = 0; world < 20; ++world) {
     for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
-      OccupancyMap map({.resolution_m = 0.1});
-      const Scan scan = random_scan(engine, 200);
-      const ScanCells expected = scan_cells(scan, map.frame(), policy);
-      const ScanReport report = map.insert(scan, policy);
-      EXPECT_EQ(report.cells_hit, expected.hit.size());
-      EXPECT_EQ(report.cells_cleared, expected.cleared.size());
-      map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
-        EXPECT_EQ(expected.hit.count(cell), occupancy == Occupancy::Occupied ? 1U : 0U);
-        EXPECT_EQ(expected.cleared.count(cell), occupancy == Occupancy::Free ? 1U : 0U);
-        ++cells_compared;
-      });
-      EXPECT_EQ(map.counts().occupied + map.counts().free, expected.hit.size() + expected.cleared.size());
+      cells_compared += compare_with_definition(random_scan(engine, 200), {.resolution_m = 0.1}, policy);
     }
   }
   EXPECT_GT(cells_compared, 50'000U);
+}
+
+TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCellsOfADepthImage) {
+  std::mt19937 engine(4);
+  std::size_t cells_compared = 0;
+  for (int world = 0; world < 12; ++world) {
+    const Scan scan = random_depth_image(engine);
+    for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
+      for (const double resolution_m : {0.03, 0.1, 0.37}) {
+        cells_compared += compare_with_definition(scan, {.resolution_m = resolution_m}, policy);
+        // A region that holds the sensor in about half of the worlds.
+        const Box region{{-3.0, -1.5, -0.5}, {0.1, 2.0, 1.7}};
+        cells_compared += compare_with_definition(scan, {.resolution_m = resolution_m, .region = region}, policy);
+      }
+    }
+  }
+  EXPECT_GT(cells_compared, 500'000U);
+}
+
+TEST(OccupancyMap, ARayFarBeyondTheOthersIsDrawnLikeThem) {
+  std::mt19937 engine(5);
+  Scan scan = random_scan(engine, 50);
+  scan.max_range_m = std::numeric_limits<double>::infinity();
+  scan.no_return.clear();
+  scan.points.push_back({300.0F, 200.0F, 400.0F});  // a window over this one would be too large
+  scan.points.push_back({-3.0F, -200.0F, 400.0F});
+  EXPECT_GT(compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EveryReturn), 10'000U);
+  EXPECT_GT(compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EachEndCell), 10'000U);
 }
 
 TEST(OccupancyMap, ChangedSinceNamesExactlyTheBricksWithAChangedState) {
