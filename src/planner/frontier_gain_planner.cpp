@@ -97,7 +97,7 @@ Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {
     return cycle.blocked("no hypothesised pose sees a frontier");
   }
   const std::vector<VoxelIndex> way =
-      GridPaths(survey.reachable, map.frame()).to(map.frame().cell_of(best->view.pose.translation()));
+      GridPaths(survey.reachable).to(map.frame().cell_of(best->view.pose.translation()));
   return cycle.go(std::move(*best), way);
 }
 

@@ -130,7 +130,7 @@ std::vector<VoxelIndex> HarmonicPlanner::way_down(const OccupancyMap& map, const
   const LaplaceProblem& problem = field_->problem;
   const VoxelFrame& frame = map.frame();
   if (!field_->followed) {
-    return GridPaths(survey.reachable, frame).to_nearest(viewpoints(survey));
+    return GridPaths(survey.reachable).to_nearest(viewpoints(survey));
   }
   const VoxelIndex start = problem.cell(problem.source());
   const bool inside = frame.cell_of(current.translation()) == start;
@@ -144,7 +144,7 @@ std::vector<VoxelIndex> HarmonicPlanner::way_down(const OccupancyMap& map, const
     }
     field_->streamline = std::move(*curve);
     field_->streamline.push_back(frame.centre_of(cells.back()));
-    return GridPaths(survey.reachable, frame).to(cells.back());
+    return GridPaths(survey.reachable).to(cells.back());
   }
   std::vector<VoxelIndex> cells;
   for (const Position position : descend(problem, field_->phi, problem.source()).cells) {

@@ -25,7 +25,7 @@ Plan NearestFrontierPlanner::plan(const OccupancyMap& map, const Pose& current) 
   for (const FrontierTarget& target : survey.targets) {
     viewpoints.push_back(target.viewpoint);
   }
-  const std::vector<VoxelIndex> way = GridPaths(survey.reachable, map.frame()).to_nearest(viewpoints);
+  const std::vector<VoxelIndex> way = GridPaths(survey.reachable).to_nearest(viewpoints);
   const auto nearest = std::find_if(survey.targets.begin(), survey.targets.end(), [&](const FrontierTarget& target) {
     return target.viewpoint == way.back();
   });

@@ -144,6 +144,7 @@ RangeSensor RangeSensor::preset(std::string_view name) {
 const std::vector<std::string_view>& RangeSensor::preset_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all;
+    all.reserve(kPresets.size());
     for (const Preset& preset : kPresets) {
       all.push_back(preset.first);
     }

@@ -161,7 +161,7 @@ std::optional<std::vector<Pose>> grid_path(const OccupancyMap& map, const Platfo
     return std::nullopt;
   }
   const ReachableSpace space(map, platform, from);
-  const std::vector<VoxelIndex> cells = GridPaths(space, map.frame()).to(map.frame().cell_of(to.translation()));
+  const std::vector<VoxelIndex> cells = GridPaths(space).to(map.frame().cell_of(to.translation()));
   if (cells.empty()) {
     return std::nullopt;
   }

@@ -29,6 +29,7 @@ enum class LaplaceCell : std::uint8_t {
 /// counted. A plane of cells makes the two-dimensional problem: the faces above and below are closed like any other.
 class LaplaceProblem {
  public:
+  /// Number of a cell of the problem, in [0, size()).
   using Position = std::int32_t;
   /// In place of a neighbour: there is none, the face is closed.
   static constexpr Position kClosed = -1;
@@ -37,18 +38,23 @@ class LaplaceProblem {
   /// naming what does not fit. There may be no sinks at all (phi is then 1 everywhere).
   LaplaceProblem(std::vector<VoxelIndex> cells, std::span<const VoxelIndex> sinks, const VoxelIndex& source);
 
+  /// How many cells the problem has.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
   /// The domain, ordered by z, then y, then x.
   [[nodiscard]] const std::vector<VoxelIndex>& cells() const { return cells_; }
+  /// What the cell at this position is.
   [[nodiscard]] LaplaceCell kind(Position position) const { return kinds_[static_cast<std::size_t>(position)]; }
   /// Positions of the neighbours in the order of kFaceNeighbours, kClosed where the face is closed.
   [[nodiscard]] const std::array<Position, 6>& neighbours(Position position) const {
     return neighbours_[static_cast<std::size_t>(position)];
   }
+  /// The cell at this position.
   [[nodiscard]] const VoxelIndex& cell(Position position) const { return cells_[static_cast<std::size_t>(position)]; }
   /// Where a cell is in the list; none if it is not in the domain. Logarithmic.
   [[nodiscard]] std::optional<Position> position_of(const VoxelIndex& cell) const;
+  /// Position of the sensor's cell, where the potential is 1.
   [[nodiscard]] Position source() const { return source_; }
+  /// How many frontier cells the problem has, where the potential is 0.
   [[nodiscard]] std::size_t sink_count() const { return sink_count_; }
   /// Cells given that are not joined to the source through faces.
   [[nodiscard]] std::size_t dropped_cells() const { return dropped_; }

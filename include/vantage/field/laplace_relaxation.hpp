@@ -26,8 +26,8 @@ enum class SweepOrder : std::uint8_t {
 
 /// Options of LaplaceRelaxation; the defaults are the paper's method.
 struct RelaxationOptions {
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;
-  SweepOrder order = SweepOrder::Lexicographic;
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
+  SweepOrder order = SweepOrder::Lexicographic;  ///< in which order the cells are visited
   double tolerance = 1e-4;          ///< stop when the largest relative change of a sweep is below it (eq. 10), > 0
   std::size_t max_sweeps = 100000;  ///< give up after so many, > 0
   double over_relaxation = 1.0;     ///< in (0, 2); 1 is Gauss-Seidel, more goes further (SOR)
@@ -48,17 +48,17 @@ enum class LaplaceStop : std::uint8_t { Converged, SweepLimit };
 
 /// What a solver did.
 struct LaplaceReport {
-  LaplaceStop stop = LaplaceStop::SweepLimit;
-  std::size_t sweeps = 0;
+  LaplaceStop stop = LaplaceStop::SweepLimit;  ///< why it ended
+  std::size_t sweeps = 0;  ///< passes over all cells
   double last_change = 0.0;         ///< largest relative change in the last sweep (eq. 10)
-  std::uint64_t cell_updates = 0;
-  double seconds = 0.0;
+  std::uint64_t cell_updates = 0;  ///< cells computed anew, over all sweeps
+  double seconds = 0.0;  ///< wall time
 };
 
 /// The field and how it was found.
 struct LaplaceSolution {
   std::vector<double> phi;  ///< by position in the problem
-  LaplaceReport report;
+  LaplaceReport report;  ///< how the solution came about
 };
 
 /// The finite difference relaxation of Shade & Newman 2011, IV-C: each interior cell in turn takes the mean of its
@@ -83,6 +83,7 @@ class LaplaceRelaxation {
 
   /// By position in the problem.
   [[nodiscard]] std::span<const double> phi() const { return {values_.data(), problem_->size()}; }
+  /// How the solution came about.
   [[nodiscard]] const LaplaceReport& report() const { return report_; }
   /// Largest |mean of the neighbours - phi| over the interior cells: 0 where the equations hold exactly.
   [[nodiscard]] double largest_defect() const;

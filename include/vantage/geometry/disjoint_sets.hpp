@@ -18,6 +18,7 @@ class DisjointSets {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
 
+  /// How many elements there are.
   [[nodiscard]] std::size_t size() const { return parent_.size(); }
   /// Number of sets.
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -29,6 +30,7 @@ class DisjointSets {
     }
     return element;
   }
+  /// Whether two elements are in one set.
   [[nodiscard]] bool same(std::size_t a, std::size_t b) { return find(a) == find(b); }
   /// Merges the sets of two elements; false if they were one already.
   bool merge(std::size_t a, std::size_t b) {

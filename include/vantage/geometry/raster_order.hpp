@@ -8,6 +8,7 @@ namespace vantage {
 
 /// The order in which lists of cells are given: by z, then y, then x, as `for_each_cell` visits a box.
 struct RasterOrder {
+  /// Whether `a` comes before `b`.
   constexpr bool operator()(const VoxelIndex& a, const VoxelIndex& b) const {
     return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
   }

@@ -14,14 +14,17 @@ namespace vantage {
 
 /// The integer address of one cell: cell (x, y, z) covers [x r, (x + 1) r) on each axis, as OctoMap aligns its own.
 struct VoxelIndex {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  std::int32_t z = 0;
+  std::int32_t x = 0;  ///< cell along x
+  std::int32_t y = 0;  ///< cell along y
+  std::int32_t z = 0;  ///< cell along z
 
+  /// By x, then y, then z.
   friend constexpr auto operator<=>(const VoxelIndex&, const VoxelIndex&) = default;
+  /// Sum per axis.
   friend constexpr VoxelIndex operator+(const VoxelIndex& a, const VoxelIndex& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }
+  /// Difference per axis.
   friend constexpr VoxelIndex operator-(const VoxelIndex& a, const VoxelIndex& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
@@ -56,15 +59,20 @@ inline constexpr std::array<VoxelIndex, 26> kAllNeighbours = detail::all_neighbo
 
 /// A box of cells: from `lo` (inside) to `hi` (outside) on each axis. A default box is empty.
 struct VoxelBox {
-  VoxelIndex lo;
-  VoxelIndex hi;
+  VoxelIndex lo;  ///< lowest cell, inside
+  VoxelIndex hi;  ///< one past the highest cell on each axis
 
+  /// The same two corners.
   friend constexpr bool operator==(const VoxelBox&, const VoxelBox&) = default;
+  /// Whether it holds no cell.
   [[nodiscard]] constexpr bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
+  /// Whether the cell is inside.
   [[nodiscard]] constexpr bool contains(const VoxelIndex& cell) const {
     return cell.x >= lo.x && cell.x < hi.x && cell.y >= lo.y && cell.y < hi.y && cell.z >= lo.z && cell.z < hi.z;
   }
+  /// Cells along each axis.
   [[nodiscard]] constexpr VoxelIndex extent() const { return empty() ? VoxelIndex{} : hi - lo; }
+  /// How many cells it holds.
   [[nodiscard]] constexpr std::size_t size() const {
     const VoxelIndex e = extent();
     return static_cast<std::size_t>(e.x) * static_cast<std::size_t>(e.y) * static_cast<std::size_t>(e.z);
@@ -100,15 +108,19 @@ struct VoxelFrame {
     const double furthest_m = size_m * kFurthestVoxel;
     return (point_m.array().abs() <= furthest_m).all();  // false for NaN
   }
+  /// Lowest corner of a cell, metres.
   [[nodiscard]] Eigen::Vector3d corner_of(const VoxelIndex& cell) const {
     return Eigen::Vector3d(cell.x, cell.y, cell.z) * size_m;
   }
+  /// Centre of a cell, metres.
   [[nodiscard]] Eigen::Vector3d centre_of(const VoxelIndex& cell) const {
     return Eigen::Vector3d(cell.x + 0.5, cell.y + 0.5, cell.z + 0.5) * size_m;
   }
+  /// The space of a cell or a box of cells, metres.
   [[nodiscard]] Box box_of(const VoxelIndex& cell) const {
     return {corner_of(cell), corner_of(cell + VoxelIndex{1, 1, 1})};
   }
+  /// The space of a cell or a box of cells, metres.
   [[nodiscard]] Box box_of(const VoxelBox& cells) const { return {corner_of(cells.lo), corner_of(cells.hi)}; }
   /// The cells whose centres lie in `box` (half-open, as the box).
   [[nodiscard]] VoxelBox cells_centred_in(const Box& box) const {
@@ -130,6 +142,8 @@ struct VoxelFrame {
 
 }  // namespace vantage
 
+/// \cond
+/// Hash of a cell address, for unordered containers.
 template <>
 struct std::hash<vantage::VoxelIndex> {
   std::size_t operator()(const vantage::VoxelIndex& cell) const noexcept {
@@ -139,3 +153,4 @@ struct std::hash<vantage::VoxelIndex> {
     return h ^ (h >> 29);
   }
 };
+/// \endcond

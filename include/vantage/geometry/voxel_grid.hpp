@@ -14,10 +14,14 @@ template <class T>
 class VoxelGrid {
  public:
   VoxelGrid() = default;
+  /// A grid over the cells of `box`, each holding `value`.
   explicit VoxelGrid(const VoxelBox& box, const T& value = T{}) : box_(box), values_(box.size(), value) {}
 
+  /// The cells covered.
   [[nodiscard]] const VoxelBox& box() const { return box_; }
+  /// How many cells are covered.
   [[nodiscard]] std::size_t size() const { return values_.size(); }
+  /// Whether the cell is covered.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const { return box_.contains(cell); }
 
   /// Position of a cell of the box in `values()`.
@@ -40,13 +44,16 @@ class VoxelGrid {
 
   /// The cell must be in the box.
   [[nodiscard]] decltype(auto) operator[](const VoxelIndex& cell) { return values_[offset_of(cell)]; }
+  /// The value of a covered cell.
   [[nodiscard]] decltype(auto) operator[](const VoxelIndex& cell) const { return values_[offset_of(cell)]; }
   /// The value at a cell, or `outside` where the grid does not reach.
   [[nodiscard]] T value_or(const VoxelIndex& cell, const T& outside) const {
     return contains(cell) ? static_cast<T>(values_[offset_of(cell)]) : outside;
   }
 
+  /// All values, x running fastest, then y, then z.
   [[nodiscard]] std::vector<T>& values() { return values_; }
+  /// All values, x running fastest, then y, then z.
   [[nodiscard]] const std::vector<T>& values() const { return values_; }
 
  private:

@@ -40,7 +40,9 @@ class VoxelRay {
 
   class iterator;
 
+  /// At the first cell.
   [[nodiscard]] iterator begin() const;
+  /// Past the last cell.
   [[nodiscard]] static std::default_sentinel_t end() { return {}; }
   /// Number of cells on the walk.
   [[nodiscard]] std::int64_t size() const { return steps_ + 1; }
@@ -72,19 +74,23 @@ class VoxelRay {
   std::int64_t steps_ = 0;
 };
 
+/// Walks from cell to cell; a single pass.
 class VoxelRay::iterator {
  public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = VoxelIndex;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const VoxelIndex*;
-  using reference = VoxelIndex;
+  using iterator_category = std::input_iterator_tag;  ///< as std::iterator_traits asks
+  using value_type = VoxelIndex;  ///< as std::iterator_traits asks
+  using difference_type = std::ptrdiff_t;  ///< as std::iterator_traits asks
+  using pointer = const VoxelIndex*;  ///< as std::iterator_traits asks
+  using reference = VoxelIndex;  ///< as std::iterator_traits asks
 
+  /// The cell reached.
   VoxelIndex operator*() const { return {ray_.cell_[0], ray_.cell_[1], ray_.cell_[2]}; }
+  /// On to the next cell.
   iterator& operator++() {
     ray_.advance();
     return *this;
   }
+  /// Whether the last cell is behind.
   bool operator==(std::default_sentinel_t) const { return ray_.steps_ < 0; }
 
  private:

@@ -15,13 +15,13 @@ namespace vantage {
 /// fastest, and the eight words of a plane are the eight sub-bricks, x running fastest again. `occupied` is a subset of
 /// `known`. The log-odds lie in the same order, in steps of OccupancyMap::log_odds_step(), 0 for an unknown cell.
 struct Brick {
-  static constexpr std::int32_t kSide = 8;
-  static constexpr std::size_t kWords = 8;
-  static constexpr std::size_t kCells = 512;
+  static constexpr std::int32_t kSide = 8;  ///< cells along an edge
+  static constexpr std::size_t kWords = 8;  ///< sub-bricks, and so words of a plane
+  static constexpr std::size_t kCells = 512;  ///< cells of a brick
 
-  std::array<std::uint64_t, kWords> known{};
-  std::array<std::uint64_t, kWords> occupied{};
-  std::array<std::int8_t, kCells> log_odds{};
+  std::array<std::uint64_t, kWords> known{};  ///< bit plane: free or occupied
+  std::array<std::uint64_t, kWords> occupied{};  ///< bit plane: occupied, a subset of `known`
+  std::array<std::int8_t, kCells> log_odds{};  ///< in steps, by `offset_of`
 
   /// The brick that holds a cell.
   [[nodiscard]] static constexpr VoxelIndex of_cell(const VoxelIndex& cell) {
@@ -46,6 +46,7 @@ struct Brick {
     return {(o & 3) | (o >> 6 & 1) << 2, (o >> 2 & 3) | (o >> 7 & 1) << 2, (o >> 4 & 3) | (o >> 8 & 1) << 2};
   }
 
+  /// State of the cell at an offset.
   [[nodiscard]] Occupancy at(std::size_t offset) const {
     const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
     const std::size_t word = offset >> 6U;

@@ -15,7 +15,9 @@ namespace vantage {
 /// bounds. Tiles of 8 x 8 x 8 numbers hang in a hash table, so that walking from brick to brick mostly stays in a tile.
 class BrickDirectory {
  public:
+  /// Where a brick is stored.
   using Number = std::uint32_t;
+  /// The number of a brick that is not stored.
   static constexpr Number kNone = std::numeric_limits<Number>::max();
 
   /// The number stored for `brick`, or kNone.
@@ -31,6 +33,7 @@ class BrickDirectory {
     }
     return numbers_[tile->second][offset_in_tile(brick)];
   }
+  /// Bytes held, an estimate of the hash nodes included.
   [[nodiscard]] std::size_t memory_bytes() const {
     constexpr std::size_t kHashNode = sizeof(VoxelIndex) + sizeof(std::size_t) + 2 * sizeof(void*);
     return numbers_.size() * (sizeof(Tile) + kHashNode) + tiles_.bucket_count() * sizeof(void*);

@@ -47,10 +47,12 @@ enum class CoarseningPolicy : std::uint8_t { Max, Mean };
 /// pace, which bricks hold a cell whose *state* has changed. Reading from several threads is safe while nobody writes.
 class OccupancyMap {
  public:
+  /// Number of a state of the map.
   using Revision = std::uint64_t;
+  /// Known cells by state.
   struct Counts {
-    std::size_t free = 0;
-    std::size_t occupied = 0;
+    std::size_t free = 0;  ///< cells known to be free
+    std::size_t occupied = 0;  ///< cells known to be occupied
   };
 
   OccupancyMap() : OccupancyMap(OccupancyMapOptions{}) {}
@@ -58,13 +60,18 @@ class OccupancyMap {
   explicit OccupancyMap(const OccupancyMapOptions& options);
 
   // --- reading -------------------------------------------------------------------------------------------------------
+  /// The options it was made with.
   [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
+  /// Where cells lie in the world.
   [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
+  /// Edge of a cell, metres.
   [[nodiscard]] double resolution_m() const { return frame_.size_m; }
   /// The cells of the region of interest; none: every cell.
   [[nodiscard]] const std::optional<VoxelBox>& region() const { return region_; }
+  /// Whether a cell may ever be known.
   [[nodiscard]] bool in_region(const VoxelIndex& cell) const { return !region_ || region_->contains(cell); }
 
+  /// State of a cell.
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
     const Brick* brick = find_brick(Brick::of_cell(cell));
     return brick == nullptr ? Occupancy::Unknown : brick->at(Brick::offset_of(cell));
@@ -77,6 +84,7 @@ class OccupancyMap {
   /// State of a coarser cell: unknown if all of it is, else by its log-odds.
   [[nodiscard]] Occupancy at(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
 
+  /// Known cells by state; walks all bricks.
   [[nodiscard]] Counts counts() const;
   /// The smallest box that holds every known cell.
   [[nodiscard]] VoxelBox bounds() const;

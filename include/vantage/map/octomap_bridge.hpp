@@ -25,6 +25,7 @@ struct OctomapImportOptions {
 /// A map read from an octree. Its states are those of the octree, cell by cell: a pruned leaf becomes the finest cells
 /// it stands for. Its log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0.
 struct OctomapImport {
+  /// The map that was made.
   OccupancyMap map;
   /// The largest difference between a leaf's log-odds and what the map now holds. A `.bt` holds states only; they come
   /// in at the map's clamping limits, without rounding.
@@ -64,6 +65,7 @@ class OctomapFollower {
   /// Takes over all that `tree` holds. The tree must outlive the follower. Errors as `from_octree`.
   explicit OctomapFollower(octomap::OcTree& tree, const OctomapImportOptions& options = {});
 
+  /// The map that was made.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   /// Brings the map up to the tree; costs what changed. Returns how many cells changed their state. A tree that has been
   /// cleared is resynchronised. Throws std::runtime_error if the resolution of the tree has changed.

@@ -15,7 +15,7 @@ namespace vantage {
 /// nothing, so what lies along it stays unknown. Only a sensor that *knows* a ray met nothing within its range lists
 /// that ray in `no_return`; such a ray clears cells up to `max_range_m`.
 struct Scan {
-  Pose world_from_sensor = Pose::Identity();
+  Pose world_from_sensor = Pose::Identity();  ///< where the sensor was
   /// Returns in the sensor frame, metres. If `width * height == points.size()` they are a depth image, row by row, and
   /// the map may use the neighbourhood of pixels; the result is the same either way.
   std::vector<Eigen::Vector3f> points;
@@ -26,6 +26,7 @@ struct Scan {
   std::size_t width = 0;   ///< columns of an organised scan, or 0
   std::size_t height = 0;  ///< rows of an organised scan, or 0
 
+  /// Whether `points` is a depth image.
   [[nodiscard]] bool organised() const { return width > 0 && width * height == points.size(); }
 };
 

@@ -10,8 +10,8 @@ namespace vantage {
 
 /// The cells that a scan updates, each once: those it hits, and those its rays pass and do not hit.
 struct ScanCells {
-  std::unordered_set<VoxelIndex> hit;
-  std::unordered_set<VoxelIndex> cleared;
+  std::unordered_set<VoxelIndex> hit;  ///< cells that become more occupied
+  std::unordered_set<VoxelIndex> cleared;  ///< cells that become more free
   ScanReport report;  ///< rays counted by what became of them
 };
 

@@ -36,6 +36,7 @@ struct Leftover {
   std::size_t unobservable = 0;  ///< no reachable pose of this sensor sees what lies behind them
   std::size_t too_small = 0;     ///< in clusters below the size the options ask for
 
+  /// The same counts.
   friend bool operator==(const Leftover&, const Leftover&) = default;
 };
 
@@ -61,12 +62,12 @@ struct PlanStatistics {
 
 /// The answer to "where should the sensor look next?".
 struct Plan {
-  Outcome outcome = Outcome::Blocked;
-  View goal;
+  Outcome outcome = Outcome::Blocked;  ///< what to do now
+  View goal;  ///< the view to take; meaningful if outcome is Move
   std::vector<Pose> path;  ///< from the current pose to goal.pose, both included; empty unless outcome is Move
-  Leftover leftover;
+  Leftover leftover;  ///< what was given up
   std::string reason = "plan() was not called";  ///< one sentence, for a person
-  PlanStatistics statistics;
+  PlanStatistics statistics;  ///< what it took
 };
 
 /// Answers once per cycle where to look next. A host's whole loop: `map.insert(scan)`, `planner->plan(map, pose)`,
@@ -80,6 +81,7 @@ struct Plan {
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;
+  /// The NAME that `make_planner` knows it by.
   [[nodiscard]] virtual std::string_view name() const = 0;
   /// `current` is the sensor's pose now. Throws std::invalid_argument if it is not rigid or not in the map's region.
   [[nodiscard]] virtual Plan plan(const OccupancyMap& map, const Pose& current) = 0;

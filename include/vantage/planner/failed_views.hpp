@@ -17,6 +17,7 @@ namespace vantage {
 /// cell's brick changes, its count starts anew.
 class FailedViews {
  public:
+  /// A cell is given up after `patience` fruitless views, > 0.
   explicit FailedViews(int patience = 2) : patience_(patience) {}
 
   /// Announces that a view from `pose` is meant to resolve these cells.
@@ -24,7 +25,9 @@ class FailedViews {
   /// Looks at the map now. If the map has changed since `expect` and the sensor is where the view was to be taken,
   /// cells still unknown count one failure more. A second call without a change of the map does nothing.
   void review(const OccupancyMap& map, const Pose& current);
+  /// Whether a view of this unknown cell has failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
+  /// How many cells have been given up.
   [[nodiscard]] std::size_t size() const { return failures_.size(); }
 
  private:

@@ -9,6 +9,7 @@
 
 namespace vantage {
 
+/// Options of FrontierGainPlanner.
 struct FrontierGainOptions {
   std::size_t hypotheses = 100;   ///< random poses tried per plan, >= 1
   /// Share of the hypotheses that stand where some frontier is known to be visible, in [0, 1]; the rest are anywhere in
@@ -16,7 +17,7 @@ struct FrontierGainOptions {
   double aimed_share = 0.0;
   /// What a metre of straight distance costs, in frontier cells, >= 0. 0 is the paper's: gain alone decides.
   double cost_per_m = 0.0;
-  FrontierSurveyOptions survey = {};
+  FrontierSurveyOptions survey = {};  ///< what counts as a frontier worth a view
 };
 
 /// The frontier method of Shade & Newman 2011, III-B.1, their baseline: poses are drawn at random in the free space that
@@ -27,6 +28,7 @@ class FrontierGainPlanner final : public ExplorationPlanner {
   /// Throws std::invalid_argument naming the option at fault.
   explicit FrontierGainPlanner(const PlannerSetup& setup, const FrontierGainOptions& options = {});
 
+  /// "frontier-gain".
   [[nodiscard]] std::string_view name() const override { return "frontier-gain"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 

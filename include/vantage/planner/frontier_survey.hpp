@@ -37,10 +37,10 @@ struct FrontierSurveyOptions {
 /// its unknown face neighbours passes free cells only, is between the sensor's shortest and longest range, and falls
 /// into its field of view in an orientation that the platform can take there.
 struct FrontierSurvey {
-  ReachableSpace reachable;
+  ReachableSpace reachable;  ///< cells the platform can bring the sensor to
   std::vector<FrontierTarget> targets = {};  ///< the observable frontier cells, in raster order of `frontier`
   std::size_t frontier_cells = 0;       ///< all of them, inside the region
-  Leftover leftover = {};
+  Leftover leftover = {};  ///< frontier cells given up, by cause
   std::uint64_t ray_operations = 0;     ///< cells visited while looking for lines of sight
 };
 

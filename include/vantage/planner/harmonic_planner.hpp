@@ -22,9 +22,10 @@ enum class FieldSolver : std::uint8_t {
   GaussSeidel,   ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
 };
 
+/// Options of HarmonicPlanner.
 struct HarmonicOptions {
-  FieldSolver solver = FieldSolver::CoarseToFine;
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;
+  FieldSolver solver = FieldSolver::CoarseToFine;  ///< how the field is solved
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
   double tolerance = 1e-4;             ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
   std::size_t smoothing_sweeps = 20;   ///< CoarseToFine: sweeps after the guess
   std::size_t max_sweeps = 50000;      ///< no plan takes more, > 0
@@ -36,10 +37,10 @@ struct HarmonicOptions {
 
 /// The field behind a plan, for pictures and for those who want to look.
 struct HarmonicField {
-  LaplaceProblem problem;
+  LaplaceProblem problem;  ///< what was solved
   std::vector<double> phi;                   ///< by position in the problem
   std::vector<Eigen::Vector3d> streamline;   ///< from the sensor to the sink that was chosen
-  LaplaceReport report;
+  LaplaceReport report;  ///< how the solver ended
   std::size_t stuck_cells = 0;  ///< cells without a strictly lower neighbour; 0: descent from every cell ends in a sink
   bool followed = true;  ///< false: descent from the source got stuck, and the plan takes the shortest way instead
 };
@@ -58,6 +59,7 @@ class HarmonicPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::string_view name() const override { return "harmonic"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
+  /// The options it was made with.
   [[nodiscard]] const HarmonicOptions& options() const { return options_; }
   /// The field of the last plan; none where it needed none (nothing left, or the sensor looks from where it is).
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }

@@ -15,6 +15,7 @@ class NearestFrontierPlanner final : public ExplorationPlanner {
   /// Throws std::invalid_argument naming the option at fault.
   explicit NearestFrontierPlanner(const PlannerSetup& setup, const FrontierSurveyOptions& options = {});
 
+  /// "nearest-frontier".
   [[nodiscard]] std::string_view name() const override { return "nearest-frontier"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 

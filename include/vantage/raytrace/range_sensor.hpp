@@ -12,18 +12,20 @@ namespace vantage {
 /// What a range sensor sees: a pinhole camera, or a spherical scanner (lidar). Sensor frame: +z forward, +x right,
 /// +y down. Aggregate; `validate` is called once by everything that takes one.
 struct RangeSensor {
+  /// How pixels become directions.
   enum class Projection : std::uint8_t {
     Pinhole,    ///< pixel (u, v) looks along ((u - cx) / fx, (v - cy) / fy, 1)
     Spherical,  ///< columns span the horizontal, rows the vertical field of view in equal angles
   };
 
-  Projection projection = Projection::Pinhole;
+  Projection projection = Projection::Pinhole;  ///< which of the fields below apply
   std::size_t width = 640;           ///< columns, > 0
   std::size_t height = 480;          ///< rows, > 0
   double fx = 525.0;                 ///< focal lengths and principal point in pixels; Pinhole only
+  /// Pinhole only.
   double fy = 525.0;
-  double cx = 319.5;
-  double cy = 239.5;
+  double cx = 319.5;  ///< principal point, pixels; Pinhole only
+  double cy = 239.5;  ///< principal point, pixels; Pinhole only
   double horizontal_fov_rad = 0.0;   ///< Spherical only, in (0, 2 pi]
   double vertical_fov_rad = 0.0;     ///< Spherical only, in (0, pi], centred on the horizon
   double min_range_m = 0.0;          ///< nearer surfaces give no return, >= 0
@@ -55,6 +57,7 @@ struct RangeSensor {
   [[nodiscard]] bool in_view(const Eigen::Vector3d& direction) const;
   /// Full angles of view, radians.
   [[nodiscard]] double horizontal_angle_rad() const;
+  /// Full vertical angle of view, radians.
   [[nodiscard]] double vertical_angle_rad() const;
   /// The same sensor with just enough columns and rows that neighbouring rays are at most `cell_m` apart at the maximum
   /// range (Vasquez-Gomez et al. 2013, eq. 6); never more than it has.

@@ -22,6 +22,7 @@ class FreeFlyer final : public Platform {
   /// Throws std::invalid_argument naming the option at fault.
   explicit FreeFlyer(const FreeFlyerOptions& options);
 
+  /// The options it was made with.
   [[nodiscard]] const FreeFlyerOptions& options() const { return options_; }
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;

@@ -13,7 +13,8 @@ namespace vantage {
 /// cell of the block it crosses must be reachable. Ties are settled by cell number, so the way never depends on chance.
 class GridPaths {
  public:
-  explicit GridPaths(const ReachableSpace& space, const VoxelFrame& frame) : space_(space), frame_(frame) {}
+  /// Ways from the start of `space`, which must outlive it.
+  explicit GridPaths(const ReachableSpace& space) : space_(space) {}
 
   /// Dijkstra from the start of the space until the first of `goals` is settled: the way to it, both ends included.
   /// Empty if no goal is reachable.
@@ -23,7 +24,6 @@ class GridPaths {
 
  private:
   const ReachableSpace& space_;
-  VoxelFrame frame_;
 };
 
 /// Turns a way over cells into poses that the platform can follow: from `from`, through cell centres, to `to`, leaving

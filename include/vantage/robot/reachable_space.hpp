@@ -20,13 +20,16 @@ class ReachableSpace {
 
   /// The cell the flood started from; none if the platform cannot move at all: then nothing is reachable.
   [[nodiscard]] const std::optional<VoxelIndex>& start() const { return start_; }
+  /// Whether the sensor can be brought to this cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const { return number_.value_or(cell, kOutside) != kOutside; }
   /// The reachable cells in the order of their number: breadth first from the start.
   [[nodiscard]] const std::vector<VoxelIndex>& cells() const { return cells_; }
+  /// How many cells it holds.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
   /// Position of a cell in `cells()`, or kOutside.
   [[nodiscard]] std::uint32_t number_of(const VoxelIndex& cell) const { return number_.value_or(cell, kOutside); }
 
+  /// What is not reachable.
   static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
 
  private:

@@ -9,6 +9,7 @@ namespace vantage {
 
 /// How to take the coordinates of a mesh file.
 struct MeshFileOptions {
+  /// Which axis of the file points up.
   enum class Up : std::uint8_t { Y, Z };
   Up up = Up::Z;       ///< the file's upward axis; Y is turned about x so that z points up
   double scale = 1.0;  ///< metres per unit of the file, > 0

@@ -33,6 +33,7 @@ class SimulatedSensor {
   /// rigid.
   [[nodiscard]] Scan scan(const Pose& world_from_sensor);
 
+  /// The sensor simulated.
   [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
 
  private:

@@ -13,7 +13,7 @@ namespace vantage {
 
 /// Surfaces as triangles, in metres, z up. Both sides of a triangle are solid to a sensor: the winding says nothing.
 struct TriangleMesh {
-  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3f> vertices;  ///< points, metres
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three positions in `vertices` each
 
   /// The smallest box whose closure holds every vertex of a triangle; empty for an empty mesh.

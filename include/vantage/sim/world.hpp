@@ -22,8 +22,9 @@ struct WorldOptions {
 
 /// A known world: its surfaces, and the region that an exploration of it means.
 struct World {
+  /// NAME or file.
   std::string name;
-  TriangleMesh mesh;
+  TriangleMesh mesh;  ///< all surfaces, metres, z up
   Box region;  ///< metres; a closed world's walls are inside
 
   /// A world by NAME:

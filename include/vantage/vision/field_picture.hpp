@@ -14,7 +14,7 @@ namespace vantage {
 
 /// A potential over cells and what belongs to it. Spans must outlive the call only.
 struct FieldContent {
-  std::string title = {};
+  std::string title = {};  ///< above the picture
   std::span<const VoxelIndex> cells = {};            ///< where the field is known, in any order
   std::span<const double> phi = {};                  ///< its value at each of `cells`: 1 at the sensor, 0 at the frontier
   std::span<const VoxelIndex> frontier = {};         ///< cells held at 0

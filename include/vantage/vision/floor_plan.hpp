@@ -14,7 +14,7 @@ namespace vantage {
 
 /// What a floor plan shows besides the map.
 struct FloorPlanContent {
-  std::string title = {};
+  std::string title = {};  ///< above the picture
   std::vector<Eigen::Vector3d> travelled = {};  ///< successive positions in the world, metres; the start first
   std::vector<Pose> views = {};                 ///< world_from_sensor of every scan, the first scan first
   bool show_directions = true;             ///< a short stroke along each view's optical axis (senseless for a full sphere)

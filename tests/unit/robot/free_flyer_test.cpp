@@ -171,7 +171,7 @@ TEST(GridPath, IsAsShortAsTheSlowSearchSaysAndKeepsToAdmittedPoses) {
       continue;
     }
     ++ways;
-    const GridPaths paths(space, map.frame());
+    const GridPaths paths(space);
     const std::vector<VoxelIndex> goals{goal};
     const auto length = [&](const std::vector<VoxelIndex>& cells) {
       double sum = 0;
