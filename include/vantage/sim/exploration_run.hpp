@@ -26,7 +26,7 @@ struct ExplorationRunOptions {
   std::size_t max_views = 500;                     ///< the budget, > 0
   double scan_spacing_m = 0.5;                     ///< a scan every so far along the way, >= 0; 0: at goals only
   std::uint64_t seed = 1;                          ///< of the sensor's noise
-  SensorNoise noise = {};
+  SensorNoise noise = {};  ///< of the simulated sensor
   /// Of the sphere whose touching a true surface is a collision, >= 0; none: half the least extent of
   /// Platform::body_box.
   std::optional<double> body_radius_m = std::nullopt;

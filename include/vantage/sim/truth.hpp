@@ -29,6 +29,7 @@ class Truth {
   /// resolution that is not positive or a region that is empty.
   Truth(const World& world, double resolution_m, const Box& region);
 
+  /// True state of a cell.
   [[nodiscard]] CellTruth at(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free); }
   /// Every cell of the region as known: free ones free, grazed and occupied ones occupied. What Platform asks about.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
