@@ -52,24 +52,35 @@ class RayCollector {
       reach = ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (max_range_m_ / range_m));
     }
     const Eigen::Vector3d end = rotation_ * reach + origin_;
+    if (ends_here && well_inside_last(end)) {
+      ++report.hits;
+      return;
+    }
     if (!origin_addressable_ || !(end.array().abs() <= furthest_m_).all()) {
       ++report.not_addressable;
       return;
     }
     ++(ends_here ? report.hits : is_return ? report.beyond_range : report.no_return);
     const VoxelIndex cell = frame_.cell_of(end);
-    const bool known = each_end_cell_ && ends_here && !rays_.rays.empty() && rays_.rays.back().hits &&
-                       rays_.rays.back().cell == cell;
-    if (!known) {
-      rays_.rays.push_back({end, cell, ends_here});
+    rays_.rays.push_back({end, cell, ends_here});
+    if (each_end_cell_ && ends_here) {
+      last_centre_ = frame_.centre_of(cell);
     }
   }
 
  private:
+  // Whether a point lies in the cell of the last return drawn, by a margin that rounding cannot bridge.
+  [[nodiscard]] bool well_inside_last(const Eigen::Vector3d& end) const {
+    const double reach_m = frame_.size_m * (0.5 - 1e-6);
+    return (std::abs(end.x() - last_centre_.x()) < reach_m) & (std::abs(end.y() - last_centre_.y()) < reach_m) &
+           (std::abs(end.z() - last_centre_.z()) < reach_m);
+  }
+
   VoxelFrame frame_;
   bool each_end_cell_;
   double max_range_m_;
   bool unlimited_;
+  Eigen::Vector3d last_centre_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d origin_;
   double furthest_m_;

@@ -23,8 +23,8 @@ struct ScanRays {
   ScanReport report;
 };
 
-/// The rays to draw, in the order of the scan; with RayPolicy::EachEndCell a return in the cell of the one before it is
-/// counted and left out. Throws std::invalid_argument if the pose is not rigid or the range is not positive.
+/// The rays to draw, in the order of the scan; with RayPolicy::EachEndCell most returns in the cell of the one before
+/// are counted and left out. Throws std::invalid_argument if the pose is not rigid or the range is not positive.
 [[nodiscard]] ScanRays rays_of(const Scan& scan, const VoxelFrame& frame, RayPolicy policy);
 
 }  // namespace vantage
