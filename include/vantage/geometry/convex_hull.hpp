@@ -12,9 +12,12 @@ class ConvexHull {
  public:
   /// A facet's plane: `normal` (unit, outward) . p + `offset` is the signed distance of p, <= 0 inside.
   struct Plane {
+    /// Unit normal, outward.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    /// Signed distance of the origin from the plane, metres.
     double offset = 0.0;
 
+    /// Signed distance of a point from the plane, metres.
     [[nodiscard]] double distance(const Eigen::Vector3d& point) const { return normal.dot(point) + offset; }
   };
 
@@ -24,9 +27,11 @@ class ConvexHull {
   /// reason. Throws std::invalid_argument if a coordinate is not finite.
   explicit ConvexHull(const std::vector<Eigen::Vector3d>& points);
 
+  /// Whether there is no hull.
   [[nodiscard]] bool empty() const { return planes_.empty(); }
   /// Why the hull is empty; empty where it is not.
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// The planes that bound it.
   [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
   /// Whether `point` lies in the hull or at most `tolerance` beyond one of its planes.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point, double tolerance = 1e-9) const;

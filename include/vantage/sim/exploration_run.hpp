@@ -22,6 +22,7 @@ namespace vantage {
 /// How a simulated exploration goes.
 struct ExplorationRunOptions {
   OccupancyMapOptions map = {};                    ///< without a region: the world's own
+  /// How the map draws the rays of a scan.
   RayPolicy ray_policy = RayPolicy::EveryReturn;
   std::size_t max_views = 500;                     ///< the budget, > 0
   double scan_spacing_m = 0.5;                     ///< a scan every so far along the way, >= 0; 0: at goals only
@@ -45,6 +46,7 @@ class ExplorationRun {
   ExplorationRun(const World& world, const RangeSensor& sensor, std::shared_ptr<const Platform> platform,
                  const ExplorationRunOptions& options = {});
 
+  /// The true state of the world that the run is measured by.
   [[nodiscard]] const Truth& truth() const { return truth_; }
   /// The map of the last run.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
