@@ -84,6 +84,7 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   }
   const FrontierSurvey& survey = cycle.survey();
   PlanStatistics& statistics = cycle.plan().statistics;
+  detail::Stopwatch watch;
   std::vector<VoxelIndex> way{*survey.reachable.start()};
   if (target_seen_from(survey, way.back()) == nullptr) {  // else look from where the sensor is
     solve(survey, statistics);
@@ -91,12 +92,15 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   }
   const TargetView chosen = view_of_target(map, *setup_.platform, setup_.sensor, survey,
                                            *target_seen_from(survey, way.back()), statistics.ray_operations);
+  const double choose_ms = watch.lap_ms();
+  std::optional<std::vector<Pose>> path;
   if (field_ && field_->followed) {
-    if (auto path = poses_of_curve(map, *setup_.platform, current, field_->streamline, chosen.view.pose)) {
-      return cycle.go(chosen, std::move(*path));
-    }
+    path = poses_of_curve(map, *setup_.platform, current, field_->streamline, chosen.view.pose);
   }
-  return cycle.go(chosen, way);
+  Plan plan = path ? cycle.go(chosen, std::move(*path)) : cycle.go(chosen, way);
+  plan.statistics.choose_ms = choose_ms;
+  plan.statistics.path_ms = watch.lap_ms();
+  return plan;
 }
 
 void HarmonicPlanner::solve(const FrontierSurvey& survey, PlanStatistics& statistics) {
