@@ -14,3 +14,6 @@ endif()
 if(VANTAGE_BUILD_SIM)
   vantage_find(report PRIVATE nlohmann_json 3.10)
 endif()
+if(VANTAGE_BUILD_SIM AND VANTAGE_BUILD_VISION)
+  find_package(CLI11 2.1 REQUIRED)  # the program only: no component needs it
+endif()

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace vantage::apps {
+
+// Exit codes of every command.
+inline constexpr int kDone = 0;
+inline constexpr int kBadInput = 2;  // said in one line on stderr, nothing written
+inline constexpr int kBudget = 3;    // a budget ended the run
+
+/// Adds every command; one that runs puts its exit code into `exit_code`, or throws for bad input.
+void add_commands(CLI::App& app, int& exit_code);
+
+void add_explore_command(CLI::App& app, int& exit_code);
+void add_list_command(CLI::App& app);
+
+/// `message` without line breaks.
+[[nodiscard]] std::string one_line(std::string message);
+
+}  // namespace vantage::apps

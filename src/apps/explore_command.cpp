@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/report/report_json.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/sim/exploration_run.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/explore_request.hpp"
+#include "apps/run_files.hpp"
+#include "apps/run_printer.hpp"
+
+namespace vantage::apps {
+namespace {
+
+// Truth keeps a byte and more per cell of the region: a slip of the resolution must not fill the memory.
+constexpr double kMostCells = 1e9;
+
+void check_region(const ExploreRequest& request, const Box& region, const std::optional<Pose>& start) {
+  const double cells = (region.extent() / request.resolution_m).prod();
+  if (!(cells <= kMostCells)) {
+    std::ostringstream message;
+    message << "--resolution " << request.resolution_m << " makes " << cells << " cells of the region, must be at most "
+            << kMostCells;
+    throw std::invalid_argument(message.str());
+  }
+  if (start && !region.contains(start->translation())) {
+    throw std::invalid_argument("--start " + request.start + " lies outside the region");
+  }
+}
+
+void check_targets(const ExploreRequest& request) {
+  if (!request.out.empty() && std::filesystem::exists(request.out) && !std::filesystem::is_directory(request.out)) {
+    throw std::runtime_error("--out " + request.out + ": is not a folder");
+  }
+  if (request.json.empty() || request.json == "-") {
+    return;
+  }
+  const std::filesystem::path folder = std::filesystem::path(request.json).parent_path();
+  if (std::filesystem::is_directory(request.json) || (!folder.empty() && !std::filesystem::is_directory(folder))) {
+    throw std::runtime_error("--json " + request.json + ": cannot be written");
+  }
+}
+
+Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
+  const std::optional<Pose> given = start_of(request);
+  const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
+  if (!start) {
+    throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region");
+  }
+  return *start;
+}
+
+void write_outputs(const ExploreRequest& request, const RunRecord& record, const OccupancyMap& map,
+                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress) {
+  if (!request.out.empty()) {
+    progress << "\nwrote\n";
+    for (const std::filesystem::path& file : write_run_files(request.out, record, map, sensor, field)) {
+      progress << "  " << file.string() << '\n';
+    }
+  }
+  if (request.json == "-") {
+    std::cout << report_json(record) << std::flush;
+  } else if (!request.json.empty()) {
+    write_report_json(record, request.json);
+  }
+}
+
+int explore(const ExploreRequest& request) {
+  check_numbers(request);
+  check_targets(request);
+  const std::optional<Pose> start = start_of(request);
+  const RangeSensor sensor = sensor_of(request);
+  const auto platform = std::make_shared<const FreeFlyer>(
+      FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
+  const auto planner = make_planner(
+      request.planner, {.sensor = sensor, .platform = platform, .seed = request.seed, .threads = request.threads},
+      settings_of(request));
+  const std::optional<Box> asked_region = region_of(request);
+  const World world = world_of(request);
+  const Box region = asked_region.value_or(world.region);
+  check_region(request, region, start);
+
+  ExplorationRunOptions options;
+  options.map.resolution_m = request.resolution_m;
+  options.map.region = region;
+  options.max_views = request.max_views;
+  options.scan_spacing_m = request.scan_spacing_m;
+  options.seed = request.seed;
+  options.noise.axial = request.noise;
+  options.body_radius_m = request.robot_radius_m;
+  options.threads = request.threads;
+  ExplorationRun run(world, sensor, platform, options);
+
+  const bool json_on_stdout = request.json == "-";
+  std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
+  RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
+  FieldKeeper field;
+  RunRecord record =
+      run.run(*planner, start_in(run, *platform, request), [&](const ViewRecord& view, const OccupancyMap& map) {
+        if (view.view == 1) {
+          printer.head(request.planner, request.world, request.sensor, request.resolution_m, request.seed);
+        }
+        printer.view(view);
+        if (view.plan_ms > 0.0 && !request.out.empty()) {
+          field.look(*planner, map, view.view);
+        }
+      });
+  record.command = "explore";
+  record.world = request.world;
+  record.planner = request.planner;
+  record.seed = request.seed;
+  record.threads = request.threads;
+  record.resolution_m = request.resolution_m;
+  printer.summary(record);
+  write_outputs(request, record, run.map(), sensor, field.picture(), progress);
+  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+}
+
+void add_options(CLI::App& command, ExploreRequest& request) {
+  command.add_option("--world", request.world, "A world by name (vantage list), a mesh, or a .bt/.ot map")
+      ->required()
+      ->type_name("NAME|FILE");
+  command.add_option("--up", request.up, "Which axis of a mesh file points up")->type_name("y|z")->capture_default_str();
+  command.add_option("--scale", request.scale, "Metres per unit of a mesh file")->type_name("S")->capture_default_str();
+  command.add_option("--region", request.region, "What to explore, metres; default: all of the world")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command.add_option("--resolution", request.resolution_m, "Edge of a cell")->type_name("M")->capture_default_str();
+  command.add_option("--planner", request.planner, "A planner by name (vantage list)")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command.add_option("--set", request.settings, "A setting of the planner; may be repeated")
+      ->type_name("key=value")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  command.add_option("--sensor", request.sensor, "A sensor by name (vantage list) or from a file")
+      ->type_name("NAME|FILE.json")
+      ->capture_default_str();
+  command.add_option("--noise", request.noise, "Depth noise, as a multiple of a Kinect's")
+      ->type_name("X")
+      ->capture_default_str();
+  command.add_option("--scan-spacing", request.scan_spacing_m, "Scan every so far along the way; 0: at goals only")
+      ->type_name("M")
+      ->capture_default_str();
+  command.add_option("--start", request.start, "First pose of the sensor; default: drawn from the seed")
+      ->type_name("x,y,z[,yaw_deg[,pitch_deg]]");
+  command.add_option("--robot-radius", request.robot_radius_m, "The robot is a sphere about its sensor")
+      ->type_name("M")
+      ->capture_default_str();
+  command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level");
+  command.add_option("--max-views", request.max_views, "Budget of scans")->type_name("N")->capture_default_str();
+  command.add_option("--seed", request.seed, "Of everything drawn at random")->type_name("N")->capture_default_str();
+  command.add_option("--threads", request.threads, "Never changes the result")->type_name("N")->capture_default_str();
+  command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")->type_name("DIR");
+  command.add_option("--json", request.json, "The report as JSON; -: on stdout, all else on stderr")->type_name("FILE|-");
+}
+
+}  // namespace
+
+void add_explore_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("explore", "Explore a known world with a simulated sensor");
+  const auto request = std::make_shared<ExploreRequest>();
+  add_options(*command, *request);
+  command->callback([request, &exit_code] { exit_code = explore(*request); });
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "apps/explore_request.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <vantage/report/sensor_file.hpp>
+
+namespace vantage::apps {
+namespace {
+
+std::vector<double> numbers_of(const char* flag, const std::string& text) {
+  std::vector<double> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const char* end = text.data() + comma;
+    double number = 0.0;
+    const auto [stopped, error] = std::from_chars(text.data() + at, end, number);
+    if (error != std::errc{} || stopped != end || !std::isfinite(number)) {
+      throw std::invalid_argument(std::string(flag) + ": '" + text.substr(at, comma - at) + "' in '" + text +
+                                  "' is not a number");
+    }
+    numbers.push_back(number);
+    at = comma + 1;
+  }
+  return numbers;
+}
+
+void require(bool holds, const char* flag, double value, const char* rule) {
+  if (!holds) {
+    std::ostringstream message;
+    message << flag << " is " << value << ", must be " << rule;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+template <class Names>
+bool is_known(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+void check_numbers(const ExploreRequest& request) {
+  const auto finite_at_least_0 = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  require(std::isfinite(request.resolution_m) && request.resolution_m > 0.0, "--resolution", request.resolution_m,
+          "> 0 metres");
+  require(std::isfinite(request.scale) && request.scale > 0.0, "--scale", request.scale, "> 0");
+  require(finite_at_least_0(request.robot_radius_m), "--robot-radius", request.robot_radius_m, ">= 0 metres");
+  require(finite_at_least_0(request.scan_spacing_m), "--scan-spacing", request.scan_spacing_m, ">= 0 metres");
+  require(finite_at_least_0(request.noise), "--noise", request.noise, ">= 0");
+  require(request.max_views > 0, "--max-views", static_cast<double>(request.max_views), "> 0");
+  require(request.threads > 0, "--threads", request.threads, "> 0");
+  if (request.up != "y" && request.up != "z") {
+    throw std::invalid_argument("--up is '" + request.up + "', must be y or z");
+  }
+}
+
+World world_of(const ExploreRequest& request) {
+  if (is_known(World::names(), request.world)) {
+    return World::by_name(request.world, {.seed = request.seed});
+  }
+  if (!std::filesystem::exists(request.world) && request.world.find_first_of("./") == std::string::npos) {
+    return World::by_name(request.world);  // neither a name nor a file: let it list the names
+  }
+  return World::from_file(request.world, {.up = request.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z,
+                                          .scale = request.scale});
+}
+
+RangeSensor sensor_of(const ExploreRequest& request) {
+  const std::string& sensor = request.sensor;
+  const bool is_file = sensor.size() > 5 && sensor.compare(sensor.size() - 5, 5, ".json") == 0;
+  return is_file || std::filesystem::exists(sensor) ? load_sensor(sensor) : RangeSensor::preset(sensor);
+}
+
+std::optional<Box> region_of(const ExploreRequest& request) {
+  if (request.region.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<double> n = numbers_of("--region", request.region);
+  if (n.size() != 6) {
+    throw std::invalid_argument("--region has " + std::to_string(n.size()) + " numbers, must be x0,y0,z0,x1,y1,z1");
+  }
+  const Box region{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  if (region.empty()) {
+    throw std::invalid_argument("--region '" + request.region + "' is empty: x0 < x1, y0 < y1 and z0 < z1 must hold");
+  }
+  return region;
+}
+
+std::optional<Pose> start_of(const ExploreRequest& request) {
+  if (request.start.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<double> n = numbers_of("--start", request.start);
+  if (n.size() < 3 || n.size() > 5) {
+    throw std::invalid_argument("--start has " + std::to_string(n.size()) + " numbers, must be x,y,z[,yaw_deg[,pitch_deg]]");
+  }
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  return pose_looking({n[0], n[1], n[2]}, n.size() > 3 ? n[3] * kRadians : 0.0, n.size() > 4 ? n[4] * kRadians : 0.0);
+}
+
+PlannerSettings settings_of(const ExploreRequest& request) {
+  PlannerSettings settings;
+  for (const std::string& setting : request.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw std::invalid_argument("--set '" + setting + "' must be key=value");
+    }
+    settings[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  return settings;
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vantage/geometry/box.hpp>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/sim/world.hpp>
+#include <vector>
+
+namespace vantage::apps {
+
+/// `vantage explore` as it was typed.
+struct ExploreRequest {
+  std::string world;
+  std::string up = "z";
+  double scale = 1.0;
+  std::string planner = "harmonic";
+  std::string sensor = "kinect";
+  double resolution_m = 0.2;
+  std::string region;
+  std::string start;
+  double robot_radius_m = 0.15;
+  double scan_spacing_m = 0.5;
+  bool yaw_only = false;
+  double noise = 0.0;
+  std::size_t max_views = 500;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  std::string out;
+  std::string json;
+  std::vector<std::string> settings;
+};
+
+// What the words mean; each throws std::invalid_argument or std::runtime_error naming the flag or file at fault.
+[[nodiscard]] World world_of(const ExploreRequest& request);
+[[nodiscard]] RangeSensor sensor_of(const ExploreRequest& request);
+[[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
+[[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
+[[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
+/// Numbers and ranges that no file is needed for.
+void check_numbers(const ExploreRequest& request);
+
+}  // namespace vantage::apps

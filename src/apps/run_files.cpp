@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "apps/run_files.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vantage/map/octomap_bridge.hpp>
+#include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/report/report_json.hpp>
+#include <vantage/vision/field_picture.hpp>
+#include <vantage/vision/floor_plan.hpp>
+#include <vantage/vision/line_plot.hpp>
+
+namespace vantage::apps {
+namespace {
+
+double length_of(const std::vector<Eigen::Vector3d>& way) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    length_m += (way[i] - way[i - 1]).norm();
+  }
+  return length_m;
+}
+
+std::string title_of(const RunRecord& record) {
+  return record.planner + " in " + std::filesystem::path(record.world).stem().string();
+}
+
+Picture floor_plan(const RunRecord& record, const OccupancyMap& map, const RangeSensor& sensor) {
+  FloorPlanContent content;
+  content.title = title_of(record) + ": map and path";
+  content.travelled = record.travelled;
+  for (const ViewRecord& view : record.views) {
+    content.views.push_back(view.pose);
+  }
+  content.show_directions = sensor.horizontal_angle_rad() < 2.0 * std::numbers::pi - 0.1;
+  return draw_floor_plan(map, content);
+}
+
+Picture coverage_plot(const RunRecord& record) {
+  LineSeries over_views;
+  LineSeries over_metres;
+  for (const ViewRecord& view : record.views) {
+    const double percent = view.coverage ? 100.0 * *view.coverage : std::nan("");
+    over_views.x.push_back(static_cast<double>(view.view));
+    over_views.y.push_back(percent);
+    over_metres.x.push_back(view.path_length_m);
+    over_metres.y.push_back(percent);
+  }
+  const auto plot = [&](const char* over, const char* x_label, LineSeries series) {
+    return LinePlot{.title = title_of(record) + ": coverage over " + over,
+                    .x_label = x_label,
+                    .y_label = "observable cells known rightly [%]",
+                    .series = {std::move(series)},
+                    .y_range = std::pair(0.0, 100.0),
+                    .value_unit = " %"};
+  };
+  return draw_line_plots(std::vector<LinePlot>{plot("views", "views (scans integrated)", std::move(over_views)),
+                                               plot("metres", "path travelled [m]", std::move(over_metres))});
+}
+
+}  // namespace
+
+void FieldKeeper::look(const ExplorationPlanner& planner, const OccupancyMap& map, std::size_t view) {
+  const auto* harmonic = dynamic_cast<const HarmonicPlanner*>(&planner);
+  if (harmonic == nullptr || !harmonic->field() || length_of(harmonic->field()->streamline) <= longest_m_) {
+    return;
+  }
+  const HarmonicField& field = *harmonic->field();
+  longest_m_ = length_of(field.streamline);
+  std::vector<VoxelIndex> frontier;
+  for (std::size_t i = 0; i < field.problem.size(); ++i) {
+    if (field.problem.kind(static_cast<LaplaceProblem::Position>(i)) == LaplaceCell::Sink) {
+      frontier.push_back(field.problem.cells()[i]);
+    }
+  }
+  FieldContent content;
+  content.title = "harmonic field after view " + std::to_string(view);
+  content.cells = field.problem.cells();
+  content.phi = field.phi;
+  content.frontier = frontier;
+  content.streamline = field.streamline;
+  content.sensor_m = map.frame().centre_of(field.problem.cell(field.problem.source()));
+  picture_ = draw_field(map, content);
+}
+
+std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
+                                                   const OccupancyMap& map, const RangeSensor& sensor,
+                                                   const std::optional<Picture>& field) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
+  }
+  std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
+                                           folder / "coverage.png"};
+  write_report_json(record, files[0]);
+  save_octomap(map, files[1]);
+  write_png(floor_plan(record, map, sensor), files[2]);
+  write_png(coverage_plot(record), files[3]);
+  if (field) {
+    files.push_back(folder / "field.png");
+    write_png(*field, files.back());
+  }
+  return files;
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vantage/geometry/box.hpp>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/report/run_record.hpp>
+#include <vantage/vision/picture.hpp>
+#include <vector>
+
+namespace vantage::apps {
+
+/// Keeps the picture of the field with the longest way downhill that a run has seen: the one that shows most.
+class FieldKeeper {
+ public:
+  /// Looks at a planner right after it made a plan for `map`; planners without a field leave no picture.
+  void look(const ExplorationPlanner& planner, const OccupancyMap& map, std::size_t view);
+  [[nodiscard]] const std::optional<Picture>& picture() const { return picture_; }
+
+ private:
+  double longest_m_ = 0.0;
+  std::optional<Picture> picture_;
+};
+
+/// Writes report.json, map.ot and the pictures into `folder`, which is made; returns the files in order. Throws
+/// std::runtime_error naming what cannot be written.
+std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
+                                                   const OccupancyMap& map, const RangeSensor& sensor,
+                                                   const std::optional<Picture>& field);
+
+}  // namespace vantage::apps

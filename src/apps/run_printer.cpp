@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "apps/run_printer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace vantage::apps {
+namespace {
+
+std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
+std::string format(const char* pattern, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string bar(double share) {
+  constexpr int kWidth = 24;
+  const int full = std::clamp(static_cast<int>(std::floor(share * kWidth + 1e-9)), 0, kWidth);
+  std::string drawn(kWidth + 3, '.');
+  std::fill_n(drawn.begin() + 1, full, '#');
+  drawn.front() = '[';
+  drawn[kWidth + 1] = ']';
+  drawn.back() = ' ';
+  return drawn;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string times(const char* what, const std::vector<double>& ms) {
+  return ms.empty() ? "" : format("  %-12s median %.1f ms, longest %.1f ms\n", what, median(ms), *std::max_element(ms.begin(), ms.end()));
+}
+
+}  // namespace
+
+void RunPrinter::head(const std::string& planner, const std::string& world, const std::string& sensor,
+                      double resolution_m, std::uint64_t seed) {
+  out_ << planner << " explores " << world << " with " << sensor
+       << format(", cells of %g m, seed %llu\n", resolution_m, static_cast<unsigned long long>(seed)) << std::flush;
+}
+
+void RunPrinter::view(const ViewRecord& view) {
+  out_ << format("view %4zu  ", view.view);
+  if (view.coverage) {
+    out_ << (terminal_ ? bar(*view.coverage) : "") << format("%5.1f %% known  ", 100.0 * *view.coverage);
+  }
+  out_ << format("%7.1f m  %7zu frontier cells  insert %6.1f ms  plan %8.1f ms\n", view.path_length_m,
+                 view.frontier_cells, view.insert_ms, view.plan_ms)
+       << std::flush;
+}
+
+void RunPrinter::summary(const RunRecord& record) {
+  std::vector<double> insert_ms;
+  std::vector<double> plan_ms;
+  for (const ViewRecord& view : record.views) {
+    insert_ms.push_back(view.insert_ms);
+    if (view.plan_ms > 0.0) {
+      plan_ms.push_back(view.plan_ms);
+    }
+  }
+  out_ << "\n  " << format("%-12s ", "outcome") << to_string(record.outcome) << ": " << record.reason << '\n'
+       << format("  %-12s %zu, over a path of %.1f m\n", "views", record.views.size(), record.path_length_m());
+  if (record.coverage) {
+    out_ << format("  %-12s %.2f %% of %zu observable cells\n", "coverage", 100.0 * *record.coverage, record.observable_cells);
+  }
+  out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu too small\n", "left over", record.leftover.unreachable,
+                 record.leftover.unobservable, record.leftover.too_small)
+       << format("  %-12s %zu\n", "collisions", record.collisions) << times("inserting", insert_ms)
+       << times("planning", plan_ms) << format("  %-12s %.0f MB at most\n", "memory", record.peak_memory_mb) << std::flush;
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_all(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Ran {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Drives the real program in a folder of its own.
+class Program : public testing::Test {
+ protected:
+  Program()
+      : folder_(fs::temp_directory_path() / ("vantage_program_" + std::to_string(::getpid()) + "_" +
+                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::create_directories(folder_);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string file(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return (folder_ / name).string();
+  }
+  [[nodiscard]] std::string out() const { return (folder_ / "out").string(); }
+  [[nodiscard]] Ran run(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout.txt";
+    const fs::path err = folder_ / "stderr.txt";
+    const std::string command = "'" VANTAGE_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
+  }
+  /// The message is one line, `vantage: ...`, that names the thing; the code is 2 and nothing is written.
+  void expect_refused(const std::string& arguments, const std::string& names) {
+    const std::string json = (folder_ / "report.json").string();
+    const Ran ran = run("explore " + arguments + " --out '" + out() + "' --json '" + json + "'");
+    EXPECT_EQ(ran.code, 2) << arguments << '\n' << ran.err;
+    EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << arguments << '\n' << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << arguments << '\n' << ran.err;
+    EXPECT_NE(ran.err.find(names), std::string::npos) << arguments << '\n' << ran.err;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_FALSE(fs::exists(out())) << arguments;
+    EXPECT_FALSE(fs::exists(json)) << arguments;
+    ++refused_;
+  }
+
+  fs::path folder_;
+  int refused_ = 0;
+};
+
+constexpr const char* kTable = "--world table --sensor kinect --resolution 0.2 --planner nearest-frontier ";
+
+std::string ply(const std::string& vertices, std::size_t vertex_count, const std::string& faces, std::size_t face_count) {
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(face_count) +
+         "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
+}
+
+TEST_F(Program, RefusesNumbersOutOfRange) {
+  const std::string table(kTable);
+  expect_refused(table + "--resolution 0", "--resolution");
+  expect_refused(table + "--resolution -0.1", "--resolution");
+  expect_refused(table + "--resolution nan", "--resolution");
+  expect_refused(table + "--resolution 1e-7", "--resolution");
+  expect_refused(table + "--resolution two", "--resolution");
+  expect_refused(table + "--robot-radius -1", "--robot-radius");
+  expect_refused(table + "--max-views 0", "--max-views");
+  expect_refused(table + "--max-views -3", "--max-views");
+  expect_refused(table + "--threads 0", "--threads");
+  expect_refused(table + "--seed x", "--seed");
+  expect_refused(table + "--scan-spacing -1", "--scan-spacing");
+  expect_refused(table + "--noise -1", "--noise");
+  expect_refused(table + "--up x", "--up");
+  expect_refused(table + "--scale 0", "--scale");
+  EXPECT_EQ(refused_, 14);
+}
+
+TEST_F(Program, RefusesNamesThatDoNotExist) {
+  expect_refused("--world room", "room");
+  expect_refused("--world rooms --planner harmonious", "harmonious");
+  expect_refused("--world rooms --sensor kinekt", "kinekt");
+  expect_refused(std::string(kTable) + "--set gain=3", "gain");
+  expect_refused(std::string(kTable) + "--set =3", "=3");
+  expect_refused("--world rooms --planner harmonic --set tolerance=small", "tolerance");
+  expect_refused(std::string(kTable) + "--fast", "--fast");
+  expect_refused("--planner harmonic", "--world");
+  EXPECT_EQ(refused_, 8);
+}
+
+TEST_F(Program, RefusesRegionsAndStarts) {
+  const std::string table(kTable);
+  expect_refused(table + "--region 0,0,0,1,1", "--region");
+  expect_refused(table + "--region 0,0,0,1,one,1", "'one'");
+  expect_refused(table + "--region 1,0,0,0,1,1", "--region");
+  expect_refused(table + "--region 0,0,0,inf,1,1", "'inf'");
+  expect_refused(table + "--start 0,0", "--start");
+  expect_refused(table + "--start 0,0,high", "'high'");
+  expect_refused(table + "--start 50,0,1", "--start 50,0,1");
+  expect_refused(table + "--start 1.79,0,1", "start");
+  expect_refused(table + "--region -1,-1,0,1,1,2 --start 1.5,0,1", "--start 1.5,0,1");
+  expect_refused(table + "--robot-radius 9", "fits nowhere");
+  EXPECT_EQ(refused_, 10);
+}
+
+TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
+  const std::string tail = " --sensor kinect --planner nearest-frontier";
+  expect_refused("--world /nowhere/house.ply" + tail, "/nowhere/house.ply");
+  expect_refused("--world /nowhere/map.bt" + tail, "/nowhere/map.bt");
+  const std::string points = file("points.ply", ply("0 0 0\n1 0 0\n0 1 0\n", 3, "", 0));
+  expect_refused("--world " + points + tail, points);
+  const std::string nan = file("nan.ply", ply("0 0 0\nnan 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1));
+  expect_refused("--world " + nan + tail, nan);
+  const std::string text = file("text.ply", "this is no mesh\n");
+  expect_refused("--world " + text + tail, text);
+  const std::string empty = file("empty.bt", "");
+  expect_refused("--world " + empty + tail, empty);
+  const std::string cut = file("cut.bt", "# Octomap OcTree binary file\nid OcTree\nsize 1000\nres 0.1\ndata\nab");
+  expect_refused("--world " + cut + tail, cut);
+  const std::string json = file("sensor.json", "{\"width\": 64,\n \"height\": }");
+  expect_refused("--world table --sensor " + json, json);
+  const std::string range = file("range.json", R"({"width": 64, "height": 48, "fx": 60, "fy": 60, "max_range_m": -4})");
+  expect_refused("--world table --sensor " + range, "max_range_m is -4");
+  expect_refused("--world table --sensor /nowhere/sensor.json", "/nowhere/sensor.json");
+  EXPECT_EQ(refused_, 10);
+}
+
+TEST_F(Program, RefusesWhatItCannotDo) {
+  for (const char* arguments : {"", "dance", "explore --world", "reconstruct", "list --all"}) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.code, 2) << arguments;
+    EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  }
+}
+
+TEST_F(Program, HelpsAndLists) {
+  EXPECT_EQ(run("--help").code, 0);
+  const Ran help = run("explore --help");
+  EXPECT_EQ(help.code, 0);
+  for (const char* flag : {"--world", "--planner", "--sensor", "--resolution", "--region", "--start", "--robot-radius",
+                           "--max-views", "--seed", "--threads", "--out", "--json", "--set", "--up", "--scale"}) {
+    EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
+  }
+  const Ran list = run("list");
+  EXPECT_EQ(list.code, 0);
+  for (const char* name : {"rooms", "office", "maze", "two-storey", "table", "harmonic", "frontier-gain",
+                           "nearest-frontier", "kinect", "panoramic"}) {
+    EXPECT_NE(list.out.find(name), std::string::npos) << name;
+  }
+}
+
+TEST_F(Program, ExploresAndReports) {
+  const Ran ran = run("explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --out '" + out() + "' --json -");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);  // stdout is nothing but JSON
+  EXPECT_EQ(report["command"], "explore");
+  EXPECT_EQ(report["world"], "table");
+  EXPECT_EQ(report["planner"], "harmonic");
+  EXPECT_EQ(report["outcome"], "explored");
+  EXPECT_EQ(report["resolution_m"], 0.2);
+  EXPECT_EQ(report["views"], report["cycles"].size());
+  EXPECT_EQ(report["collisions"], 0);
+  EXPECT_GE(report["coverage"].get<double>(), 0.95);
+  EXPECT_EQ(report["cycles"][0]["pose"].size(), 7U);
+  EXPECT_NE(ran.err.find("view    1"), std::string::npos) << ran.err;
+  EXPECT_EQ(nlohmann::json::parse(read_all(fs::path(out()) / "report.json")), report);
+  for (const char* name : {"report.json", "map.ot", "floor_plan.png", "coverage.png"}) {
+    EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
+    EXPECT_NE(ran.err.find(name), std::string::npos) << "the program names what it wrote: " << name;
+  }
+}
+
+TEST_F(Program, SaysThatABudgetEndedIt) {
+  const Ran ran = run("explore " + std::string(kTable) + "--max-views 1 --json -");
+  EXPECT_EQ(ran.code, 3) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["outcome"], "budget");
+  EXPECT_EQ(report["views"], 1);
+}
+
+}  // namespace
