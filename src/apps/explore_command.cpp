@@ -155,8 +155,15 @@ void add_options(CLI::App& command, ExploreRequest& request) {
       ->type_name("M")
       ->capture_default_str();
   command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level");
-  command.add_option("--max-views", request.max_views, "Budget of scans")->type_name("N")->capture_default_str();
-  command.add_option("--seed", request.seed, "Of everything drawn at random")->type_name("N")->capture_default_str();
+  // A negative number would wrap around: the text itself is checked.
+  command.add_option("--max-views", request.max_views, "Budget of scans")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber, "")
+      ->capture_default_str();
+  command.add_option("--seed", request.seed, "Of everything drawn at random")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber, "")
+      ->capture_default_str();
   command.add_option("--threads", request.threads, "Never changes the result")->type_name("N")->capture_default_str();
   command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")->type_name("DIR");
   command.add_option("--json", request.json, "The report as JSON; -: on stdout, all else on stderr")->type_name("FILE|-");

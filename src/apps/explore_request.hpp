@@ -20,7 +20,7 @@ struct ExploreRequest {
   std::string up = "z";
   double scale = 1.0;
   std::string planner = "harmonic";
-  std::string sensor = "kinect";
+  std::string sensor = "panoramic";
   double resolution_m = 0.2;
   std::string region;
   std::string start;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 #include <vantage/frontier/frontiers.hpp>
@@ -79,6 +80,10 @@ struct Setting {
   std::string planner;
   bool narrow = false;
 };
+
+void PrintTo(const Setting& setting, std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest's name
+  *out << setting.planner << (setting.narrow ? ", camera" : ", all round");
+}
 
 /// One robot in one world, driven by the simplest host there can be.
 class Robot {

@@ -88,11 +88,12 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--max-views -3", "--max-views");
   expect_refused(table + "--threads 0", "--threads");
   expect_refused(table + "--seed x", "--seed");
+  expect_refused(table + "--seed -1", "--seed");
   expect_refused(table + "--scan-spacing -1", "--scan-spacing");
   expect_refused(table + "--noise -1", "--noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 14);
+  EXPECT_EQ(refused_, 15);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {

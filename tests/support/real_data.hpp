@@ -14,10 +14,10 @@ inline std::filesystem::path real_data(const std::filesystem::path& relative) {
 
 }  // namespace vantage::test
 
-/// Declares `path` as a file or folder of the real data, or skips the test and says how to run it.
-#define VANTAGE_REAL_DATA(path, relative)                                                              \
-  const std::filesystem::path path = ::vantage::test::real_data(relative);                             \
-  if (path.empty()) {                                                                                  \
-    GTEST_SKIP() << "needs " << (relative) << ": set VANTAGE_DATA to the folder with the real data";   \
-  }                                                                                                    \
-  ASSERT_TRUE(std::filesystem::exists(path)) << path
+/// Declares `variable`, a file or folder of the real data, or skips the test and says how to run it.
+#define VANTAGE_REAL_DATA(variable, relative)                                                        \
+  const std::filesystem::path variable = ::vantage::test::real_data(relative);                       \
+  if (variable.empty()) {                                                                            \
+    GTEST_SKIP() << "needs " << (relative) << ": set VANTAGE_DATA to the folder with the real data"; \
+  }                                                                                                  \
+  ASSERT_TRUE(std::filesystem::exists(variable)) << variable

@@ -118,7 +118,7 @@ class OccupancyMap {
   }
 
   // --- what changed --------------------------------------------------------------------------------------------------
-  /// Grows by one with every call that changes a cell; 0 for a new map.
+  /// Grows by one with every call that writes to the map, a scan that confirms what is known included; 0 for a new map.
   [[nodiscard]] Revision revision() const { return revision_; }
   /// Addresses of the bricks in which a cell changed its state after `revision`, the latest first. Costs what it
   /// returns. Throws std::invalid_argument if `revision` is still to come.
