@@ -38,7 +38,7 @@ std::string flatness(const std::vector<Eigen::Vector3d>& points) {
   }
   const Eigen::Vector3d along = (b - a) / length;
   const auto off_line = [&](const auto& p) { return (p - a).cross(along).norm(); };
-  const Eigen::Vector3d c = points[furthest(points, off_line)];
+  const Eigen::Vector3d& c = points[furthest(points, off_line)];
   if (off_line(c) <= flat) {
     return "all points lie on one line";
   }
@@ -72,7 +72,7 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
     return;
   }
   // Around the origin: far from it the planes' offsets would lose their digits.
-  const Eigen::Vector3d origin = points.front();
+  const Eigen::Vector3d& origin = points.front();
   std::vector<coordT> coordinates;
   coordinates.reserve(3 * points.size());
   for (const Eigen::Vector3d& point : points) {

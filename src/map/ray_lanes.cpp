@@ -105,8 +105,8 @@ Walk best_walk() {
 }  // namespace
 
 void RayLanes::walk(std::int64_t steps, std::uint64_t* plane) {
-  static const Walk kBest = best_walk();
-  kBest(*this, steps, plane);
+  static const Walk best = best_walk();
+  best(*this, steps, plane);
 }
 
 }  // namespace vantage

@@ -72,7 +72,7 @@ class RayCollector {
   // Whether a point lies in the cell of the last return drawn, by a margin that rounding cannot bridge.
   [[nodiscard]] bool well_inside_last(const Eigen::Vector3d& end) const {
     const double reach_m = frame_.size_m * (0.5 - 1e-6);
-    return (std::abs(end.x() - last_centre_.x()) < reach_m) & (std::abs(end.y() - last_centre_.y()) < reach_m) &
+    return (std::abs(end.x() - last_centre_.x()) < reach_m) && (std::abs(end.y() - last_centre_.y()) < reach_m) &&
            (std::abs(end.z() - last_centre_.z()) < reach_m);
   }
 

@@ -155,7 +155,7 @@ SolidCells maze_cells(const WorldOptions& options) {
     carve(solid, lo, lo + (along_x ? VoxelIndex{1, kPitch - 1, kHeight - 2} : VoxelIndex{kPitch - 1, 1, kHeight - 2}));
   };
   std::vector<std::uint8_t> visited(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
-  const auto place = [&](std::int32_t x, std::int32_t y) { return static_cast<std::size_t>(y * columns + x); };
+  const auto place = [&](std::int32_t x, std::int32_t y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x); };
   std::vector<std::pair<std::int32_t, std::int32_t>> trail{{0, 0}};
   visited[0] = 1;
   hollow(0, 0);
