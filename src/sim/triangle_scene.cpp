@@ -15,6 +15,8 @@ struct TriangleScene::Embree {
   explicit Embree(TriangleMesh triangles);
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
+  Embree(Embree&&) = delete;
+  Embree& operator=(Embree&&) = delete;
   ~Embree() {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);

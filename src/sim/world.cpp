@@ -66,6 +66,7 @@ World World::by_name(std::string_view name, const WorldOptions& options) {
 const std::vector<std::string_view>& World::names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all;
+    all.reserve(std::size(kWorlds));
     for (const Named& world : kWorlds) {
       all.push_back(world.first);
     }

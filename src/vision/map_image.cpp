@@ -60,7 +60,7 @@ VoxelBox cells_to_show(const OccupancyMap& map, const std::optional<Box>& extent
 
 cv::Mat map_from_above(const OccupancyMap& map, const VoxelBox& cells) {
   const VoxelIndex extent = cells.extent();
-  const std::int32_t bin = (std::max(extent.x, extent.y) + kMostColumns - 1) / kMostColumns;
+  const std::int32_t bin = std::max(1, (std::max(extent.x, extent.y) + kMostColumns - 1) / kMostColumns);
   const std::int32_t width = (extent.x + bin - 1) / bin;
   const std::int32_t height = (extent.y + bin - 1) / bin;
   std::vector<Column> columns(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
