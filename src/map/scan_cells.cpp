@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <stdexcept>
-#include <string>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/scan_cells.hpp>
 
+#include "map/validate_scan.hpp"
+
 namespace vantage {
 namespace {
-
-void validate(const Scan& scan) {
-  if (!is_rigid(scan.world_from_sensor)) {
-    throw std::invalid_argument("Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");
-  }
-  if (!(scan.max_range_m > 0.0)) {
-    throw std::invalid_argument("Scan::max_range_m is " + std::to_string(scan.max_range_m) + ", must be > 0");
-  }
-}
 
 class Walker {
  public:
@@ -49,7 +40,7 @@ class Walker {
 }  // namespace
 
 ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy, const std::optional<VoxelBox>& region) {
-  validate(scan);
+  detail::validate(scan);
   ScanCells cells;
   ScanReport& report = cells.report;
   const Eigen::Vector3d origin = scan.world_from_sensor.translation();

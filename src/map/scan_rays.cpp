@@ -3,20 +3,10 @@
 #include <cmath>
 #include <limits>
 #include <map/scan_rays.hpp>
-#include <stdexcept>
-#include <string>
+#include <map/validate_scan.hpp>
 
 namespace vantage {
 namespace {
-
-void validate(const Scan& scan) {
-  if (!is_rigid(scan.world_from_sensor)) {
-    throw std::invalid_argument("Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");
-  }
-  if (!(scan.max_range_m > 0.0)) {
-    throw std::invalid_argument("Scan::max_range_m is " + std::to_string(scan.max_range_m) + ", must be > 0");
-  }
-}
 
 class RayCollector {
  public:
@@ -91,7 +81,7 @@ class RayCollector {
 }  // namespace
 
 ScanRays rays_of(const Scan& scan, const VoxelFrame& frame, RayPolicy policy) {
-  validate(scan);
+  detail::validate(scan);
   ScanRays rays;
   rays.origin = scan.world_from_sensor.translation();
   if (policy == RayPolicy::EveryReturn) {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 
@@ -136,9 +136,7 @@ std::vector<VoxelIndex> large_enough(std::vector<VoxelIndex> frontier, std::size
       kept.insert(kept.end(), cluster.begin(), cluster.end());
     }
   }
-  std::sort(kept.begin(), kept.end(), [](const VoxelIndex& a, const VoxelIndex& b) {
-    return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
-  });
+  std::sort(kept.begin(), kept.end(), RasterOrder{});
   return kept;
 }
 

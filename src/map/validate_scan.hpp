@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vantage/map/scan.hpp>
+
+namespace vantage::detail {
+
+/// Throws std::invalid_argument naming the field if the pose is not rigid or the range is not positive: the one check
+/// that insertion and its definition share.
+inline void validate(const Scan& scan) {
+  if (!is_rigid(scan.world_from_sensor)) {
+    throw std::invalid_argument("Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");
+  }
+  if (!(scan.max_range_m > 0.0)) {
+    throw std::invalid_argument("Scan::max_range_m is " + std::to_string(scan.max_range_m) + ", must be > 0");
+  }
+}
+
+}  // namespace vantage::detail
