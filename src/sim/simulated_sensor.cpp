@@ -67,30 +67,35 @@ Scan SimulatedSensor::scan(const Pose& world_from_sensor) {
   Scan scan;
   scan.world_from_sensor = world_from_sensor;
   scan.max_range_m = sensor_.max_range_m;
-  scan.width = sensor_.width;
-  scan.height = sensor_.height;
-  scan.points.assign(directions_.size(), Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  scan.points.reserve(directions_.size());
+  const Eigen::Vector3f nothing = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   const Eigen::Vector3d origin = world_from_sensor.translation();
-  for (std::size_t i = 0; i < directions_.size(); ++i) {
+  for (const Eigen::Vector3d& direction : directions_) {
     const std::optional<double> range_m =
-        scene_.hit_distance(origin, world_from_sensor.linear() * directions_[i], sensor_.max_range_m);
+        scene_.hit_distance(origin, world_from_sensor.linear() * direction, sensor_.max_range_m);
     if (!range_m) {
       if (sensor_.reports_no_return) {
-        scan.no_return.push_back(directions_[i].cast<float>());
+        scan.no_return.emplace_back(direction.cast<float>());
+      } else {
+        scan.points.push_back(nothing);
       }
       continue;
     }
     double measured_m = *range_m;
     if (noisy) {
       if (chance.uniform() < noise_.dropped_share) {
+        scan.points.push_back(nothing);
         continue;
       }
-      const double along_axis = pinhole ? directions_[i].z() : 1.0;
+      const double along_axis = pinhole ? direction.z() : 1.0;
       measured_m += noise_.axial * kinect_sigma_m(measured_m * along_axis) * chance.normal() / along_axis;
     }
-    if (measured_m > 0.0 && *range_m >= sensor_.min_range_m) {
-      scan.points[i] = (measured_m * directions_[i]).cast<float>();
-    }
+    const bool returns = measured_m > 0.0 && *range_m >= sensor_.min_range_m;
+    scan.points.push_back(returns ? Eigen::Vector3f((measured_m * direction).cast<float>()) : nothing);
+  }
+  if (scan.no_return.empty()) {
+    scan.width = sensor_.width;
+    scan.height = sensor_.height;
   }
   return scan;
 }

@@ -29,7 +29,7 @@ struct ExplorationRunOptions {
   std::uint64_t seed = 1;                          ///< of the sensor's noise
   SensorNoise noise = {};  ///< of the simulated sensor
   /// Of the sphere whose touching a true surface is a collision, >= 0; none: half the least extent of
-  /// Platform::body_box.
+  /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;
   int threads = 1;                                 ///< for the observable cells, > 0
 };

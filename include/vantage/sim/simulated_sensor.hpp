@@ -26,11 +26,11 @@ class SimulatedSensor {
   SimulatedSensor(const TriangleScene& scene, const RangeSensor& sensor, const SensorNoise& noise = {},
                   std::uint64_t seed = 1);
 
-  /// What the sensor measures at this pose, width x height points, row by row. A pixel is NaN where the nearest surface
-  /// is out of range or the return was dropped; a ray that meets no surface within range is listed in
-  /// `Scan::no_return` too, if the sensor reports that. The noise is drawn from the seed and the number of scans before
-  /// this one, so the same sequence of poses gives the same scans. Throws std::invalid_argument for a pose that is not
-  /// rigid.
+  /// What the sensor measures at this pose, each ray of the sensor once, row by row: as a point, NaN where the nearest
+  /// surface is out of range or the return was dropped, or, if it meets no surface within range and the sensor reports
+  /// that, in `Scan::no_return`. The scan is a depth image if every ray is a point. The noise is drawn from the seed and
+  /// the number of scans before this one, so the same sequence of poses gives the same scans. Throws
+  /// std::invalid_argument for a pose that is not rigid.
   [[nodiscard]] Scan scan(const Pose& world_from_sensor);
 
   /// The sensor simulated.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <string_view>
+#include <vantage/map/occupancy_map.hpp>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/triangle_scene.hpp>
 
@@ -96,11 +98,52 @@ TEST(SimulatedSensor, OnlyASensorThatKnowsReportsNoReturn) {
   const TriangleScene scene(box_room(30.0));
   SimulatedSensor lidar(scene, RangeSensor::preset("lidar"));
   const Scan clear = lidar.scan(Pose::Identity());
-  EXPECT_EQ(clear.no_return.size(), clear.points.size());
+  EXPECT_EQ(clear.no_return.size(), lidar.sensor().width * lidar.sensor().height);
+  EXPECT_TRUE(clear.points.empty());
   SimulatedSensor kinect(scene, RangeSensor::preset("kinect"));
   const Scan silent = kinect.scan(Pose::Identity());
   EXPECT_TRUE(silent.no_return.empty());
   EXPECT_TRUE(std::isnan(silent.points[0].x()));
+}
+
+// Far walls, noise and dropped returns: whatever becomes of a ray, the map counts it once.
+TEST(SimulatedSensor, EveryRayIsCountedOnce) {
+  std::mt19937_64 engine(12);
+  std::uniform_real_distribution<double> metre(-1.5, 1.5);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  ScanReport sum;
+  std::size_t scans = 0;
+  std::size_t images = 0;
+  for (const std::string_view name : RangeSensor::preset_names()) {
+    RangeSensor sensor = RangeSensor::preset(name).rays_for(0.5);
+    sensor.max_range_m = 4.0;
+    for (const bool knows : {false, true}) {
+      sensor.reports_no_return = knows;
+      SimulatedSensor simulated(TriangleScene(box_room(3.5)), sensor, {.axial = 1.0, .dropped_share = 0.1}, 5);
+      for (int view = 0; view < 5; ++view, ++scans) {
+        const Scan scan = simulated.scan(pose_looking({metre(engine), metre(engine), metre(engine)}, angle(engine), 0.4));
+        EXPECT_EQ(scan.points.size() + scan.no_return.size(), sensor.width * sensor.height) << name;
+        EXPECT_EQ(scan.organised(), scan.no_return.empty()) << name;
+        EXPECT_TRUE(knows || scan.organised()) << name;
+        images += scan.organised() ? 1U : 0U;
+        OccupancyMap map({.resolution_m = 0.2});
+        const ScanReport report = map.insert(scan);
+        EXPECT_EQ(report.no_return, scan.no_return.size()) << name;
+        EXPECT_EQ(report.hits + report.beyond_range + report.no_return + report.not_finite + report.zero_length +
+                      report.not_addressable,
+                  sensor.width * sensor.height)
+            << name;
+        sum.hits += report.hits;
+        sum.no_return += report.no_return;
+        sum.not_finite += report.not_finite;
+      }
+    }
+  }
+  EXPECT_EQ(scans, 10 * RangeSensor::preset_names().size());
+  EXPECT_LT(images, scans);
+  EXPECT_GT(sum.hits, 10'000U);
+  EXPECT_GT(sum.no_return, 1000U);
+  EXPECT_GT(sum.not_finite, 1000U);
 }
 
 TEST(SimulatedSensor, ASurfaceTooNearGivesNothingAtAll) {

@@ -215,6 +215,22 @@ TEST(ExplorationRun, CountsCollisionsWithTheTrueWorldAndStopsAtTheBudget) {
   EXPECT_THROW(ExplorationRun(world, coarse_panoramic(), flyer, options), std::invalid_argument);
 }
 
+// Along a wall 0.35 m away: nearer than the planner would plan, further than the body reaches.
+TEST(ExplorationRun, WhatPlanningKeepsOffAsAMarginIsNoCollision) {
+  const World world = two_rooms();
+  const auto flyer = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.25, .margin_m = 0.2});
+  const Pose start = pose_looking({1.0, 1.1, 1.1}, 0.0);
+  const Pose beside_the_wall = pose_looking({1.0, 0.55, 1.1}, 0.0);
+  ExplorationRunOptions options = run_options();
+  options.scan_spacing_m = 0.0;
+  options.body_radius_m = flyer->options().radius_m;
+  Shuttle there_and_back(start, beside_the_wall, 4);
+  EXPECT_EQ(ExplorationRun(world, coarse_panoramic(), flyer, options).run(there_and_back, start).collisions, 0U);
+  options.body_radius_m = 0.4;
+  Shuttle again(start, beside_the_wall, 4);
+  EXPECT_EQ(ExplorationRun(world, coarse_panoramic(), flyer, options).run(again, start).collisions, 4U);
+}
+
 TEST(ExplorationRun, APlannerExploresTwoRoomsTheSameWayEveryTime) {
   const World world = two_rooms();
   const auto flyer = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.25});
