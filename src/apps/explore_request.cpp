@@ -6,10 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <vantage/report/sensor_file.hpp>
+
+#include "map/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -32,14 +33,6 @@ std::vector<double> numbers_of(const char* flag, const std::string& text) {
   return numbers;
 }
 
-void require(bool holds, const char* flag, double value, const char* rule) {
-  if (!holds) {
-    std::ostringstream message;
-    message << flag << " is " << value << ", must be " << rule;
-    throw std::invalid_argument(message.str());
-  }
-}
-
 template <class Names>
 bool is_known(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -49,14 +42,16 @@ bool is_known(const Names& names, const std::string& name) {
 
 void check_numbers(const ExploreRequest& request) {
   const auto finite_at_least_0 = [](double value) { return std::isfinite(value) && value >= 0.0; };
-  require(std::isfinite(request.resolution_m) && request.resolution_m > 0.0, "--resolution", request.resolution_m,
-          "> 0 metres");
-  require(std::isfinite(request.scale) && request.scale > 0.0, "--scale", request.scale, "> 0");
-  require(finite_at_least_0(request.robot_radius_m), "--robot-radius", request.robot_radius_m, ">= 0 metres");
-  require(finite_at_least_0(request.scan_spacing_m), "--scan-spacing", request.scan_spacing_m, ">= 0 metres");
-  require(finite_at_least_0(request.noise), "--noise", request.noise, ">= 0");
-  require(request.max_views > 0, "--max-views", static_cast<double>(request.max_views), "> 0");
-  require(request.threads > 0, "--threads", request.threads, "> 0");
+  detail::require_option(std::isfinite(request.resolution_m) && request.resolution_m > 0.0, "--resolution",
+                         request.resolution_m, "> 0 metres");
+  detail::require_option(std::isfinite(request.scale) && request.scale > 0.0, "--scale", request.scale, "> 0");
+  detail::require_option(finite_at_least_0(request.robot_radius_m), "--robot-radius", request.robot_radius_m,
+                         ">= 0 metres");
+  detail::require_option(finite_at_least_0(request.scan_spacing_m), "--scan-spacing", request.scan_spacing_m,
+                         ">= 0 metres");
+  detail::require_option(finite_at_least_0(request.noise), "--noise", request.noise, ">= 0");
+  detail::require_option(request.max_views > 0, "--max-views", request.max_views, "> 0");
+  detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
   if (request.up != "y" && request.up != "z") {
     throw std::invalid_argument("--up is '" + request.up + "', must be y or z");
   }

@@ -7,33 +7,24 @@
 #include <string>
 #include <vantage/field/laplace_relaxation.hpp>
 
+#include "map/option_rule.hpp"
+
 namespace vantage {
 namespace {
 
 using Position = LaplaceProblem::Position;
-
-[[noreturn]] void refuse(const char* field, double value, const char* rule) {
-  throw std::invalid_argument(std::string("RelaxationOptions::") + field + " is " + std::to_string(value) +
-                              ", must be " + rule);
-}
 
 bool is_red(const VoxelIndex& cell) { return ((cell.x ^ cell.y ^ cell.z) & 1) == 0; }
 
 }  // namespace
 
 void RelaxationOptions::validate() const {
-  if (!(tolerance > 0.0)) {
-    refuse("tolerance", tolerance, "> 0");
-  }
-  if (max_sweeps == 0) {
-    refuse("max_sweeps", 0.0, "> 0");
-  }
-  if (!(over_relaxation > 0.0 && over_relaxation < 2.0)) {
-    refuse("over_relaxation", over_relaxation, "in (0, 2)");
-  }
-  if (!(uniform_source >= 0.0 && std::isfinite(uniform_source))) {
-    refuse("uniform_source", uniform_source, ">= 0 and finite");
-  }
+  detail::require_option(tolerance > 0.0, "RelaxationOptions::tolerance", tolerance, "> 0");
+  detail::require_option(max_sweeps > 0, "RelaxationOptions::max_sweeps", max_sweeps, "> 0");
+  detail::require_option(over_relaxation > 0.0 && over_relaxation < 2.0, "RelaxationOptions::over_relaxation",
+                         over_relaxation, "in (0, 2)");
+  detail::require_option(uniform_source >= 0.0 && std::isfinite(uniform_source), "RelaxationOptions::uniform_source",
+                         uniform_source, ">= 0 and finite");
 }
 
 LaplaceRelaxation::LaplaceRelaxation(const LaplaceProblem& problem, const RelaxationOptions& options)

@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vantage/map/occupancy_map.hpp>
 
+#include "map/option_rule.hpp"
+
 namespace vantage {
 namespace {
 
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds) {
-    std::ostringstream message;
-    message << "OccupancyMapOptions::" << field << " is " << value << ", must be " << rule;
-    throw std::invalid_argument(message.str());
-  }
-}
-
 void validate(const OccupancyMapOptions& options) {
   const auto finite = [](double value) { return std::isfinite(value); };
-  require(finite(options.resolution_m) && options.resolution_m > 0, "resolution_m", options.resolution_m, "> 0");
-  require(finite(options.log_odds_hit) && options.log_odds_hit > 0, "log_odds_hit", options.log_odds_hit, "> 0");
-  require(finite(options.log_odds_miss) && options.log_odds_miss < 0, "log_odds_miss", options.log_odds_miss, "< 0");
-  require(finite(options.log_odds_min) && options.log_odds_min < 0, "log_odds_min", options.log_odds_min, "< 0");
-  require(finite(options.log_odds_max) && options.log_odds_max > 0, "log_odds_max", options.log_odds_max, "> 0");
+  detail::require_option(finite(options.resolution_m) && options.resolution_m > 0,
+                         "OccupancyMapOptions::resolution_m", options.resolution_m, "> 0");
+  detail::require_option(finite(options.log_odds_hit) && options.log_odds_hit > 0,
+                         "OccupancyMapOptions::log_odds_hit", options.log_odds_hit, "> 0");
+  detail::require_option(finite(options.log_odds_miss) && options.log_odds_miss < 0,
+                         "OccupancyMapOptions::log_odds_miss", options.log_odds_miss, "< 0");
+  detail::require_option(finite(options.log_odds_min) && options.log_odds_min < 0,
+                         "OccupancyMapOptions::log_odds_min", options.log_odds_min, "< 0");
+  detail::require_option(finite(options.log_odds_max) && options.log_odds_max > 0,
+                         "OccupancyMapOptions::log_odds_max", options.log_odds_max, "> 0");
   if (options.region) {
     const VoxelFrame frame{options.resolution_m};
     if (options.region->empty() || !frame.addressable(options.region->min) || !frame.addressable(options.region->max)) {

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
 #include <vantage/map/scan.hpp>
+
+#include "map/option_rule.hpp"
 
 namespace vantage::detail {
 
@@ -13,9 +14,7 @@ inline void validate(const Scan& scan) {
   if (!is_rigid(scan.world_from_sensor)) {
     throw std::invalid_argument("Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");
   }
-  if (!(scan.max_range_m > 0.0)) {
-    throw std::invalid_argument("Scan::max_range_m is " + std::to_string(scan.max_range_m) + ", must be > 0");
-  }
+  require_option(scan.max_range_m > 0.0, "Scan::max_range_m", scan.max_range_m, "> 0");
 }
 
 }  // namespace vantage::detail

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vantage/robot/grid_path.hpp>
 
+#include "map/option_rule.hpp"
+
 namespace vantage::detail {
 namespace {
 
@@ -82,20 +84,15 @@ void validate(const PlannerSetup& setup) {
   if (setup.platform == nullptr) {
     throw std::invalid_argument("PlannerSetup::platform is null, must be a platform");
   }
-  if (setup.threads < 1) {
-    throw std::invalid_argument("PlannerSetup::threads is " + std::to_string(setup.threads) + ", must be >= 1");
-  }
+  require_option(setup.threads >= 1, "PlannerSetup::threads", setup.threads, ">= 1");
   setup.sensor.validate();
 }
 
 void validate(const FrontierSurveyOptions& options) {
-  if (options.min_cluster_cells < 1) {
-    throw std::invalid_argument("FrontierSurveyOptions::min_cluster_cells is 0, must be >= 1");
-  }
-  if (options.sight_directions < 6) {
-    throw std::invalid_argument("FrontierSurveyOptions::sight_directions is " +
-                                std::to_string(options.sight_directions) + ", must be >= 6");
-  }
+  require_option(options.min_cluster_cells >= 1, "FrontierSurveyOptions::min_cluster_cells",
+                 options.min_cluster_cells, ">= 1");
+  require_option(options.sight_directions >= 6, "FrontierSurveyOptions::sight_directions", options.sight_directions,
+                 ">= 6");
 }
 
 }  // namespace vantage::detail

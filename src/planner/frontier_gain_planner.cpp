@@ -3,13 +3,12 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
+#include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
 
 namespace vantage {
@@ -34,17 +33,10 @@ class Dice {
 };
 
 void validate(const FrontierGainOptions& options) {
-  if (options.hypotheses < 1) {
-    throw std::invalid_argument("FrontierGainOptions::hypotheses is 0, must be >= 1");
-  }
-  if (!(options.aimed_share >= 0.0 && options.aimed_share <= 1.0)) {
-    throw std::invalid_argument("FrontierGainOptions::aimed_share is " + std::to_string(options.aimed_share) +
-                                ", must be in [0, 1]");
-  }
-  if (!(options.cost_per_m >= 0.0)) {
-    throw std::invalid_argument("FrontierGainOptions::cost_per_m is " + std::to_string(options.cost_per_m) +
-                                ", must be >= 0");
-  }
+  detail::require_option(options.hypotheses >= 1, "FrontierGainOptions::hypotheses", options.hypotheses, ">= 1");
+  detail::require_option(options.aimed_share >= 0.0 && options.aimed_share <= 1.0, "FrontierGainOptions::aimed_share",
+                         options.aimed_share, "in [0, 1]");
+  detail::require_option(options.cost_per_m >= 0.0, "FrontierGainOptions::cost_per_m", options.cost_per_m, ">= 0");
   detail::validate(options.survey);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shade & Newman 2011, "Choosing Where To Go: Complete 3D Exploration With Stereo", section II.
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/field/laplace_guess.hpp>
@@ -11,6 +10,7 @@
 #include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
+#include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
 
 namespace vantage {
@@ -70,9 +70,7 @@ HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOption
     : setup_(setup), options_(options), failed_(options.patience) {
   detail::validate(setup);
   detail::validate(options.survey);
-  if (options.patience < 1) {
-    throw std::invalid_argument("HarmonicOptions::patience is " + std::to_string(options.patience) + ", must be >= 1");
-  }
+  detail::require_option(options.patience >= 1, "HarmonicOptions::patience", options.patience, ">= 1");
   relaxation_options(options).validate();
 }
 

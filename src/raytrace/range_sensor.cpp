@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/raytrace/range_sensor.hpp>
+
+#include "map/option_rule.hpp"
 
 namespace vantage {
 namespace {
@@ -15,14 +16,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 constexpr double radians(double degrees) { return degrees * kPi / 180.0; }
-
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds) {
-    std::ostringstream message;
-    message << "RangeSensor::" << field << " is " << value << ", must be " << rule;
-    throw std::invalid_argument(message.str());
-  }
-}
 
 RangeSensor kinect() { return RangeSensor::pinhole(640, 480, radians(57.0), radians(43.0), 0.4, 4.0); }
 
@@ -74,20 +67,20 @@ constexpr std::array<Preset, 6> kPresets{{{"kinect", &kinect},
 
 void validate_pinhole(const RangeSensor& sensor) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(positive(sensor.fx), "fx", sensor.fx, "> 0");
-  require(positive(sensor.fy), "fy", sensor.fy, "> 0");
-  require(std::isfinite(sensor.cx), "cx", sensor.cx, "finite");
-  require(std::isfinite(sensor.cy), "cy", sensor.cy, "finite");
+  detail::require_option(positive(sensor.fx), "RangeSensor::fx", sensor.fx, "> 0");
+  detail::require_option(positive(sensor.fy), "RangeSensor::fy", sensor.fy, "> 0");
+  detail::require_option(std::isfinite(sensor.cx), "RangeSensor::cx", sensor.cx, "finite");
+  detail::require_option(std::isfinite(sensor.cy), "RangeSensor::cy", sensor.cy, "finite");
 }
 
 // Full turns are often written as 6.2832: let them pass.
 constexpr double kAngleSlackRad = 1e-3;
 
 void validate_spherical(const RangeSensor& sensor) {
-  require(sensor.horizontal_fov_rad > 0.0 && sensor.horizontal_fov_rad <= 2.0 * kPi + kAngleSlackRad,
-          "horizontal_fov_rad", sensor.horizontal_fov_rad, "in (0, 2 pi]");
-  require(sensor.vertical_fov_rad > 0.0 && sensor.vertical_fov_rad <= kPi + kAngleSlackRad, "vertical_fov_rad",
-          sensor.vertical_fov_rad, "in (0, pi]");
+  detail::require_option(sensor.horizontal_fov_rad > 0.0 && sensor.horizontal_fov_rad <= 2.0 * kPi + kAngleSlackRad,
+                         "RangeSensor::horizontal_fov_rad", sensor.horizontal_fov_rad, "in (0, 2 pi]");
+  detail::require_option(sensor.vertical_fov_rad > 0.0 && sensor.vertical_fov_rad <= kPi + kAngleSlackRad,
+                         "RangeSensor::vertical_fov_rad", sensor.vertical_fov_rad, "in (0, pi]");
 }
 
 std::size_t rays_needed(double needed, std::size_t has) {
@@ -98,10 +91,10 @@ std::size_t rays_needed(double needed, std::size_t has) {
 
 RangeSensor RangeSensor::pinhole(std::size_t width, std::size_t height, double horizontal_fov_rad,
                                  double vertical_fov_rad, double min_range_m, double max_range_m) {
-  require(horizontal_fov_rad > 0.0 && horizontal_fov_rad < kPi, "horizontal_fov_rad", horizontal_fov_rad,
-          "in (0, pi) for a pinhole");
-  require(vertical_fov_rad > 0.0 && vertical_fov_rad < kPi, "vertical_fov_rad", vertical_fov_rad,
-          "in (0, pi) for a pinhole");
+  detail::require_option(horizontal_fov_rad > 0.0 && horizontal_fov_rad < kPi, "RangeSensor::horizontal_fov_rad",
+                         horizontal_fov_rad, "in (0, pi) for a pinhole");
+  detail::require_option(vertical_fov_rad > 0.0 && vertical_fov_rad < kPi, "RangeSensor::vertical_fov_rad",
+                         vertical_fov_rad, "in (0, pi) for a pinhole");
   RangeSensor sensor;
   sensor.width = width;
   sensor.height = height;
@@ -154,11 +147,12 @@ const std::vector<std::string_view>& RangeSensor::preset_names() {
 }
 
 void RangeSensor::validate() const {
-  require(width > 0, "width", static_cast<double>(width), "> 0");
-  require(height > 0, "height", static_cast<double>(height), "> 0");
-  require(std::isfinite(min_range_m) && min_range_m >= 0.0, "min_range_m", min_range_m, ">= 0");
-  require(std::isfinite(max_range_m) && max_range_m > min_range_m, "max_range_m", max_range_m,
-          "finite and > min_range_m");
+  detail::require_option(width > 0, "RangeSensor::width", width, "> 0");
+  detail::require_option(height > 0, "RangeSensor::height", height, "> 0");
+  detail::require_option(std::isfinite(min_range_m) && min_range_m >= 0.0, "RangeSensor::min_range_m", min_range_m,
+                         ">= 0");
+  detail::require_option(std::isfinite(max_range_m) && max_range_m > min_range_m, "RangeSensor::max_range_m",
+                         max_range_m, "finite and > min_range_m");
   if (projection == Projection::Pinhole) {
     validate_pinhole(*this);
   } else {
@@ -219,9 +213,7 @@ double RangeSensor::vertical_angle_rad() const {
 }
 
 RangeSensor RangeSensor::rays_for(double cell_m) const {
-  if (!(std::isfinite(cell_m) && cell_m > 0.0)) {
-    throw std::invalid_argument("rays_for: cell_m is " + std::to_string(cell_m) + ", must be > 0");
-  }
+  detail::require_option(std::isfinite(cell_m) && cell_m > 0.0, "rays_for: cell_m", cell_m, "> 0");
   RangeSensor reduced = *this;
   const auto columns = static_cast<double>(width);
   const auto rows = static_cast<double>(height);

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/grid_path.hpp>
 
+#include "map/option_rule.hpp"
 #include "robot/swept_sphere.hpp"
 
 namespace vantage {
 namespace {
-
-void require(bool holds, const char* field, double value, const char* rule) {
-  if (!holds) {
-    std::ostringstream message;
-    message << "FreeFlyerOptions::" << field << " is " << value << ", must be " << rule;
-    throw std::invalid_argument(message.str());
-  }
-}
 
 bool is_free(const OccupancyMap& map, const VoxelIndex& cell) { return map.at(cell) == Occupancy::Free; }
 
@@ -48,9 +39,12 @@ bool has_free_neighbour(const VoxelGrid<std::uint8_t>& free, const VoxelIndex& c
 }  // namespace
 
 FreeFlyer::FreeFlyer(const FreeFlyerOptions& options) : options_(options) {
-  require(std::isfinite(options.radius_m) && options.radius_m >= 0.0, "radius_m", options.radius_m, ">= 0");
-  require(std::isfinite(options.margin_m) && options.margin_m >= 0.0, "margin_m", options.margin_m, ">= 0");
-  require(options.min_height_m <= options.max_height_m, "min_height_m", options.min_height_m, "<= max_height_m");
+  detail::require_option(std::isfinite(options.radius_m) && options.radius_m >= 0.0, "FreeFlyerOptions::radius_m",
+                         options.radius_m, ">= 0");
+  detail::require_option(std::isfinite(options.margin_m) && options.margin_m >= 0.0, "FreeFlyerOptions::margin_m",
+                         options.margin_m, ">= 0");
+  detail::require_option(options.min_height_m <= options.max_height_m, "FreeFlyerOptions::min_height_m",
+                         options.min_height_m, "<= max_height_m");
 }
 
 bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vantage/sim/exploration_run.hpp>
 
+#include "map/option_rule.hpp"
+
 namespace vantage {
 namespace {
 
@@ -19,22 +21,14 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-template <class Value>
-void require(bool holds, const char* field, const Value& value, const char* rule) {
-  if (!holds) {
-    std::ostringstream message;
-    message << "ExplorationRunOptions::" << field << " is " << value << ", must be " << rule;
-    throw std::invalid_argument(message.str());
-  }
-}
-
 ExplorationRunOptions checked(ExplorationRunOptions options, const World& world) {
-  require(options.max_views > 0, "max_views", options.max_views, "> 0");
-  require(std::isfinite(options.scan_spacing_m) && options.scan_spacing_m >= 0.0, "scan_spacing_m",
-          options.scan_spacing_m, ">= 0");
+  detail::require_option(options.max_views > 0, "ExplorationRunOptions::max_views", options.max_views, "> 0");
+  detail::require_option(std::isfinite(options.scan_spacing_m) && options.scan_spacing_m >= 0.0,
+                         "ExplorationRunOptions::scan_spacing_m", options.scan_spacing_m, ">= 0");
   const double radius_m = options.body_radius_m.value_or(0.0);
-  require(std::isfinite(radius_m) && radius_m >= 0.0, "body_radius_m", radius_m, ">= 0");
-  require(options.threads > 0, "threads", options.threads, "> 0");
+  detail::require_option(std::isfinite(radius_m) && radius_m >= 0.0, "ExplorationRunOptions::body_radius_m", radius_m,
+                         ">= 0");
+  detail::require_option(options.threads > 0, "ExplorationRunOptions::threads", options.threads, "> 0");
   if (!options.map.region) {
     options.map.region = world.region;
   }

@@ -4,11 +4,12 @@
 
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vantage/sim/mesh_file.hpp>
+
+#include "map/option_rule.hpp"
 
 namespace vantage {
 namespace {
@@ -52,11 +53,8 @@ void check_vertices(const std::filesystem::path& path, const TriangleMesh& mesh)
 }  // namespace
 
 TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options) {
-  if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
-    std::ostringstream message;
-    message << "MeshFileOptions::scale is " << options.scale << ", must be > 0";
-    throw std::invalid_argument(message.str());
-  }
+  detail::require_option(std::isfinite(options.scale) && options.scale > 0.0, "MeshFileOptions::scale", options.scale,
+                         "> 0");
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     refuse(path, "there is no such file");

@@ -4,25 +4,18 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <vantage/sim/simulated_sensor.hpp>
+
+#include "map/option_rule.hpp"
 
 namespace vantage {
 namespace {
 
 void validate(const SensorNoise& noise) {
-  const auto refuse = [](const char* field, double value, const char* rule) {
-    std::ostringstream message;
-    message << "SensorNoise::" << field << " is " << value << ", must be " << rule;
-    throw std::invalid_argument(message.str());
-  };
-  if (!(std::isfinite(noise.axial) && noise.axial >= 0.0)) {
-    refuse("axial", noise.axial, ">= 0");
-  }
-  if (!(noise.dropped_share >= 0.0 && noise.dropped_share <= 1.0)) {
-    refuse("dropped_share", noise.dropped_share, "in [0, 1]");
-  }
+  detail::require_option(std::isfinite(noise.axial) && noise.axial >= 0.0, "SensorNoise::axial", noise.axial, ">= 0");
+  detail::require_option(noise.dropped_share >= 0.0 && noise.dropped_share <= 1.0, "SensorNoise::dropped_share",
+                         noise.dropped_share, "in [0, 1]");
 }
 
 // Own transforms of the engine's bits: the distributions of the standard library differ between its implementations.

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <vantage/robot/reachable_space.hpp>
 #include <vantage/sim/truth.hpp>
 
+#include "map/option_rule.hpp"
 #include "sim/rasterise.hpp"
 #include "sim/sight.hpp"
 
@@ -19,11 +19,8 @@ constexpr double kLatticeM = 0.4;
 constexpr double kBeyondM = 25.0;  // further than any preset ranges: surfaces beyond cannot end a ray through the region
 
 OccupancyMapOptions map_options(double resolution_m, const Box& region) {
-  if (!(std::isfinite(resolution_m) && resolution_m > 0.0)) {
-    std::ostringstream message;
-    message << "the resolution is " << resolution_m << " m, must be > 0";
-    throw std::invalid_argument(message.str());
-  }
+  detail::require_option(std::isfinite(resolution_m) && resolution_m > 0.0, "Truth: resolution_m", resolution_m,
+                         "> 0");
   return {.resolution_m = resolution_m, .region = region};
 }
 

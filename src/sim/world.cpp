@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vantage/sim/world.hpp>
 
+#include "map/option_rule.hpp"
 #include "sim/cell_worlds.hpp"
 
 namespace vantage {
@@ -37,15 +37,11 @@ constexpr std::array<Named, 5> kWorlds{{{"rooms", &rooms_world},
                                         {"table", &table_world}}};
 
 void validate(const WorldOptions& options) {
-  const auto check = [](double metres, const char* field) {
-    if (!(metres == 0.0 || (metres >= 4.0 && metres <= 200.0))) {
-      std::ostringstream message;
-      message << "WorldOptions::" << field << " is " << metres << ", must be 0 or in [4, 200]";
-      throw std::invalid_argument(message.str());
-    }
+  const auto check = [](double metres, const char* option) {
+    detail::require_option(metres == 0.0 || (metres >= 4.0 && metres <= 200.0), option, metres, "0 or in [4, 200]");
   };
-  check(options.length_m, "length_m");
-  check(options.width_m, "width_m");
+  check(options.length_m, "WorldOptions::length_m");
+  check(options.width_m, "WorldOptions::width_m");
 }
 
 }  // namespace

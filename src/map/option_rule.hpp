@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace vantage::detail {
+
+/// Holds an option to its rule: throws std::invalid_argument "OPTION is VALUE, must be RULE" unless `holds`. The
+/// option is named as its user wrote it ("OccupancyMapOptions::resolution_m", "--resolution"); its value is printed
+/// in as many digits as tell it from every other.
+template <class Number>
+void require_option(bool holds, std::string_view option, Number value, std::string_view rule) {
+  static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>);
+  if (holds) {
+    return;
+  }
+  std::array<char, 64> digits{};
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  throw std::invalid_argument(
+      std::string(option).append(" is ").append(digits.data(), end).append(", must be ").append(rule));
+}
+
+}  // namespace vantage::detail
