@@ -28,6 +28,9 @@ endforeach()
 get_property(components GLOBAL PROPERTY VANTAGE_COMPONENTS)
 if(VANTAGE_INSTALL)
   vantage_consumer_test(installed -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}")
+  string(JOIN "$<SEMICOLON>" components_list ${components})
+  vantage_consumer_test(installed_every_component -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}"
+                        "-DCOMPONENTS=${components_list}")
   vantage_consumer_test(installed_without_heavy -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}" ${without_heavy})
   add_test(NAME package.unknown_component
            COMMAND "${CMAKE_COMMAND}" -S "${consumer_source}" -B "${consumer_build}/unknown_component" -DWAY=installed
@@ -37,8 +40,15 @@ if(VANTAGE_INSTALL)
     package.unknown_component
     PROPERTIES LABELS package PASS_REGULAR_EXPRESSION
                "vantage[ \n]+was[ \n]+built[ \n]+without[ \n]+'telepathy';[ \n]+it[ \n]+has:[ \n]+core")
-  set_tests_properties(package.installed package.installed_without_heavy package.unknown_component
-                       PROPERTIES FIXTURES_REQUIRED installed_package)
+  find_program(PKG_CONFIG NAMES pkgconf pkg-config REQUIRED)
+  add_test(NAME package.pkg_config
+           COMMAND "${consumer_source}/consume_by_pkg_config.sh" "${PKG_CONFIG}"
+                   "${consumer_prefix}/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "${CMAKE_CXX_COMPILER}"
+                   "${consumer_source}/consume_core.cpp" "${consumer_build}/consume_by_pkg_config")
+  set_tests_properties(package.pkg_config PROPERTIES LABELS package)
+  set_tests_properties(
+    package.installed package.installed_every_component package.installed_without_heavy package.unknown_component
+    package.pkg_config PROPERTIES FIXTURES_REQUIRED installed_package)
 endif()
 vantage_consumer_test(subdirectory -DWAY=subdirectory "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}" ${without_heavy})
 vantage_consumer_test(fetchcontent -DWAY=fetchcontent "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
