@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "field/block_level.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "field/lanes.hpp"
+
+namespace vantage::detail {
+namespace {
+
+// Rows couple along x within themselves, which is relaxed with the old values (Jacobi): by a little less than fully, so
+// that it still smooths where a corridor leaves nothing but that.
+constexpr float kWeight = 0.95F;
+
+struct BlockSums {
+  Lanes<float> inflow;    // sum of conductance * neighbour
+  Lanes<float> diagonal;  // sum of all conductances
+};
+
+// The blocks of a brick and of its six neighbours.
+struct BlocksAround {
+  const std::uint32_t* packed;
+  const float* own;
+  std::array<const float*, 6> side;
+
+  BlocksAround(const FineLevel& fine, const AlignedVector<float>& x, std::size_t brick)
+      : packed(fine.blocks.data() + brick * kBrickBlocks), own(x.data() + brick * kBrickBlocks) {
+    for (std::size_t face = 0; face < 6; ++face) {
+      side[face] = x.data() + fine.links[brick][face] * kBrickBlocks;
+    }
+  }
+  // `line` is z * 4 + y.
+  [[nodiscard]] VANTAGE_INLINE BlockSums sums(std::size_t line) const {
+    const std::size_t y = line % 4;
+    const Lanes<float> here = load(own + line * 8);
+    const std::array<Lanes<float>, 6> neighbour{
+        shifted_up<float>(here, load(side[0] + line * 8)),
+        shifted_down<float>(here, load(side[1] + line * 8)),
+        load(y > 0 ? own + (line - 1) * 8 : side[2] + (line + 3) * 8),
+        load(y < 3 ? own + (line + 1) * 8 : side[3] + (line - 3) * 8),
+        load(line >= 4 ? own + (line - 4) * 8 : side[4] + (line + 12) * 8),
+        load(line < 12 ? own + (line + 4) * 8 : side[5] + (line - 12) * 8)};
+    const Lanes<std::uint32_t> counts = load(packed + line * 8);
+    BlockSums sums{};
+    for (std::uint32_t face = 0; face < 6; ++face) {
+      const Lanes<std::uint32_t> faces = counts >> (3U * face) & 7U;
+      const Lanes<float> conductance = __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(faces), Lanes<float>);
+      sums.inflow += conductance * neighbour[face];
+      sums.diagonal += conductance;
+    }
+    const Lanes<std::uint32_t> leaks = counts >> 18U;
+    sums.inflow *= 0.5F;
+    sums.diagonal =
+        0.5F * sums.diagonal + __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(leaks), Lanes<float>);
+    return sums;
+  }
+};
+
+struct Smooth {
+  BlocksAround around;
+  const float* right;
+  float* x;
+  std::size_t parity;
+
+  VANTAGE_INLINE void operator()() const {
+    for (std::size_t line = 0; line < 16; ++line) {
+      if (((line ^ line >> 2U) & 1U) != parity) {
+        continue;
+      }
+      const BlockSums sums = around.sums(line);
+      const Lanes<float> own = load(x + line * 8);
+      const Lanes<float> step = (load(right + line * 8) + sums.inflow) / sums.diagonal - own;
+      store<float>(x + line * 8, sums.diagonal > 0.0F ? own + kWeight * step : own);
+    }
+  }
+};
+
+struct Residual {
+  BlocksAround around;
+  const float* right;
+  float* residual;
+
+  VANTAGE_INLINE void operator()() const {
+    for (std::size_t line = 0; line < 16; ++line) {
+      const BlockSums sums = around.sums(line);
+      store<float>(residual + line * 8, load(right + line * 8) - (sums.diagonal * load(around.own + line * 8) - sums.inflow));
+    }
+  }
+};
+
+}  // namespace
+
+BlockLevel::BlockLevel(const FineLevel& fine)
+    : x(fine.brick_count * kBrickBlocks, 0.0F), right(fine.brick_count * kBrickBlocks, 0.0F) {}
+
+void BlockLevel::smooth(const FineLevel& fine, bool even_first) {
+  for (const bool even : {even_first, !even_first}) {
+    for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
+      // The parity changes from brick to brick along x, or rows relaxed together would meet there.
+      const bool flipped = (fine.address[brick].x & 1) != 0;
+      run(Smooth{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, x.data() + brick * kBrickBlocks,
+                 even == flipped ? 1U : 0U});
+    }
+  }
+}
+
+void BlockLevel::restrict_to(const FineLevel& fine, std::vector<float>& sums) const {
+  std::fill(sums.begin(), sums.end(), 0.0F);
+  std::array<float, kBrickBlocks> residual{};
+  for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
+    run(Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
+    for (std::size_t i = 0; i < kBrickBlocks; ++i) {
+      sums[node[brick * kBrickBlocks + i]] += residual[i];
+    }
+  }
+}
+
+void BlockLevel::prolong(const std::vector<float>& correction) {
+  for (std::size_t i = kBrickBlocks; i < node.size(); ++i) {
+    x[i] += correction[node[i]];
+  }
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "field/fine_level.hpp"
+
+namespace vantage::detail {
+
+/// The first coarse level: one unknown per 2 x 2 x 2 cells, in the bricks of the fine level. Between two blocks the
+/// conductance is half the number of open faces between their cells, half because their centres lie twice as far apart;
+/// to sinks it is the number of faces. A block is packed in 32 bits: six counts of 3 bits in the order of
+/// kFaceNeighbours, then 5 bits for the faces to sinks.
+///
+/// A block may hold cells that are not joined within it; it is so rare for walls at least a cell thick that it does not
+/// show in the number of iterations.
+struct BlockLevel {
+  AlignedVector<float> x;      ///< the correction
+  AlignedVector<float> right;  ///< the right hand side
+  std::vector<std::uint32_t> node;  ///< of the graph that comes next; one past its last where there is no block
+
+  explicit BlockLevel(const FineLevel& fine);
+
+  /// One relaxation, rows of even y + z before the others or after them.
+  void smooth(const FineLevel& fine, bool even_first);
+  /// Sums the residual over the nodes of the next level; `sums` is one longer than there are nodes.
+  void restrict_to(const FineLevel& fine, std::vector<float>& sums) const;
+  /// Adds the correction of the next level; its last entry must be 0.
+  void prolong(const std::vector<float>& correction);
+
+  [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(x) + bytes_of(right) + bytes_of(node); }
+};
+
+}  // namespace vantage::detail

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "field/brick_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace vantage::detail {
+namespace {
+
+// Relaxation of the black cells goes a little too far: their Schur complement has its spectrum in (0, 1].
+constexpr float kWeight = 1.15F;
+
+template <class Field>
+auto* at(Field& field, std::size_t brick) {
+  return field.data() + brick * kHalfBrick;
+}
+
+}  // namespace
+
+BrickSolver::BrickSolver(FineLevel fine) : fine_(std::move(fine)), coarse_(fine_), sums_(fine_.brick_count, 0.0) {
+  for (HalfField<float>* field : {&x_, &r_, &z_, &p_, &q_, &red_}) {
+    field->assign(fine_.brick_count * kHalfBrick, 0.0F);
+  }
+}
+
+double BrickSolver::total() const { return std::accumulate(sums_.begin(), sums_.end(), 0.0); }
+
+// x += step p, r -= step q, and the way down: z = first relaxation, its residual to the blocks. Returns r * r.
+double BrickSolver::advance(float step) {
+  in_waves(
+      fine_,
+      [&](std::size_t b) {
+        run(Advance{at(fine_.degree[kBlack], b), at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b), step, kWeight,
+                    &sums_[b]});
+      },
+      [&](std::size_t b) { run(RedSolve{at(fine_.degree[kRed], b), Around<float>(fine_, z_, b), at(red_, b)}); },
+      [&](std::size_t b) {
+        run(BlackRestrict{at(fine_.degree[kBlack], b), at(r_, b), at(z_, b), Around<float>(fine_, red_, b),
+                          coarse_.right(b)});
+      });
+  return total();
+}
+
+// The correction of the coarser levels and the last relaxation. Returns r * z.
+double BrickSolver::correct() {
+  coarse_.solve(fine_);
+  in_waves(
+      fine_,
+      [&](std::size_t b) { run(BlackProlong{at(fine_.degree[kBlack], b), coarse_.correction(b), at(z_, b)}); },
+      [&](std::size_t b) { run(RedSolve{at(fine_.degree[kRed], b), Around<float>(fine_, z_, b), at(red_, b)}); },
+      [&](std::size_t b) {
+        run(BlackSmooth{at(fine_.degree[kBlack], b), at(r_, b), Around<float>(fine_, red_, b), at(z_, b), kWeight,
+                        &sums_[b]});
+      });
+  return total();
+}
+
+// p = z + share p, q = S p. Returns p * q.
+double BrickSolver::turn(float share) {
+  in_waves(
+      fine_, [&](std::size_t b) { run(Turn{at(z_, b), at(p_, b), share}); },
+      [&](std::size_t b) { run(RedSolve{at(fine_.degree[kRed], b), Around<float>(fine_, p_, b), at(red_, b)}); },
+      [&](std::size_t b) {
+        run(BlackApply{at(fine_.degree[kBlack], b), at(p_, b), Around<float>(fine_, red_, b), at(q_, b), &sums_[b]});
+      });
+  return total();
+}
+
+std::size_t BrickSolver::solve(double reduction, std::size_t most) {
+  for (HalfField<float>* field : {&x_, &p_, &q_}) {
+    std::fill(field->begin(), field->end(), 0.0F);
+  }
+  const double stop = reduction * reduction * advance(0.0F);
+  std::size_t iterations = 0;
+  double previous = 0.0;
+  while (iterations < most) {
+    const double along = correct();
+    const double curvature = turn(previous > 0.0 ? static_cast<float>(along / previous) : 0.0F);
+    if (!(along > 0.0 && curvature > 0.0)) {
+      break;  // solved to the last bit, or float has no more to give
+    }
+    previous = along;
+    ++iterations;
+    if (advance(static_cast<float>(along / curvature)) <= stop) {
+      break;
+    }
+  }
+  return iterations;
+}
+
+void BrickSolver::precondition(HalfField<float>& out) {
+  std::fill(q_.begin(), q_.end(), 0.0F);
+  std::fill(p_.begin(), p_.end(), 0.0F);
+  advance(0.0F);
+  correct();
+  out = z_;
+}
+
+void BrickSolver::apply(const HalfField<float>& in, HalfField<float>& out) {
+  z_ = in;
+  turn(0.0F);
+  out = q_;
+}
+
+std::size_t BrickSolver::memory_bytes() const {
+  return fine_.memory_bytes() + coarse_.memory_bytes() + bytes_of(sums_) +
+         6 * bytes_of(x_);
+}
+
+}  // namespace vantage::detail

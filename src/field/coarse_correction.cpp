@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Notay, "An aggregation-based algebraic multigrid method" (2010); the factor of over-correction after Braess 1995.
+#include "field/coarse_correction.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <numeric>
+
+#include "field/block_graph.hpp"
+
+namespace vantage::detail {
+namespace {
+
+constexpr int kSweeps = 2;               // before and after the correction of the next level
+constexpr int kCycles = 2;               // per visit: W
+constexpr std::size_t kDirect = 100;     // unknowns that are solved outright
+constexpr int kSweepsOfMany = 20;        // on the last level where it is larger than that
+
+}  // namespace
+
+CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
+  graphs_.push_back(graph_of_blocks(fine, blocks_));
+  while (graphs_.back().size > kDirect) {
+    GraphLevel next = coarsen(graphs_.back());
+    if (next.size == graphs_.back().size) {
+      break;  // regions that only touch at sinks: each is one node already
+    }
+    graphs_.push_back(std::move(next));
+  }
+  const GraphLevel& last = graphs_.back();
+  if (last.size > kDirect) {
+    return;
+  }
+  const auto size = static_cast<Eigen::Index>(last.size);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t i = 0; i < last.size; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    matrix(row, row) += static_cast<double>(last.leak[i]);
+    for (std::uint32_t e = last.first[i]; e < last.first[i + 1]; ++e) {
+      matrix(row, row) += static_cast<double>(last.edges[e].conductance);
+      matrix(row, static_cast<Eigen::Index>(last.edges[e].to)) -= static_cast<double>(last.edges[e].conductance);
+    }
+  }
+  coarsest_ = matrix.llt().solve(Eigen::MatrixXd::Identity(size, size)).cast<float>();
+}
+
+void CoarseCorrection::solve_coarsest() {
+  GraphLevel& last = graphs_.back();
+  if (coarsest_.size() == 0) {
+    for (int i = 0; i < kSweepsOfMany; ++i) {
+      last.smooth(true);
+    }
+    for (int i = 0; i < kSweepsOfMany; ++i) {
+      last.smooth(false);
+    }
+    return;
+  }
+  const auto size = static_cast<Eigen::Index>(last.size);
+  Eigen::Map<Eigen::VectorXf>(last.x.data(), size).noalias() =
+      coarsest_ * Eigen::Map<const Eigen::VectorXf>(last.right.data(), size);
+}
+
+void CoarseCorrection::cycle(std::size_t level) {
+  if (level + 1 == graphs_.size()) {
+    solve_coarsest();
+    return;
+  }
+  GraphLevel& graph = graphs_[level];
+  GraphLevel& next = graphs_[level + 1];
+  for (int i = 0; i < kSweeps; ++i) {
+    graph.smooth(true);
+  }
+  graph.restrict_to(next.right);
+  std::fill(next.x.begin(), next.x.end(), 0.0F);
+  for (int i = 0; i < kCycles; ++i) {
+    cycle(level + 1);
+  }
+  graph.prolong(next.x);
+  for (int i = 0; i < kSweeps; ++i) {
+    graph.smooth(false);
+  }
+}
+
+void CoarseCorrection::solve(const FineLevel& fine) {
+  GraphLevel& next = graphs_.front();
+  std::fill(blocks_.x.begin(), blocks_.x.end(), 0.0F);
+  for (int visit = 0; visit < kCycles; ++visit) {
+    for (int i = 0; i < kSweeps; ++i) {
+      blocks_.smooth(fine, true);
+    }
+    blocks_.restrict_to(fine, next.right);
+    std::fill(next.x.begin(), next.x.end(), 0.0F);
+    for (int i = 0; i < kCycles; ++i) {
+      cycle(0);
+    }
+    blocks_.prolong(next.x);
+    for (int i = 0; i < kSweeps; ++i) {
+      blocks_.smooth(fine, false);
+    }
+  }
+}
+
+std::size_t CoarseCorrection::memory_bytes() const {
+  return std::accumulate(graphs_.begin(), graphs_.end(),
+                         blocks_.memory_bytes() + static_cast<std::size_t>(coarsest_.size()) * sizeof(float),
+                         [](std::size_t sum, const GraphLevel& graph) { return sum + graph.memory_bytes(); });
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "field/block_level.hpp"
+#include "field/graph_level.hpp"
+
+namespace vantage::detail {
+
+/// All levels above the cells, and the cycle over them: W-cycles, for plain aggregation with V-cycles needs ever more
+/// iterations as levels are added (Notay 2010).
+///
+/// The correction is a symmetric, positive definite function of the right hand side, as conjugate gradients demand.
+class CoarseCorrection {
+ public:
+  explicit CoarseCorrection(const FineLevel& fine);
+
+  /// Right hand side of the blocks of a brick, to be written before `solve`.
+  [[nodiscard]] float* right(std::size_t brick) { return blocks_.right.data() + brick * kBrickBlocks; }
+  /// Approximately solves for the blocks.
+  void solve(const FineLevel& fine);
+  /// The correction of the blocks of a brick.
+  [[nodiscard]] const float* correction(std::size_t brick) const { return blocks_.x.data() + brick * kBrickBlocks; }
+
+  /// Levels above the cells.
+  [[nodiscard]] std::size_t level_count() const { return 1 + graphs_.size(); }
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  void cycle(std::size_t level);
+  void solve_coarsest();
+
+  BlockLevel blocks_;
+  std::vector<GraphLevel> graphs_;
+  Eigen::MatrixXf coarsest_;  // inverse of the operator of the last graph; empty if that is too large
+};
+
+}  // namespace vantage::detail

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "field/fine_level.hpp"
+#include "field/lanes.hpp"
+
+namespace vantage::detail {
+
+/// One number per cell of a colour, in all bricks.
+template <class T>
+using HalfField = AlignedVector<T>;
+
+/// The values of one colour in a brick and in its six neighbours.
+template <class T>
+struct Around {
+  const T* own;
+  std::array<const T*, 6> side;
+
+  Around(const FineLevel& level, const HalfField<T>& field, std::size_t brick) : own(field.data() + brick * kHalfBrick) {
+    for (std::size_t face = 0; face < 6; ++face) {
+      side[face] = field.data() + level.links[brick][face] * kHalfBrick;
+    }
+  }
+};
+
+/// The values at the six neighbours of eight cells.
+template <class T>
+struct SixNeighbours {
+  std::array<Lanes<T>, 6> at;
+
+  [[nodiscard]] VANTAGE_INLINE Lanes<T> sum() const {
+    return ((at[0] + at[1]) + (at[2] + at[3])) + (at[4] + at[5]);
+  }
+};
+
+/// Neighbours of the cells of `colour` in a row. They are of the other colour: along y and z they have the same place in
+/// their rows, along x one of the two has and the other lies one further up or down.
+template <std::size_t colour, class T>
+VANTAGE_INLINE SixNeighbours<T> neighbours(const Around<T>& other, std::size_t row) {
+  const std::size_t y = row % 8;
+  const T* below_y = y > 0 ? other.own + (row - 1) * 8 : other.side[2] + (row + 7) * 8;
+  const T* above_y = y < 7 ? other.own + (row + 1) * 8 : other.side[3] + (row - 7) * 8;
+  const T* below_z = row >= 8 ? other.own + (row - 8) * 8 : other.side[4] + (row + 56) * 8;
+  const T* above_z = row < 56 ? other.own + (row + 8) * 8 : other.side[5] + (row - 56) * 8;
+  const Lanes<T> level = load(other.own + row * 8);
+  const bool starts_at_one = ((row ^ row >> 3U ^ colour) & 1U) != 0;
+  const Lanes<T> beside = starts_at_one ? shifted_down<T>(level, load(other.side[1] + row * 8))
+                                        : shifted_up<T>(level, load(other.side[0] + row * 8));
+  return {{level, beside, load(below_y), load(above_y), load(below_z), load(above_z)}};
+}
+
+/// 1 / degree, 0 where there is no unknown.
+template <class T>
+VANTAGE_INLINE Lanes<T> inverse_of(const Lanes<T>& degree) {
+  return degree > T{0} ? T{1} / degree : Lanes<T>{};
+}
+
+/// `red = (sum of the black neighbours) / degree`: solves the red equations with nothing on the right.
+struct RedSolve {
+  const std::uint8_t* degree;
+  Around<float> black;
+  float* red;
+
+  VANTAGE_INLINE void operator()() const {
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      const Lanes<float> sum = neighbours<kRed>(black, row).sum();
+      store<float>(red + row * 8, sum * inverse_of<float>(widen<float>(degree + row * 8)));
+    }
+  }
+};
+
+/// `out = S black`, the Schur complement with the red cells solved for; adds up black * out.
+struct BlackApply {
+  const std::uint8_t* degree;
+  const float* black;
+  Around<float> red;
+  float* out;
+  double* dot;
+
+  VANTAGE_INLINE void operator()() const {
+    Lanes<float> sum{};
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      const Lanes<float> own = load(black + row * 8);
+      const Lanes<float> faces = widen<float>(degree + row * 8);
+      const Lanes<float> applied = faces * own - neighbours<kBlack>(red, row).sum();
+      const Lanes<float> kept = faces > 0.0F ? applied : Lanes<float>{};
+      store<float>(out + row * 8, kept);
+      sum += own * kept;
+    }
+    *dot = sum_of<float>(sum);
+  }
+};
+
+/// The residual `right - S black`, summed over the cells of each block.
+struct BlackRestrict {
+  const std::uint8_t* degree;
+  const float* right;
+  const float* black;
+  Around<float> red;
+  float* blocks;
+
+  VANTAGE_INLINE void operator()() const {
+    for (std::size_t line = 0; line < 16; ++line) {
+      Lanes<float> sum{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t row = line / 4 * 16 + line % 4 * 2 + (i & 1U) + (i >> 1U) * 8;
+        const Lanes<float> faces = widen<float>(degree + row * 8);
+        const Lanes<float> residual =
+            load(right + row * 8) - (faces * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
+        sum += faces > 0.0F ? residual : Lanes<float>{};
+      }
+      store<float>(blocks + line * 8, sum);
+    }
+  }
+};
+
+/// `black += correction of its block`.
+struct BlackProlong {
+  const std::uint8_t* degree;
+  const float* blocks;
+  float* black;
+
+  VANTAGE_INLINE void operator()() const {
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      const Lanes<float> faces = widen<float>(degree + row * 8);
+      const Lanes<float> correction = load(blocks + (row / 16 * 4 + row % 8 / 2) * 8);
+      store<float>(black + row * 8, load(black + row * 8) + (faces > 0.0F ? correction : Lanes<float>{}));
+    }
+  }
+};
+
+/// Relaxes the black cells once, by `weight`; adds up right * black after it.
+struct BlackSmooth {
+  const std::uint8_t* degree;
+  const float* right;
+  Around<float> red;
+  float* black;
+  float weight;
+  double* dot;
+
+  VANTAGE_INLINE void operator()() const {
+    Lanes<float> sum{};
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      const Lanes<float> faces = widen<float>(degree + row * 8);
+      const Lanes<float> own = load(black + row * 8);
+      const Lanes<float> load_here = load(right + row * 8);
+      const Lanes<float> residual = load_here - (faces * own - neighbours<kBlack>(red, row).sum());
+      const Lanes<float> smoothed = own + weight * residual * inverse_of<float>(faces);
+      store<float>(black + row * 8, smoothed);
+      sum += smoothed * load_here;
+    }
+    *dot = sum_of<float>(sum);
+  }
+};
+
+/// The step of conjugate gradients, and the first relaxation of the new residual: `x += step p`, `r -= step q`,
+/// `z = weight r / degree`; adds up r * r.
+struct Advance {
+  const std::uint8_t* degree;
+  const float* p;
+  const float* q;
+  float* x;
+  float* r;
+  float* z;
+  float step;
+  float weight;
+  double* square;
+
+  VANTAGE_INLINE void operator()() const {
+    Lanes<float> sum{};
+    for (std::size_t at = 0; at < kHalfBrick; at += kLanes) {
+      const Lanes<float> residual = load(r + at) - step * load(q + at);
+      store<float>(x + at, load(x + at) + step * load(p + at));
+      store<float>(r + at, residual);
+      store<float>(z + at, weight * residual * inverse_of<float>(widen<float>(degree + at)));
+      sum += residual * residual;
+    }
+    *square = sum_of<float>(sum);
+  }
+};
+
+/// `p = z + share p`.
+struct Turn {
+  const float* z;
+  float* p;
+  float share;
+
+  VANTAGE_INLINE void operator()() const {
+    for (std::size_t at = 0; at < kHalfBrick; at += kLanes) {
+      store<float>(p + at, load(z + at) + share * load(p + at));
+    }
+  }
+};
+
+}  // namespace vantage::detail

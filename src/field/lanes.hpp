@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+// Passing vectors wider than the baseline's registers has no stable calling convention; here they only ever pass through
+// functions that are inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace vantage::detail {
+
+/// Eight numbers that are computed together: half a row of a brick, or a row of blocks.
+inline constexpr std::size_t kLanes = 8;
+
+template <class T>
+struct LanesOf {
+  typedef T type __attribute__((vector_size(kLanes * sizeof(T))));  // NOLINT(modernize-use-using)
+};
+template <class T>
+using Lanes = typename LanesOf<T>::type;
+
+#define VANTAGE_INLINE [[gnu::always_inline]] inline
+
+template <class T>
+VANTAGE_INLINE Lanes<T> load(const T* from) {
+  Lanes<T> lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+template <class T>
+VANTAGE_INLINE void store(T* to, const Lanes<T>& lanes) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+template <class T>
+VANTAGE_INLINE Lanes<T> all(T value) {
+  return Lanes<T>{} + value;
+}
+/// Eight bytes as numbers.
+template <class T>
+VANTAGE_INLINE Lanes<T> widen(const std::uint8_t* from) {
+  Lanes<std::uint8_t> bytes;
+  std::memcpy(&bytes, from, sizeof bytes);
+  return __builtin_convertvector(__builtin_convertvector(bytes, Lanes<std::int32_t>), Lanes<T>);
+}
+/// Lane k of `own` one lane further: the first comes from the last lane of `below`, or the last from the first of `above`.
+template <class T>
+VANTAGE_INLINE Lanes<T> shifted_up(const Lanes<T>& own, const Lanes<T>& below) {
+  return __builtin_shufflevector(own, below, 15, 0, 1, 2, 3, 4, 5, 6);
+}
+template <class T>
+VANTAGE_INLINE Lanes<T> shifted_down(const Lanes<T>& own, const Lanes<T>& above) {
+  return __builtin_shufflevector(own, above, 1, 2, 3, 4, 5, 6, 7, 8);
+}
+/// In a fixed order, so that the sum does not depend on the instruction set.
+template <class T>
+VANTAGE_INLINE T sum_of(const Lanes<T>& lanes) {
+  return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
+/// Calls `kernel()` compiled for the widest instruction set of this processor. The kernel's call operator must be
+/// VANTAGE_INLINE. None of the sets fuses multiplication and addition: every processor computes the same bits.
+#if defined(__x86_64__)
+enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
+[[nodiscard]] InstructionSet instruction_set();
+
+template <class Kernel>
+[[gnu::target("avx2"), gnu::noinline]] void run_avx2(const Kernel& kernel) {
+  kernel();
+}
+template <class Kernel>
+[[gnu::target("avx512f,avx512vl,avx512dq,avx512bw"), gnu::noinline]] void run_avx512(const Kernel& kernel) {
+  kernel();
+}
+template <class Kernel>
+[[gnu::noinline]] void run_baseline(const Kernel& kernel) {
+  kernel();
+}
+template <class Kernel>
+inline void run(const Kernel& kernel) {
+  switch (instruction_set()) {
+    case InstructionSet::Avx512: return run_avx512(kernel);
+    case InstructionSet::Avx2: return run_avx2(kernel);
+    case InstructionSet::Baseline: return run_baseline(kernel);
+  }
+}
+#else
+template <class Kernel>
+inline void run(const Kernel& kernel) {
+  kernel();
+}
+#endif
+
+}  // namespace vantage::detail

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Multigrid against a dense solution, the relaxation and the laws of the equation, over many seeded random worlds.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <vantage/field/laplace_multigrid.hpp>
+#include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/field/streamline.hpp>
+
+#include "field/brick_solver.hpp"
+#include "random_laplace.hpp"
+#include "random_rooms.hpp"
+
+namespace vantage {
+namespace {
+
+using Position = LaplaceProblem::Position;
+
+// A u = e_s + eps, u = 0 at the sinks, phi = u / u_s, straight from the definition.
+std::vector<double> dense_solution(const LaplaceProblem& problem, double eps) {
+  const auto n = static_cast<Eigen::Index>(problem.size());
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto position = static_cast<Position>(i);
+    if (problem.kind(position) == LaplaceCell::Sink) {
+      continue;
+    }
+    a(i, i) = 0.0;
+    b(i) = eps + (position == problem.source() ? 1.0 : 0.0);
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      if (const auto neighbour = problem.position_of(problem.cell(position) + step)) {
+        a(i, i) += 1.0;
+        a(i, static_cast<Eigen::Index>(*neighbour)) -= 1.0;
+      }
+    }
+  }
+  const Eigen::VectorXd u = a.fullPivLu().solve(b);
+  std::vector<double> phi(problem.size());
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    phi[i] = u(static_cast<Eigen::Index>(i)) / u(static_cast<Eigen::Index>(problem.source()));
+  }
+  return phi;
+}
+
+TEST(MultigridOracle, EqualsDenseLuOnTinyWorlds) {
+  std::mt19937 engine(21);
+  std::size_t cases = 0;
+  std::size_t cells = 0;
+  for (int world = 0; world < 600; ++world) {
+    const LaplaceProblem problem = RandomLaplace(engine).problem();
+    if (problem.sink_count() == 0) {
+      continue;
+    }
+    const LaplaceMultigrid field(problem, {.tolerance = 1e-13, .uniform_source = world % 2 == 0 ? 1e-4 : 1e-2});
+    ASSERT_EQ(field.report().stop, MultigridStop::Converged) << "world " << world;
+    const std::vector<double> phi = field.values(problem);
+    const std::vector<double> expected = dense_solution(problem, field.report().source_per_cell);
+    for (std::size_t i = 0; i < problem.size(); ++i) {
+      ASSERT_NEAR(phi[i], expected[i], 1e-11) << "world " << world << " cell " << i << " of " << problem.size();
+    }
+    ASSERT_EQ(count_stuck_cells(problem, phi), 0U) << "world " << world;
+    ++cases;
+    cells += problem.size();
+  }
+  EXPECT_GE(cases, 450U);
+  EXPECT_GE(cells, 15000U);
+}
+
+TEST(MultigridOracle, EqualsTheRelaxation) {
+  std::size_t cells = 0;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    const RandomRooms rooms({.extent = {20, 17, 23}, .room_cells = seed % 2 == 0 ? 9 : 6, .door_cells = 2, .doors = 0.8,
+                             .clutter = 0.001, .seed = seed});
+    const LaplaceProblem problem = rooms.problem();
+    if (problem.sink_count() == 0) {
+      continue;
+    }
+    const LaplaceMultigrid field(problem, {.tolerance = 1e-12, .uniform_source = 0.0});
+    const LaplaceSolution expected = relax_laplace(problem, {.tolerance = 1e-12, .over_relaxation = 1.9});
+    const std::vector<double> phi = field.values(problem);
+    for (std::size_t i = 0; i < problem.size(); ++i) {
+      ASSERT_NEAR(phi[i], expected.phi[i], 1e-9) << "seed " << seed;
+    }
+    cells += problem.size();
+  }
+  EXPECT_GE(cells, 12000U);
+}
+
+struct Worlds {
+  const char* name;
+  RoomsOptions options;
+};
+
+std::vector<Worlds> kinds_of_worlds() {
+  return {
+      {"rooms", {.extent = {51, 51, 51}, .room_cells = 25, .door_cells = 6}},
+      {"small rooms", {.extent = {40, 56, 33}, .room_cells = 11, .door_cells = 3}},
+      {"thin walls, doors of a cell", {.extent = {37, 37, 37}, .room_cells = 6, .door_cells = 1, .doors = 0.5}},
+      {"maze of corridors", {.extent = {41, 41, 41}, .room_cells = 4, .door_cells = 2, .doors = 0.45}},
+      {"maze one cell wide", {.extent = {35, 35, 35}, .room_cells = 2, .door_cells = 1, .doors = 0.5, .unexplored = 0.5}},
+      {"crowded", {.extent = {45, 45, 45}, .room_cells = 60, .wall_cells = 0, .clutter = 0.03, .unexplored = 0.2}},
+      {"hardly explored", {.extent = {51, 51, 51}, .room_cells = 17, .unexplored = 0.7}},
+      {"slab", {.extent = {90, 70, 3}, .room_cells = 12, .door_cells = 2, .wall_cells = 1, .doors = 1.0}},
+  };
+}
+
+// Follows the steepest way down from every cell; returns how many never come to a sink.
+std::size_t walks_that_fail(const LaplaceProblem& problem, std::span<const double> phi) {
+  std::vector<Position> by_height(problem.size());
+  std::iota(by_height.begin(), by_height.end(), Position{0});
+  std::sort(by_height.begin(), by_height.end(), [&](Position a, Position b) {
+    return phi[static_cast<std::size_t>(a)] < phi[static_cast<std::size_t>(b)];
+  });
+  // A step goes strictly down, so where it leads is known already.
+  std::vector<bool> arrives(problem.size(), false);
+  for (const Position from : by_height) {
+    const auto next = steepest_neighbour(problem, phi, from);
+    arrives[static_cast<std::size_t>(from)] =
+        problem.kind(from) == LaplaceCell::Sink || (next && arrives[static_cast<std::size_t>(*next)]);
+  }
+  return static_cast<std::size_t>(std::count(arrives.begin(), arrives.end(), false));
+}
+
+TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
+  std::size_t worlds = 0;
+  std::size_t cells = 0;
+  std::size_t worlds_stuck_without = 0;
+  for (const Worlds& kind : kinds_of_worlds()) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+      RoomsOptions options = kind.options;
+      options.seed = seed;
+      const LaplaceProblem problem = RandomRooms(options).problem();
+      if (problem.sink_count() == 0) {
+        continue;
+      }
+      const LaplaceMultigrid field(problem);
+      ASSERT_EQ(field.report().stop, MultigridStop::Converged) << kind.name << " " << seed;
+      ASSERT_TRUE(field.report().certified) << kind.name << " " << seed;
+      ASSERT_LT(field.report().largest_residual, field.report().source_per_cell) << kind.name << " " << seed;
+      const std::vector<double> phi = field.values(problem);
+      ASSERT_EQ(count_stuck_cells(problem, phi), 0U) << kind.name << " " << seed;
+      ASSERT_EQ(walks_that_fail(problem, phi), 0U) << kind.name << " " << seed;
+      ASSERT_TRUE(descend(problem, phi, problem.source()).reaches_sink);
+      const auto [low, high] = std::minmax_element(phi.begin(), phi.end());  // the maximum principle, but for the source
+      ASSERT_GE(*low, 0.0);
+      ASSERT_LE(*high, 1.0 + 1e-3) << kind.name << " " << seed;
+      ++worlds;
+      cells += problem.size();
+      if (seed == 1) {  // and the counting does find what is stuck
+        const LaplaceMultigrid plain(problem, {.uniform_source = 0.0});
+        const std::vector<double> level = plain.values(problem);
+        // Where phi is lost in rounding and not even positive, the solver does not vouch for a cell at all.
+        EXPECT_GE(plain.report().stuck_cells, count_stuck_cells(problem, level)) << kind.name;
+        EXPECT_EQ(plain.report().certified, plain.report().stuck_cells == 0);
+        worlds_stuck_without += walks_that_fail(problem, level) > 0 ? 1U : 0U;
+      }
+    }
+  }
+  EXPECT_GE(worlds, 40U);
+  EXPECT_GE(cells, 1000000U);
+  EXPECT_GE(worlds_stuck_without, 3U);
+}
+
+TEST(MultigridOracle, FluxIsTheSameThroughEveryCutBetweenSourceAndSinks) {
+  std::size_t cuts = 0;
+  for (const Worlds& kind : kinds_of_worlds()) {
+    const LaplaceProblem problem = RandomRooms(kind.options).problem();
+    if (problem.sink_count() == 0) {
+      continue;
+    }
+    const LaplaceMultigrid field(problem, {.tolerance = 1e-11, .uniform_source = 0.0});
+    const std::vector<double> phi = field.values(problem);
+    const auto flux_across = [&](double level) {
+      double flux = 0.0;
+      for (std::size_t i = 0; i < problem.size(); ++i) {
+        for (const Position neighbour : problem.neighbours(static_cast<Position>(i))) {
+          if (neighbour != LaplaceProblem::kClosed && phi[i] > level && phi[static_cast<std::size_t>(neighbour)] <= level) {
+            flux += phi[i] - phi[static_cast<std::size_t>(neighbour)];
+          }
+        }
+      }
+      return flux;
+    };
+    double out_of_source = 0.0;
+    for (const Position neighbour : problem.neighbours(problem.source())) {
+      out_of_source += neighbour == LaplaceProblem::kClosed ? 0.0 : 1.0 - phi[static_cast<std::size_t>(neighbour)];
+    }
+    for (const double level : {1e-3, 0.05, 0.2, 0.5, 0.9}) {
+      ASSERT_NEAR(flux_across(level) / out_of_source, 1.0, 1e-6) << kind.name << " level " << level;
+      ++cuts;
+    }
+  }
+  EXPECT_GE(cuts, 35U);
+}
+
+// The operator of the black cells and the preconditioner, as conjugate gradients see them.
+TEST(MultigridOracle, OperatorAndPreconditionerAreSymmetricAndPositive) {
+  std::mt19937 engine(22);
+  std::normal_distribution<float> normal;
+  std::size_t cases = 0;
+  for (const Worlds& kind : kinds_of_worlds()) {
+    const RandomRooms rooms(kind.options);
+    LaplaceDomain domain = rooms.domain();
+    domain.keep_component(rooms.source);
+    if (domain.sink_count() == 0) {
+      continue;
+    }
+    detail::BrickSolver solver(detail::make_fine_level(domain));
+    const auto random_field = [&] {
+      detail::HalfField<float> field(solver.right().size(), 0.0F);
+      for (std::size_t i = 0; i < field.size(); ++i) {
+        field[i] = solver.fine().degree[detail::kBlack][i] > 0 ? normal(engine) : 0.0F;
+      }
+      return field;
+    };
+    const auto dot = [](const detail::HalfField<float>& a, const detail::HalfField<float>& b) {
+      return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+    };
+    for (int trial = 0; trial < 4; ++trial, ++cases) {
+      const detail::HalfField<float> a = random_field();
+      const detail::HalfField<float> b = random_field();
+      detail::HalfField<float> of_a;
+      detail::HalfField<float> of_b;
+      solver.apply(a, of_a);
+      solver.apply(b, of_b);
+      EXPECT_GT(dot(a, of_a), 0.0) << kind.name;
+      EXPECT_NEAR(dot(a, of_b), dot(b, of_a), 1e-5 * std::sqrt(dot(a, of_a) * dot(b, of_b))) << kind.name;
+      solver.right() = a;
+      solver.precondition(of_a);
+      solver.right() = b;
+      solver.precondition(of_b);
+      EXPECT_GT(dot(a, of_a), 0.0) << kind.name;
+      EXPECT_NEAR(dot(a, of_b), dot(b, of_a), 1e-5 * std::sqrt(dot(a, of_a) * dot(b, of_b))) << kind.name;
+    }
+  }
+  EXPECT_GE(cases, 28U);
+}
+
+// The same bits from every run; and what the processor's own instruction set computes is what any other would.
+TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
+  const RandomRooms rooms({.seed = 5});
+  LaplaceDomain domain = rooms.domain();
+  domain.keep_component(rooms.source);
+  const detail::FineLevel fine = detail::make_fine_level(domain);
+  std::mt19937 engine(23);
+  std::normal_distribution<float> normal;
+  detail::HalfField<float> black(fine.brick_count * detail::kHalfBrick, 0.0F);
+  for (std::size_t i = 0; i < black.size(); ++i) {
+    black[i] = fine.degree[detail::kBlack][i] > 0 ? normal(engine) : 0.0F;
+  }
+  std::size_t bricks = 0;
+  for (std::size_t b = 1; b < fine.brick_count; ++b, ++bricks) {
+    detail::HalfField<float> best(detail::kHalfBrick);
+    detail::HalfField<float> baseline(detail::kHalfBrick);
+    const std::uint8_t* degree = fine.degree[detail::kRed].data() + b * detail::kHalfBrick;
+    detail::run(detail::RedSolve{degree, detail::Around<float>(fine, black, b), best.data()});
+    detail::RedSolve{degree, detail::Around<float>(fine, black, b), baseline.data()}();
+    ASSERT_EQ(std::memcmp(best.data(), baseline.data(), detail::kHalfBrick * sizeof(float)), 0);
+  }
+  EXPECT_GE(bricks, 50U);
+  const std::vector<double> first = LaplaceMultigrid(rooms.domain(), rooms.source).values(rooms.problem());
+  EXPECT_EQ(LaplaceMultigrid(rooms.domain(), rooms.source).values(rooms.problem()), first);
+}
+
+}  // namespace
+}  // namespace vantage
