@@ -5,6 +5,11 @@
 set -euo pipefail
 list="$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt"
 
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "This is no Debian: nothing is installed here; cmake/debian-packages.txt names what must be there." >&2
+  exit 0
+fi
+
 missing=()
 while read -r package _ group; do
   for wanted in "$@"; do
@@ -17,15 +22,16 @@ done < <(grep -v '^#' "$list")
 if [[ ${#missing[@]} -eq 0 ]]; then
   exit 0
 fi
-echo "Installing what is missing from cmake/debian-packages.txt: ${missing[*]}"
 as_root=()
 if [[ $EUID -ne 0 ]]; then
   if ! command -v sudo >/dev/null; then
-    echo "These packages must be installed by root, and there is no sudo here: apt-get install ${missing[*]}" >&2
+    echo "Packages are missing, and there is no sudo to install them with. As root:" >&2
+    echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)
 fi
+echo "Installing what is missing from cmake/debian-packages.txt: ${missing[*]}"
 # Quiet, but not when it fails.
 log="$(mktemp)"
 trap 'rm -f "$log"' EXIT

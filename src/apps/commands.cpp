@@ -4,12 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vantage/version.hpp>
+#include <vector>
 
+#include "apps/help_format.hpp"
 #include "apps/map_command.hpp"
 
 namespace vantage::apps {
-
 namespace {
 
 struct MapRequest {
@@ -18,25 +21,51 @@ struct MapRequest {
 };
 
 void add_map_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("map", "Sizes and cell counts of an OctoMap file");
+  CLI::App* command = app.add_subcommand("map", "Tell the size of an OctoMap file and its cells by kind");
   const auto request = std::make_shared<MapRequest>();
-  command->add_option("file", request->file, "The map")->required()->type_name("FILE.bt|FILE.ot");
+  command->add_option("file", request->file, "The map, as OctoMap writes it")
+      ->required()
+      ->type_name("FILE.bt|FILE.ot");
   command->add_option("--json", request->json, "The same as JSON; -: on stdout")->type_name("FILE|-");
   command->callback([request, &exit_code] { exit_code = run_map_command(request->file, request->json, std::cout); });
+}
+
+// Before any command runs.
+void check_command(const CLI::App& app) {
+  const std::vector<std::string> strangers = app.remaining();
+  if (!strangers.empty() && strangers.front().front() == '-') {
+    throw std::invalid_argument("there is no option " + strangers.front() + " before the command");
+  }
+  if (!strangers.empty() || app.get_subcommands().empty()) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+      names += (names.empty() ? "" : ", ") + command->get_name();
+    }
+    throw std::invalid_argument(
+        (strangers.empty() ? "no command was given" : "there is no command '" + strangers.front() + "'") +
+        "; there are: " + names);
+  }
 }
 
 }  // namespace
 
 void add_commands(CLI::App& app, int& exit_code) {
-  app.set_version_flag("--version", "vantage " VANTAGE_VERSION_STRING);
-  app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
+  app.formatter(std::make_shared<HelpFormat>());
+  app.set_help_flag("-h,--help", "This text");
+  app.set_version_flag("--version", "vantage " VANTAGE_VERSION_STRING, "The version");
   app.failure_message(CLI::FailureMessage::simple);
-  app.footer("Try: vantage explore --world rooms --planner harmonic --sensor panoramic --out rooms\n"
-             "Exit codes: 0 done, 2 bad input (nothing was written), 3 a budget ended the run.");
   add_explore_command(app, exit_code);
   add_map_command(app, exit_code);
   add_list_command(app);
+  // Not inherited by the commands, hence after them.
+  for (CLI::App* command : app.get_subcommands({})) {
+    command->group("Commands");
+  }
+  app.allow_extras();
+  app.parse_complete_callback([&app] { check_command(app); });
+  app.footer(
+      "What a command takes: vantage COMMAND --help\n"
+      "To begin with:        vantage explore --world rooms --out rooms");
 }
 
 std::string one_line(std::string message) {

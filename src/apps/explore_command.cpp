@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -13,6 +14,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
+#include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 
@@ -21,8 +23,18 @@ namespace {
 
 // Truth keeps a byte and more per cell of the region: a slip of the resolution must not fill the memory.
 constexpr double kMostCells = 1e9;
+constexpr std::uint64_t kMostThreads = 1024;
 
-void check_region(const ExploreRequest& request, const Box& region, const std::optional<Pose>& start) {
+void check_region(const ExploreRequest& request, const World& world, const Box& region,
+                  const std::optional<Pose>& start) {
+  const Box bounds = world.mesh.bounds();
+  if (!(region.min.array() < bounds.max.array()).all() || !(region.max.array() > bounds.min.array()).all()) {
+    std::ostringstream message;
+    message << "--region " << request.region << " holds nothing of the world, which spans " << bounds.min.x() << ','
+            << bounds.min.y() << ',' << bounds.min.z() << ',' << bounds.max.x() << ',' << bounds.max.y() << ','
+            << bounds.max.z();
+    throw std::invalid_argument(message.str());
+  }
   const double cells = (region.extent() / request.resolution_m).prod();
   if (!(cells <= kMostCells)) {
     std::ostringstream message;
@@ -85,7 +97,7 @@ int explore(const ExploreRequest& request) {
   const std::optional<Box> asked_region = region_of(request);
   const World world = world_of(request);
   const Box region = asked_region.value_or(world.region);
-  check_region(request, region, start);
+  check_region(request, world, region, start);
 
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
@@ -123,58 +135,107 @@ int explore(const ExploreRequest& request) {
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }
 
-void add_options(CLI::App& command, ExploreRequest& request) {
-  command.add_option("--world", request.world, "A world by name (vantage list), a mesh, or a .bt/.ot map")
+void add_world_options(CLI::App& command, ExploreRequest& request) {
+  command
+      .add_option("--world", request.world,
+                  "By name (vantage list), a mesh, or an OctoMap taken as the truth; must be given")
       ->required()
-      ->type_name("NAME|FILE");
-  command.add_option("--up", request.up, "Which axis of a mesh file points up")->type_name("y|z")->capture_default_str();
-  command.add_option("--scale", request.scale, "Metres per unit of a mesh file")->type_name("S")->capture_default_str();
-  command.add_option("--region", request.region, "What to explore, metres; default: all of the world")
-      ->type_name("x0,y0,z0,x1,y1,z1");
-  command.add_option("--resolution", request.resolution_m, "Edge of a cell")->type_name("M")->capture_default_str();
-  command.add_option("--planner", request.planner, "A planner by name (vantage list)")
+      ->type_name("NAME|FILE")
+      ->group("World");
+  command.add_option("--up", request.up, "Axis of a mesh file that points up")
+      ->type_name("y|z")
+      ->capture_default_str()
+      ->group("World");
+  command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
+      ->type_name("S")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("World");
+  command.add_option("--region", request.region, "What to explore, metres; all of the world unless given")
+      ->type_name("x0,y0,z0,x1,y1,z1")
+      ->group("World");
+}
+
+void add_robot_options(CLI::App& command, ExploreRequest& request) {
+  command.add_option("--start", request.start, "First pose of the sensor, metres and degrees; drawn unless given")
+      ->type_name("x,y,z[,yaw[,pitch]]")
+      ->group("Robot");
+  command.add_option("--robot-radius", request.robot_radius_m, "The robot is a sphere about its sensor, metres")
+      ->type_name("M")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("Robot");
+  command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
+  command.add_option("--sensor", request.sensor, "By name (vantage list) or from a file")
+      ->type_name("NAME|FILE.json")
+      ->capture_default_str()
+      ->group("Robot");
+  command.add_option("--noise", request.noise, "Depth noise, as a multiple of a Kinect's")
+      ->type_name("X")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("Robot");
+  command.add_option("--scan-spacing", request.scan_spacing_m, "Metres between scans on the way; 0: at goals only")
+      ->type_name("M")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("Robot");
+}
+
+void add_run_options(CLI::App& command, ExploreRequest& request) {
+  command.add_option("--planner", request.planner, "By name (vantage list)")
       ->type_name("NAME")
-      ->capture_default_str();
-  command.add_option("--set", request.settings, "A setting of the planner; may be repeated")
+      ->capture_default_str()
+      ->group("Run");
+  command
+      .add_option("--set", request.settings, "A setting of the planner, as often as needed; a wrong key lists them")
       ->type_name("key=value")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  command.add_option("--sensor", request.sensor, "A sensor by name (vantage list) or from a file")
-      ->type_name("NAME|FILE.json")
-      ->capture_default_str();
-  command.add_option("--noise", request.noise, "Depth noise, as a multiple of a Kinect's")
-      ->type_name("X")
-      ->capture_default_str();
-  command.add_option("--scan-spacing", request.scan_spacing_m, "Scan every so far along the way; 0: at goals only")
+      ->allow_extra_args(false)
+      ->group("Run");
+  command.add_option("--resolution", request.resolution_m, "Edge of a cell of the map, metres")
       ->type_name("M")
-      ->capture_default_str();
-  command.add_option("--start", request.start, "First pose of the sensor; default: drawn from the seed")
-      ->type_name("x,y,z[,yaw_deg[,pitch_deg]]");
-  command.add_option("--robot-radius", request.robot_radius_m, "The robot is a sphere about its sensor")
-      ->type_name("M")
-      ->capture_default_str();
-  command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level");
-  // A negative number would wrap around: the text itself is checked.
-  command.add_option("--max-views", request.max_views, "Budget of scans")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("Run");
+  command.add_option("--max-views", request.max_views, "Scans after which the run ends")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber, "")
-      ->capture_default_str();
-  command.add_option("--seed", request.seed, "Of everything drawn at random")
+      ->check(a_whole_number())
+      ->capture_default_str()
+      ->group("Run");
+  command.add_option("--seed", request.seed, "Of everything that is drawn at random")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber, "")
-      ->capture_default_str();
-  command.add_option("--threads", request.threads, "Never changes the result")->type_name("N")->capture_default_str();
-  command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")->type_name("DIR");
-  command.add_option("--json", request.json, "The report as JSON; -: on stdout, all else on stderr")->type_name("FILE|-");
+      ->check(a_whole_number())
+      ->capture_default_str()
+      ->group("Run");
+  command.add_option("--threads", request.threads, "How many to use; the result is the same for any number")
+      ->type_name("N")
+      ->check(a_whole_number(kMostThreads))
+      ->capture_default_str()
+      ->group("Run");
+}
+
+void add_output_options(CLI::App& command, ExploreRequest& request) {
+  command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")
+      ->type_name("DIR")
+      ->group("Output");
+  command.add_option("--json", request.json, "The report; -: on stdout, and all else on stderr")
+      ->type_name("FILE|-")
+      ->group("Output");
 }
 
 }  // namespace
 
 void add_explore_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("explore", "Explore a known world with a simulated sensor");
+  CLI::App* command = app.add_subcommand("explore", "Let a simulated robot explore a known world");
   const auto request = std::make_shared<ExploreRequest>();
-  add_options(*command, *request);
+  add_world_options(*command, *request);
+  add_robot_options(*command, *request);
+  add_run_options(*command, *request);
+  add_output_options(*command, *request);
+  command->footer(
+      "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written), 3 the views were spent.");
   command->callback([request, &exit_code] { exit_code = explore(*request); });
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/sim/world.hpp>
@@ -17,16 +21,34 @@ namespace {
 std::string described(std::string_view name) {
   const RangeSensor sensor = RangeSensor::preset(name);
   char text[160];
-  std::snprintf(text, sizeof text, "%4zu x %-4zu  %5.1f x %5.1f deg   %.1f to %.1f m", sensor.width, sensor.height,
+  std::snprintf(text, sizeof text, "%4zu x %-4zu %5.1f x %5.1f deg  %.1f to %4.1f m", sensor.width, sensor.height,
                 sensor.horizontal_angle_rad() * 180.0 / std::numbers::pi,
                 sensor.vertical_angle_rad() * 180.0 / std::numbers::pi, sensor.min_range_m, sensor.max_range_m);
   return text;
 }
 
+constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
+    {"rooms", "a closed cube of 10.2 m with walls and openings in it (Shade & Newman 2011)"},
+    {"office", "a corridor with furnished rooms on both sides, made from the seed"},
+    {"maze", "narrow passages with a few loops, made from the seed"},
+    {"two-storey", "two floors of rooms joined by a stairwell"},
+    {"table", "an object on a table in an otherwise empty room"},
+    {"frontier-gain", "the best of many random views, by the frontier seen from them; a baseline"},
+    {"harmonic", "down the steepest way of a harmonic field (Shade & Newman 2011)"},
+    {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},
+};
+
+void print(std::string_view name, std::string_view about) {
+  constexpr std::size_t kWidth = 18;
+  std::cout << "  " << name << std::string(name.size() < kWidth ? kWidth - name.size() : 1, ' ') << about << '\n';
+}
+
 void print_names(const char* title, const std::vector<std::string_view>& names) {
   std::cout << title << '\n';
   for (const std::string_view name : names) {
-    std::cout << "  " << name << '\n';
+    const auto* about =
+        std::find_if(std::begin(kAbout), std::end(kAbout), [&](const auto& a) { return a.first == name; });
+    print(name, about == std::end(kAbout) ? "" : about->second);
   }
 }
 
@@ -35,14 +57,14 @@ void list() {
   print_names("planners", planner_names());
   std::cout << "sensors (or a .json file)\n";
   for (const std::string_view name : RangeSensor::preset_names()) {
-    std::cout << "  " << name << std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') << described(name) << '\n';
+    print(name, described(name));
   }
 }
 
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "The worlds, planners and sensors known by name");
+  CLI::App* command = app.add_subcommand("list", "Name the worlds, planners and sensors there are");
   command->callback(list);
 }
 

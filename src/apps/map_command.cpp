@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/map_command.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -11,6 +12,9 @@
 
 namespace vantage::apps {
 namespace {
+
+// A multiple of the resolution without the noise of its last bits: -7.52, not -7.5200000000000005.
+double plain(double metres) { return std::round(metres * 1e9) / 1e9; }
 
 void print(const nlohmann::json& summary, std::ostream& out) {
   const nlohmann::json& cells = summary.at("cells");
@@ -42,7 +46,8 @@ nlohmann::json map_summary(const std::filesystem::path& file) {
             {"frontier", count_frontier_cells(map)},
             {"void", count_void_cells(map)}}},
           {"bounds_m",
-           {bounds.min.x(), bounds.min.y(), bounds.min.z(), bounds.max.x(), bounds.max.y(), bounds.max.z()}},
+           {plain(bounds.min.x()), plain(bounds.min.y()), plain(bounds.min.z()), plain(bounds.max.x()),
+            plain(bounds.max.y()), plain(bounds.max.z())}},
           {"memory_mb", static_cast<double>(map.memory_bytes()) / 1e6}};
 }
 

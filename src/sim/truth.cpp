@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <vantage/robot/reachable_space.hpp>
 #include <vantage/sim/truth.hpp>
@@ -63,7 +64,9 @@ std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitte
 Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(map_options(resolution_m, region)) {
   region_ = *map_.region();
   if (region_.empty()) {
-    throw std::invalid_argument("the region holds no cell");
+    std::ostringstream message;
+    message << "the region holds no cell of " << resolution_m << " m";
+    throw std::invalid_argument(message.str());
   }
   const VoxelFrame& frame = map_.frame();
   cells_ = VoxelGrid<CellTruth>(covering(frame, region_, world.mesh.bounds()), CellTruth::Free);

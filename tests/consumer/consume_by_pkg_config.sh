@@ -5,6 +5,6 @@
 set -eu
 PKG_CONFIG_PATH="$2"
 export PKG_CONFIG_PATH
-# Words to be split: flags.
+# shellcheck disable=SC2046  # flags are words to be split
 "$3" -std=c++20 "$4" $("$1" --cflags --libs 'vantage >= 0.1') -o "$5"
 "$5"

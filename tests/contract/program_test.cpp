@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -82,10 +83,11 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--resolution -0.1", "--resolution");
   expect_refused(table + "--resolution nan", "--resolution");
   expect_refused(table + "--resolution 1e-7", "--resolution");
-  expect_refused(table + "--resolution two", "--resolution");
+  expect_refused(table + "--resolution two", "--resolution: 'two' is not a number");
   expect_refused(table + "--robot-radius -1", "--robot-radius");
   expect_refused(table + "--max-views 0", "--max-views");
-  expect_refused(table + "--max-views -3", "--max-views");
+  expect_refused(table + "--max-views -3", "--max-views: '-3' is not a whole number");
+  expect_refused(table + "--threads 99999999999", "--threads: '99999999999' is not a whole number from 0 to 1024");
   expect_refused(table + "--threads 0", "--threads");
   expect_refused(table + "--seed x", "--seed");
   expect_refused(table + "--seed -1", "--seed");
@@ -93,7 +95,7 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--noise -1", "--noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 15);
+  EXPECT_EQ(refused_, 16);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {
@@ -114,13 +116,15 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused(table + "--region 0,0,0,1,one,1", "'one'");
   expect_refused(table + "--region 1,0,0,0,1,1", "--region");
   expect_refused(table + "--region 0,0,0,inf,1,1", "'inf'");
+  expect_refused(table + "--region 50,50,0,51,51,1", "--region 50,50,0,51,51,1 holds nothing of the world");
+  expect_refused("--world table --resolution 30", "no cell of 30 m");
   expect_refused(table + "--start 0,0", "--start");
   expect_refused(table + "--start 0,0,high", "'high'");
   expect_refused(table + "--start 50,0,1", "--start 50,0,1");
   expect_refused(table + "--start 1.79,0,1", "start");
   expect_refused(table + "--region -1,-1,0,1,1,2 --start 1.5,0,1", "--start 1.5,0,1");
   expect_refused(table + "--robot-radius 9", "fits nowhere");
-  EXPECT_EQ(refused_, 10);
+  EXPECT_EQ(refused_, 12);
 }
 
 TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
@@ -152,15 +156,25 @@ TEST_F(Program, RefusesWhatItCannotDo) {
     EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
+  EXPECT_NE(run("dance").err.find("no command 'dance'; there are: explore, map, list"), std::string::npos);
 }
 
 TEST_F(Program, HelpsAndLists) {
   EXPECT_EQ(run("--help").code, 0);
   const Ran help = run("explore --help");
   EXPECT_EQ(help.code, 0);
-  for (const char* flag : {"--world", "--planner", "--sensor", "--resolution", "--region", "--start", "--robot-radius",
-                           "--max-views", "--seed", "--threads", "--out", "--json", "--set", "--up", "--scale"}) {
+  for (const char* flag :
+       {"--world", "--planner", "--sensor", "--resolution", "--region", "--start", "--robot-radius", "--max-views",
+        "--seed", "--threads", "--out", "--json", "--set", "--up", "--scale", "--set", "[harmonic]"}) {
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
+  }
+  for (const char* command : {"--help", "explore --help", "map --help", "list --help", "list"}) {
+    std::istringstream text(run(command).out);
+    std::size_t lines = 0;
+    for (std::string line; std::getline(text, line); ++lines) {
+      EXPECT_LE(line.size(), 120U) << line;
+    }
+    EXPECT_GE(lines, 6U) << command;
   }
   const Ran list = run("list");
   EXPECT_EQ(list.code, 0);
