@@ -1,23 +1,70 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <vantage/geometry/voxel.hpp>
 
 namespace vantage {
 
-/// The cells that a segment passes, in order, from the cell of `from` to the cell of `to`, both included: the exact
-/// traversal of Amanatides & Woo 1987, in double precision.
+/// When a segment crosses the faces between cells across one axis: at `next`, and every `delta` from there, where
+/// kEnd is the time of its end. Faces up to the cell of its end are crossed up to kEnd, all others after it.
+///
+/// Time is an integer. So the state of a walk after any number of steps is a product, not a sum that rounds, and
+/// every walk that compares times, in whatever order and by whatever instructions, passes the same cells.
+struct FaceCrossings {
+  std::int64_t next = 0;   ///< time of the next face
+  std::int64_t delta = 0;  ///< time from face to face
+
+  /// Time of the end of the segment; leaves room for a step beyond it.
+  static constexpr std::int64_t kEnd = std::int64_t{1} << 60U;
+  /// Later than any face a walk meets.
+  static constexpr std::int64_t kNever = std::int64_t{1} << 62U;
+
+  /// For the coordinates of a segment from `from`, in cell `first`, to `to`, in cell `last`, of cells of `size_m`.
+  [[nodiscard]] static FaceCrossings between(double from, double to, std::int32_t first, std::int32_t last,
+                                             double size_m) {
+    if (first == last) {
+      return {kNever, 0};
+    }
+    constexpr auto kUnit = static_cast<double>(kEnd);
+    const double per_metre = std::min(kUnit / std::abs(to - from), 1e200);
+    const bool up = last > first;
+    const double face_m = (first + (up ? 1 : 0)) * size_m;
+    const double next = (up ? face_m - from : from - face_m) * per_metre;
+    const FaceCrossings crossings{static_cast<std::int64_t>(std::clamp(next, 0.0, kUnit)),
+                                  static_cast<std::int64_t>(std::min(size_m * per_metre, 2.0 * kUnit))};
+    return crossings.ending_after(std::abs(last - first));
+  }
+  /// The same where the first `faces` are crossed up to kEnd, and the next one is not: what rounding may have undone.
+  [[nodiscard]] FaceCrossings ending_after(std::int64_t faces) const {
+    FaceCrossings crossings = *this;
+    if (next + (faces - 1) * delta > kEnd) {
+      crossings.delta = std::max<std::int64_t>((kEnd - next) / (faces - 1), 1);
+    }
+    if (crossings.next + faces * crossings.delta <= kEnd) {
+      crossings.next = kEnd + 1 - faces * crossings.delta;
+    }
+    return crossings;
+  }
+  /// How many faces are crossed at or before `time`.
+  [[nodiscard]] std::int64_t crossed_by(std::int64_t time) const {
+    return time < next ? 0 : (time - next) / delta + 1;
+  }
+};
+
+/// The cells that a segment passes, in order, from the cell of `from` to the cell of `to`, both included: the
+/// traversal of Amanatides & Woo 1987, with the time along the segment in units of 2^-60 of it.
 ///
 ///     for (const VoxelIndex& cell : VoxelRay(frame, from, to)) { ... }
 ///
-/// Each step crosses one face; the walk takes exactly as many steps as the two end cells differ, so rounding can never
-/// make it miss its end. Where the segment passes exactly through an edge or a corner, the lower axis steps first.
+/// Each step crosses one face; the walk takes exactly as many steps as the two end cells differ, so rounding can
+/// never make it miss its end. Where the segment passes exactly through an edge or a corner, the lower axis steps
+/// first.
 class VoxelRay {
  public:
   /// Both points must be addressable in `frame`.
@@ -26,15 +73,11 @@ class VoxelRay {
     const VoxelIndex last = frame.cell_of(to);
     cell_ = {first.x, first.y, first.z};
     const std::array<std::int32_t, 3> end{last.x, last.y, last.z};
-    const Eigen::Vector3d step_m = to - from;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);
-      remaining_[axis] = std::abs(end[axis] - cell_[axis]);
-      steps_ += remaining_[axis];
+      steps_ += std::abs(end[axis] - cell_[axis]);
       sign_[axis] = end[axis] >= cell_[axis] ? 1 : -1;
-      const double face_m = (cell_[axis] + (sign_[axis] > 0 ? 1 : 0)) * frame.size_m;
-      next_[axis] = remaining_[axis] > 0 ? (face_m - from[i]) / step_m[i] : kNever;
-      delta_[axis] = remaining_[axis] > 0 ? frame.size_m / std::abs(step_m[i]) : kNever;
+      faces_[axis] = FaceCrossings::between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
     }
   }
 
@@ -48,29 +91,25 @@ class VoxelRay {
   [[nodiscard]] std::int64_t size() const { return steps_ + 1; }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
-
   void advance() {
     --steps_;
     if (steps_ < 0) {
       return;
     }
     std::size_t axis = 0;
-    if (next_[1] < next_[axis]) {
+    if (faces_[1].next < faces_[axis].next) {
       axis = 1;
     }
-    if (next_[2] < next_[axis]) {
+    if (faces_[2].next < faces_[axis].next) {
       axis = 2;
     }
     cell_[axis] += sign_[axis];
-    next_[axis] = --remaining_[axis] > 0 ? next_[axis] + delta_[axis] : kNever;
+    faces_[axis].next += faces_[axis].delta;
   }
 
   std::array<std::int32_t, 3> cell_{};
   std::array<std::int32_t, 3> sign_{};
-  std::array<std::int32_t, 3> remaining_{};
-  std::array<double, 3> next_{};
-  std::array<double, 3> delta_{};
+  std::array<FaceCrossings, 3> faces_{};
   std::int64_t steps_ = 0;
 };
 
@@ -78,10 +117,10 @@ class VoxelRay {
 class VoxelRay::iterator {
  public:
   using iterator_category = std::input_iterator_tag;  ///< as std::iterator_traits asks
-  using value_type = VoxelIndex;  ///< as std::iterator_traits asks
-  using difference_type = std::ptrdiff_t;  ///< as std::iterator_traits asks
-  using pointer = const VoxelIndex*;  ///< as std::iterator_traits asks
-  using reference = VoxelIndex;  ///< as std::iterator_traits asks
+  using value_type = VoxelIndex;                      ///< as std::iterator_traits asks
+  using difference_type = std::ptrdiff_t;             ///< as std::iterator_traits asks
+  using pointer = const VoxelIndex*;                  ///< as std::iterator_traits asks
+  using reference = VoxelIndex;                       ///< as std::iterator_traits asks
 
   /// The cell reached.
   VoxelIndex operator*() const { return {ray_.cell_[0], ray_.cell_[1], ray_.cell_[2]}; }
