@@ -27,6 +27,8 @@ function(vantage_add_library component)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} ${arg_LINKS})
   target_compile_features(${target} PUBLIC cxx_std_20)
+  # The same bits on every processor: a * b + c rounds twice, as written. And no errno, which keeps sqrt out of vectors.
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
   set_target_properties(
     ${target} PROPERTIES EXPORT_NAME ${component} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON
                          VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

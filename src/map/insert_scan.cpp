@@ -14,11 +14,11 @@ class ScanInserter {
       : map_(map), model_{map.hit_steps_, map.miss_steps_, map.min_steps_, map.max_steps_} {}
 
   ScanReport insert(const Scan& scan, RayPolicy policy) {
-    const ScanRays rays = rays_of(scan, map_.frame_, policy);
-    report_ = rays.report;
+    const ScanRays rays(scan, map_.frame_);
+    report_ = rays.report();
     ++map_.revision_;
-    if (!rays.rays.empty()) {
-      ScanMarks marks(rays.cells, map_.frame_.cell_of(rays.origin));
+    if (!rays.empty()) {
+      ScanMarks marks(rays.cells(), map_.frame_.cell_of(rays.origin()));
       mark_rays(rays, map_.frame_, policy, marks);
       marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
         update(address, passed, hit);

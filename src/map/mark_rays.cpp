@@ -1,139 +1,166 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <bit>
 #include <map/mark_rays.hpp>
-#include <map/ray_lanes.hpp>
-#include <vantage/geometry/voxel_ray.hpp>
+#include <map/ray_marker.hpp>
+#include <map/tile_beam.hpp>
 
 namespace vantage {
 namespace {
 
-class RayMarker {
- public:
-  RayMarker(const VoxelFrame& frame, const Eigen::Vector3d& origin, ScanMarks& marks)
-      : frame_(frame), origin_(origin), first_(frame.cell_of(origin)), marks_(marks) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lanes_.mask[axis] = static_cast<std::int64_t>(marks.mask(axis));
+constexpr std::size_t kLanes = RayLanes::kLanes;
+
+// Calls `visit(block)` for all rays.
+template <class Visit>
+void for_each_block(const ScanRays& rays, Visit&& visit) {
+  RayBlock block;
+  for (std::size_t number = 0; number < rays.blocks(); ++number) {
+    rays.block(number, 1, block);
+    visit(block);
+  }
+}
+
+// Marks the cells in which returns of the block lie; calls `is_first(ray)` for those that are the first in their
+// cell.
+template <class IsFirst>
+void mark_hits(const RayBlock& block, ScanMarks& marks, IsFirst&& is_first) {
+  if (!marks.holds_all()) {
+    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+      if (block.hits(i) && marks.mark_hit({block.cell[0][i], block.cell[1][i], block.cell[2][i]})) {
+        is_first(i);
+      }
+    }
+    return;
+  }
+  RayBlock::PerRay<std::uint64_t> position;
+  compiled_for(best_instruction_set(), [&] {
+    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+      position[i] = marks.position_of({block.cell[0][i], block.cell[1][i], block.cell[2][i]});
+    }
+  });
+  std::uint64_t* const hit = marks.hit();
+  for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+    const std::uint64_t bit = std::uint64_t{block.hits(i)} << (position[i] & 63U);
+    std::uint64_t& word = hit[position[i] >> 6U];
+    if ((bit & ~word) != 0) {
+      word |= bit;
+      is_first(i);
     }
   }
+}
 
-  // Marks the cells of each ray, from that of the origin up to, and without, that of its end.
-  void mark(const std::vector<ScanRay>& rays) {
-    const std::size_t count = rays.size();
-    // Neighbours in the list mark the same words, and would wait for each other: each lane takes its own part of it.
-    std::array<std::size_t, RayLanes::kLanes> ray{};
-    std::array<std::size_t, RayLanes::kLanes> ray_end{};
-    left_.fill(0);
-    for (std::size_t lane = 0; lane < RayLanes::kLanes; ++lane) {
-      ray[lane] = count * lane / RayLanes::kLanes;
-      ray_end[lane] = count * (lane + 1) / RayLanes::kLanes;
-    }
-    while (true) {
-      std::int64_t steps = kNoRay;
-      for (std::size_t lane = 0; lane < RayLanes::kLanes; ++lane) {
-        while (left_[lane] == 0) {
-          if (ray[lane] == ray_end[lane]) {
-            park(lane);
-          } else {
-            start(lane, rays[ray[lane]++]);
-          }
-        }
-        steps = std::min(steps, left_[lane]);
-      }
-      if (steps == kNoRay) {
-        return;
-      }
-      lanes_.walk(steps, marks_.passed());
-      for (std::int64_t& left : left_) {
-        left -= left == kNoRay ? 0 : steps;
+// The rays with a return into a cell that has none yet, ending at its centre; and all rays without a return.
+std::vector<DrawnRay> one_ray_per_end_cell(const ScanRays& rays, const VoxelFrame& frame, ScanMarks& marks) {
+  std::vector<DrawnRay> drawn;
+  for_each_block(rays, [&](const RayBlock& block) {
+    const auto cell = [&](std::size_t i) { return VoxelIndex{block.cell[0][i], block.cell[1][i], block.cell[2][i]}; };
+    mark_hits(block, marks, [&](std::size_t i) { drawn.push_back({frame.centre_of(cell(i)), cell(i)}); });
+    for (std::size_t i = 0; i < RayBlock::kRays && !block.all_hit(); ++i) {
+      if (block.usable(i) && !block.hits(i)) {
+        drawn.push_back({{block.end[0][i], block.end[1][i], block.end[2][i]}, cell(i)});
       }
     }
+  });
+  return drawn;
+}
+
+// Each lane draws its own part of the list.
+void draw(const std::vector<DrawnRay>& list, RayMarker& marker) {
+  std::array<std::size_t, kLanes> at{};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    at[lane] = list.size() * lane / kLanes;
+  }
+  marker.mark([&](std::size_t lane, DrawnRay& ray) {
+    const bool any = at[lane] < list.size() * (lane + 1) / kLanes;
+    if (any) {
+      ray = list[at[lane]++];
+    }
+    return any;
+  });
+}
+
+// Draws blocks of rays, each lane its own part of them.
+class BlockDrawer {
+ public:
+  BlockDrawer(const ScanRays& rays, const VoxelFrame& frame, std::size_t stride, ScanMarks& marks)
+      : rays_(rays),
+        frame_(frame),
+        stride_(stride),
+        of_tiles_(rays.are_tiles() ? rays.blocks_of_points(stride) : 0),
+        marks_(marks) {}
+
+  void draw(RayMarker& marker) {
+    const std::size_t count = stride_ == 1 ? rays_.blocks() : of_tiles_;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      lanes_[lane].next_block = count * lane / kLanes;
+      lanes_[lane].end_block = count * (lane + 1) / kLanes;
+    }
+    marker.mark([this](std::size_t lane, DrawnRay& ray) { return next(lanes_[lane], ray); });
   }
 
  private:
-  static constexpr double kUnit = 0x1p60;  // the time of the end of a ray; leaves room for a step beyond it
-  static constexpr std::int64_t kNever = std::int64_t{1} << 62U;
-  static constexpr std::int64_t kNoRay = std::numeric_limits<std::int64_t>::max();
+  struct Lane {
+    std::size_t next_block = 0;
+    std::size_t end_block = 0;
+    RayBlock block;
+    std::uint64_t todo = 0;  // a bit for each ray of the block that is still to be drawn
+    UndrawnPart part;
+  };
 
-  void park(std::size_t lane) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lanes_.at[axis][lane] = lanes_.step[axis][lane] = lanes_.next[axis][lane] = lanes_.delta[axis][lane] = 0;
-    }
-    lanes_.base[lane] = static_cast<std::int64_t>(marks_.nowhere());
-    left_[lane] = kNoRay;
-  }
-
-  void start(std::size_t lane, const ScanRay& ray) {
-    const Eigen::Vector3d& end = ray.end;
-    const VoxelIndex& last = ray.cell;
-    if (!marks_.in_window(last)) {
-      mark_far(end, last);
-      return;
-    }
-    lanes_.base[lane] = 0;
-    left_[lane] = start(lane, 0, origin_.x(), end.x(), first_.x, last.x) +
-                  start(lane, 1, origin_.y(), end.y(), first_.y, last.y) +
-                  start(lane, 2, origin_.z(), end.z(), first_.z, last.z);
-  }
-
-  // One axis of a ray; returns how many faces it crosses.
-  std::int64_t start(std::size_t lane, std::size_t axis, double from, double to, std::int32_t first, std::int32_t last) {
-    const std::uint64_t mask = marks_.mask(axis);
-    const std::uint64_t one = std::uint64_t{1} << 2U * axis;
-    const bool up = last > first;
-    lanes_.at[axis][lane] = static_cast<std::int64_t>(marks_.part(axis, first));
-    lanes_.step[axis][lane] = static_cast<std::int64_t>(up ? ~mask + one : ~one + 1);
-    if (first == last) {
-      lanes_.next[axis][lane] = kNever;
-      lanes_.delta[axis][lane] = 0;
-      return 0;
-    }
-    const double scale = kUnit / (to - from);
-    const double face_m = (first + (up ? 1 : 0)) * frame_.size_m;
-    lanes_.next[axis][lane] = static_cast<std::int64_t>((face_m - from) * scale);
-    lanes_.delta[axis][lane] = static_cast<std::int64_t>(std::min(frame_.size_m * std::abs(scale), 2.0 * kUnit));
-    return std::abs(last - first);
-  }
-
-  void mark_far(const Eigen::Vector3d& end, const VoxelIndex& last) {
-    for (const VoxelIndex& cell : VoxelRay(frame_, origin_, end)) {
-      if (cell != last) {
-        marks_.mark_passed(cell);
+  bool next(Lane& lane, DrawnRay& ray) {
+    while (lane.todo == 0) {
+      if (lane.next_block == lane.end_block) {
+        return false;
       }
+      load(lane);
     }
+    const auto i = static_cast<std::size_t>(std::countr_zero(lane.todo));
+    lane.todo &= lane.todo - 1;
+    const RayBlock& block = lane.block;
+    ray = {{block.end[0][i], block.end[1][i], block.end[2][i]},
+           {block.cell[0][i], block.cell[1][i], block.cell[2][i]},
+           lane.part.axis,
+           lane.part.faces_before};
+    return true;
   }
 
+  void load(Lane& lane) {
+    rays_.block(lane.next_block, stride_, lane.block);
+    lane.todo = lane.block.all_hit() ? ~std::uint64_t{0} : 0;
+    for (std::size_t i = 0; i < RayBlock::kRays && lane.todo != ~std::uint64_t{0}; ++i) {
+      lane.todo |= std::uint64_t{lane.block.usable(i)} << i;
+    }
+    lane.part = {};
+    if (lane.next_block < of_tiles_ && lane.todo != 0) {
+      lane.part = undrawn_part(lane.block, lane.todo, rays_.origin(), frame_, marks_);
+      lane.todo &= lane.part.rays;
+    }
+    ++lane.next_block;
+  }
+
+  const ScanRays& rays_;
   const VoxelFrame& frame_;
-  Eigen::Vector3d origin_;
-  VoxelIndex first_;
+  std::size_t stride_;
+  std::size_t of_tiles_;
   ScanMarks& marks_;
-  RayLanes lanes_;
-  std::array<std::int64_t, RayLanes::kLanes> left_{};  // steps to the end of the lane's ray
+  std::array<Lane, kLanes> lanes_;
 };
 
 }  // namespace
 
 void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, ScanMarks& marks) {
-  RayMarker marker(frame, rays.origin, marks);
-  if (policy == RayPolicy::EveryReturn) {
-    for (const ScanRay& ray : rays.rays) {
-      if (ray.hits) {
-        marks.mark_hit(ray.cell);
-      }
-    }
-    marker.mark(rays.rays);
+  RayMarker marker(frame, rays.origin(), marks);
+  if (policy == RayPolicy::EachEndCell) {
+    draw(one_ray_per_end_cell(rays, frame, marks), marker);
     return;
   }
-  std::vector<ScanRay> drawn;
-  for (const ScanRay& ray : rays.rays) {
-    if (!ray.hits) {
-      drawn.push_back(ray);
-    } else if (marks.mark_hit(ray.cell)) {
-      drawn.push_back({frame.centre_of(ray.cell), ray.cell, true});
+  for_each_block(rays, [&](const RayBlock& block) { mark_hits(block, marks, [](std::size_t) {}); });
+  // Of a depth image, first few rays: where they lie closer than the cells are wide, the others have nothing to add.
+  if (rays.are_tiles()) {
+    for (const std::size_t stride : {4U}) {
+      BlockDrawer(rays, frame, stride, marks).draw(marker);
     }
   }
-  marker.mark(drawn);
+  BlockDrawer(rays, frame, 1, marks).draw(marker);
 }
 
 }  // namespace vantage

@@ -8,7 +8,9 @@
 namespace vantage {
 namespace {
 
-void mark(std::uint64_t* plane, std::int64_t position) { plane[position >> 6] |= std::uint64_t{1} << (position & 63); }
+void mark(std::uint64_t* plane, std::int64_t position) {
+  plane[position >> 6] |= std::uint64_t{1} << (position & 63);
+}
 
 // One lane after the other: the definition of the vectorised walks below, and what runs where there is neither.
 void walk_baseline(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane) {
@@ -43,7 +45,7 @@ void walk_baseline(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane) {
 
 #if defined(__x86_64__)
 
-[[gnu::target("avx512f")]] void walk_avx512(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane) {
+VANTAGE_TARGET_AVX512 void walk_avx512(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane) {
   __m512i x = _mm512_load_si512(lanes.next[0].data());
   __m512i y = _mm512_load_si512(lanes.next[1].data());
   __m512i z = _mm512_load_si512(lanes.next[2].data());
@@ -85,28 +87,68 @@ void walk_baseline(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane) {
   _mm512_store_si512(lanes.at[2].data(), at_z);
 }
 
-bool has_avx512() {
-  __builtin_cpu_init();
-  return __builtin_cpu_supports("avx512f") != 0;
+VANTAGE_TARGET_AVX2 __m256i load(const std::int64_t* four) {
+  return _mm256_load_si256(reinterpret_cast<const __m256i*>(four));
 }
-#endif
+VANTAGE_TARGET_AVX2 void store(std::int64_t* four, __m256i vector) {
+  _mm256_store_si256(reinterpret_cast<__m256i*>(four), vector);
+}
 
-using Walk = void (*)(RayLanes&, std::int64_t, std::uint64_t*);
-
-Walk best_walk() {
-#if defined(__x86_64__)
-  if (has_avx512()) {
-    return walk_avx512;
+// Four lanes at a time, which is what the registers hold.
+VANTAGE_TARGET_AVX2 void walk_avx2(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane, std::size_t first) {
+  __m256i x = load(&lanes.next[0][first]);
+  __m256i y = load(&lanes.next[1][first]);
+  __m256i z = load(&lanes.next[2][first]);
+  __m256i at_x = load(&lanes.at[0][first]);
+  __m256i at_y = load(&lanes.at[1][first]);
+  __m256i at_z = load(&lanes.at[2][first]);
+  alignas(32) std::array<std::int64_t, 4> positions;
+  for (std::int64_t step = 0; step < steps; ++step) {
+    const __m256i position =
+        _mm256_or_si256(_mm256_or_si256(load(&lanes.base[first]), at_x), _mm256_or_si256(at_y, at_z));
+    store(positions.data(), position);
+    const __m256i z_first = _mm256_cmpgt_epi64(y, z);
+    const __m256i stays_x = _mm256_or_si256(_mm256_cmpgt_epi64(x, y), _mm256_cmpgt_epi64(x, z));
+    const __m256i goes_y = _mm256_andnot_si256(z_first, stays_x);
+    const __m256i goes_z = _mm256_and_si256(z_first, stays_x);
+    x = _mm256_add_epi64(x, _mm256_andnot_si256(stays_x, load(&lanes.delta[0][first])));
+    y = _mm256_add_epi64(y, _mm256_and_si256(goes_y, load(&lanes.delta[1][first])));
+    z = _mm256_add_epi64(z, _mm256_and_si256(goes_z, load(&lanes.delta[2][first])));
+    at_x = _mm256_add_epi64(at_x, _mm256_andnot_si256(stays_x, load(&lanes.step[0][first])));
+    at_y = _mm256_add_epi64(at_y, _mm256_and_si256(goes_y, load(&lanes.step[1][first])));
+    at_z = _mm256_add_epi64(at_z, _mm256_and_si256(goes_z, load(&lanes.step[2][first])));
+    at_x = _mm256_and_si256(at_x, _mm256_set1_epi64x(lanes.mask[0]));
+    at_y = _mm256_and_si256(at_y, _mm256_set1_epi64x(lanes.mask[1]));
+    at_z = _mm256_and_si256(at_z, _mm256_set1_epi64x(lanes.mask[2]));
+    for (const std::int64_t one : positions) {
+      mark(plane, one);
+    }
   }
-#endif
-  return walk_baseline;
+  store(&lanes.next[0][first], x);
+  store(&lanes.next[1][first], y);
+  store(&lanes.next[2][first], z);
+  store(&lanes.at[0][first], at_x);
+  store(&lanes.at[1][first], at_y);
+  store(&lanes.at[2][first], at_z);
 }
+#endif
 
 }  // namespace
 
-void RayLanes::walk(std::int64_t steps, std::uint64_t* plane) {
-  static const Walk best = best_walk();
-  best(*this, steps, plane);
+void RayLanes::walk(std::int64_t steps, std::uint64_t* plane, InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::Avx512) {
+    walk_avx512(*this, steps, plane);
+    return;
+  }
+  if (set == InstructionSet::Avx2) {
+    walk_avx2(*this, steps, plane, 0);
+    walk_avx2(*this, steps, plane, 4);
+    return;
+  }
+#endif
+  (void)set;
+  walk_baseline(*this, steps, plane);
 }
 
 }  // namespace vantage

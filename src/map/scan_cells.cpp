@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <map/sensor_frame.hpp>
+#include <map/validate_scan.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/scan_cells.hpp>
-
-#include "map/validate_scan.hpp"
 
 namespace vantage {
 namespace {
@@ -44,11 +45,12 @@ ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy
   ScanCells cells;
   ScanReport& report = cells.report;
   const Eigen::Vector3d origin = scan.world_from_sensor.translation();
+  const SensorFrame sensor(scan.world_from_sensor);
   Walker walk(frame, region, origin, cells);
   std::unordered_set<VoxelIndex> end_cells;
 
   const auto shoot = [&](const Eigen::Vector3d& point_sensor, bool is_return) {
-    const double range_m = point_sensor.norm();
+    const double range_m = std::sqrt(SensorFrame::squared(point_sensor.x(), point_sensor.y(), point_sensor.z()));
     if (!std::isfinite(range_m)) {
       ++report.not_finite;
       return;
@@ -59,7 +61,9 @@ ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy
     }
     const bool ends_here = is_return && range_m <= scan.max_range_m;
     const Eigen::Vector3d reach = ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (scan.max_range_m / range_m));
-    const Eigen::Vector3d end = scan.world_from_sensor * reach;
+    const Eigen::Vector3d end(sensor.world(0, reach.x(), reach.y(), reach.z()),
+                              sensor.world(1, reach.x(), reach.y(), reach.z()),
+                              sensor.world(2, reach.x(), reach.y(), reach.z()));
     if (!frame.addressable(origin) || !frame.addressable(end)) {
       ++report.not_addressable;
       return;

@@ -11,6 +11,12 @@ namespace {
 // Bits that hold the numbers below `count`.
 unsigned bits_for(std::int32_t count) { return static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(count - 1))); }
 
+// The bits that stand for coordinates from `first` to `last` among those of the four of a word, `stride` bits for each.
+std::uint64_t bits_within(std::int32_t first, std::int32_t last, std::int32_t stride) {
+  const std::uint64_t below_end = last >= 3 && stride == 16 ? 0 : std::uint64_t{1} << (std::min(last, 3) + 1) * stride;
+  return below_end - (std::uint64_t{1} << std::max(first, 0) * stride);
+}
+
 // The bricks of `cells`; if they hold too many cells, those within the largest distance of `origin` that does not.
 VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
   const VoxelBox all{Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
@@ -37,6 +43,7 @@ VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
 
 ScanMarks::ScanMarks(const VoxelBox& cells, const VoxelIndex& origin) : bricks_(bricks_around(cells, origin)) {
   window_ = {Brick::first_cell(bricks_.lo), Brick::first_cell(bricks_.hi)};
+  holds_all_ = window_.contains(cells.lo) && window_.contains(cells.hi - VoxelIndex{1, 1, 1});
   const VoxelIndex extent = bricks_.extent();
   shift_ = {9, 9 + bits_for(extent.x), 9 + bits_for(extent.x) + bits_for(extent.y)};
   words_ = (static_cast<std::size_t>(extent.z) << shift_[2]) / 64;
@@ -51,6 +58,27 @@ ScanMarks::Plane ScanMarks::zeros(std::size_t words) {
     throw std::bad_alloc();
   }
   return plane;
+}
+
+bool ScanMarks::all_marked(const VoxelBox& cells) const {
+  const VoxelIndex first = cells.lo - window_.lo;
+  const VoxelIndex last = cells.hi - window_.lo - VoxelIndex{1, 1, 1};
+  for (std::int32_t z = first.z & ~3; z <= last.z; z += 4) {
+    const std::uint64_t in_z = bits_within(first.z - z, last.z - z, 16);
+    const std::uint64_t part_z = part(2, window_.lo.z + z);
+    for (std::int32_t y = first.y & ~3; y <= last.y; y += 4) {
+      const std::uint64_t in_yz = in_z & (bits_within(first.y - y, last.y - y, 4) & 0xFFFFU) * 0x0001000100010001ULL;
+      const std::uint64_t part_yz = part(1, window_.lo.y + y) | part_z;
+      for (std::int32_t x = first.x & ~3; x <= last.x; x += 4) {
+        const std::uint64_t in_word = in_yz & (bits_within(first.x - x, last.x - x, 1) & 0xFU) * 0x1111111111111111ULL;
+        const std::uint64_t word = (part(0, window_.lo.x + x) | part_yz) >> 6U;
+        if ((in_word & ~(passed_[word] | hit_[word])) != 0) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
 }
 
 BrickMarks& ScanMarks::far_brick(const VoxelIndex& brick) {

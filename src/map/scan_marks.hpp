@@ -34,6 +34,8 @@ class ScanMarks {
   /// The cells of the window.
   [[nodiscard]] const VoxelBox& window() const { return window_; }
   [[nodiscard]] bool in_window(const VoxelIndex& cell) const { return window_.contains(cell); }
+  /// Whether the window holds all the cells that were asked for.
+  [[nodiscard]] bool holds_all() const { return holds_all_; }
   /// The part of the position that stands for a coordinate of a cell of the window.
   [[nodiscard]] std::uint64_t part(std::size_t axis, std::int32_t coordinate) const {
     const std::array<std::int32_t, 3> lo{window_.lo.x, window_.lo.y, window_.lo.z};
@@ -52,6 +54,9 @@ class ScanMarks {
   [[nodiscard]] std::uint64_t nowhere() const { return words_ * 64; }
   [[nodiscard]] std::uint64_t* passed() { return passed_.get(); }
   [[nodiscard]] std::uint64_t* hit() { return hit_.get(); }
+
+  /// Whether all cells of a box within the window, not empty, have marks of either kind.
+  [[nodiscard]] bool all_marked(const VoxelBox& cells) const;
 
   void mark_passed(const VoxelIndex& cell) { mark(cell, passed_.get(), &BrickMarks::passed); }
   /// Whether the mark is new.
@@ -98,6 +103,7 @@ class ScanMarks {
 
   VoxelBox bricks_;
   VoxelBox window_;
+  bool holds_all_;
   std::array<unsigned, 3> shift_{};  // of the brick's coordinate in a position
   std::size_t words_ = 0;
   Plane passed_;

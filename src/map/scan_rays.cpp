@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map/scan_rays.hpp>
 #include <map/validate_scan.hpp>
@@ -8,102 +7,132 @@
 namespace vantage {
 namespace {
 
-class RayCollector {
- public:
-  RayCollector(const Scan& scan, const VoxelFrame& frame, RayPolicy policy, ScanRays& rays)
-      : frame_(frame),
-        each_end_cell_(policy == RayPolicy::EachEndCell),
-        max_range_m_(scan.max_range_m),
-        unlimited_(std::isinf(scan.max_range_m)),
-        rotation_(scan.world_from_sensor.linear()),
-        origin_(scan.world_from_sensor.translation()),
-        furthest_m_(frame.size_m * kFurthestVoxel),
-        origin_addressable_(frame.addressable(origin_)),
-        rays_(rays) {}
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-  void add(const Eigen::Vector3f& point, bool is_return) {
-    ScanReport& report = rays_.report;
-    const Eigen::Vector3d point_sensor = point.cast<double>();
-    // The square of a finite float is finite in double, and zero only for zero.
-    const double squared_m2 = point_sensor.squaredNorm();
-    if (!(squared_m2 <= std::numeric_limits<double>::max())) {
-      ++report.not_finite;
-      return;
+std::size_t divided_up(std::size_t count, std::size_t by) { return (count + by - 1) / by; }
+
+void put(const Eigen::Vector3f& point, std::size_t ray, RayBlock& block) {
+  block.point[0][ray] = point.x();
+  block.point[1][ray] = point.y();
+  block.point[2][ray] = point.z();
+}
+
+// The rays `first`, ... of a list; NaN behind its end.
+void gather(const std::vector<Eigen::Vector3f>& rays, std::size_t first, RayBlock& block) {
+  const std::size_t count = std::min(rays.size() - first, RayBlock::kRays);
+  for (std::size_t i = 0; i < count; ++i) {
+    put(rays[first + i], i, block);
+  }
+  for (std::size_t i = count; i < RayBlock::kRays; ++i) {
+    put(Eigen::Vector3f::Constant(kNan), i, block);
+  }
+}
+
+// The smallest and the largest coordinates of many blocks, without a dependency from ray to ray.
+class Bounds {
+ public:
+  explicit Bounds(const Eigen::Vector3d& start) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lo_[axis].fill(start[static_cast<Eigen::Index>(axis)]);
+      hi_[axis].fill(start[static_cast<Eigen::Index>(axis)]);
     }
-    if (squared_m2 == 0.0) {
-      ++report.zero_length;
-      return;
+  }
+  void add(const RayBlock& block) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+        const double end = block.end[axis][i];
+        lo_[axis][i] = end < lo_[axis][i] ? end : lo_[axis][i];
+        hi_[axis][i] = end > hi_[axis][i] ? end : hi_[axis][i];
+      }
     }
-    bool ends_here = is_return;
-    Eigen::Vector3d reach = point_sensor;
-    if (!is_return || !unlimited_) {
-      const double range_m = std::sqrt(squared_m2);
-      ends_here = is_return && range_m <= max_range_m_;
-      reach = ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (max_range_m_ / range_m));
+  }
+  [[nodiscard]] VoxelBox cells(const VoxelFrame& frame) const {
+    Eigen::Vector3d lo;
+    Eigen::Vector3d hi;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lo[static_cast<Eigen::Index>(axis)] = *std::min_element(lo_[axis].begin(), lo_[axis].end());
+      hi[static_cast<Eigen::Index>(axis)] = *std::max_element(hi_[axis].begin(), hi_[axis].end());
     }
-    const Eigen::Vector3d end = rotation_ * reach + origin_;
-    if (ends_here && well_inside_last(end)) {
-      ++report.hits;
-      return;
-    }
-    if (!origin_addressable_ || !(end.array().abs() <= furthest_m_).all()) {
-      ++report.not_addressable;
-      return;
-    }
-    ++(ends_here ? report.hits : is_return ? report.beyond_range : report.no_return);
-    const VoxelIndex cell = frame_.cell_of(end);
-    rays_.rays.push_back({end, cell, ends_here});
-    if (each_end_cell_ && ends_here) {
-      last_centre_ = frame_.centre_of(cell);
-    }
+    return {frame.cell_of(lo), frame.cell_of(hi) + VoxelIndex{1, 1, 1}};
   }
 
  private:
-  // Whether a point lies in the cell of the last return drawn, by a margin that rounding cannot bridge.
-  [[nodiscard]] bool well_inside_last(const Eigen::Vector3d& end) const {
-    const double reach_m = frame_.size_m * (0.5 - 1e-6);
-    return (std::abs(end.x() - last_centre_.x()) < reach_m) && (std::abs(end.y() - last_centre_.y()) < reach_m) &&
-           (std::abs(end.z() - last_centre_.z()) < reach_m);
-  }
-
-  VoxelFrame frame_;
-  bool each_end_cell_;
-  double max_range_m_;
-  bool unlimited_;
-  Eigen::Vector3d last_centre_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Matrix3d rotation_;
-  Eigen::Vector3d origin_;
-  double furthest_m_;
-  bool origin_addressable_;
-  ScanRays& rays_;
+  std::array<RayBlock::PerRay<double>, 3> lo_{};
+  std::array<RayBlock::PerRay<double>, 3> hi_{};
 };
 
 }  // namespace
 
-ScanRays rays_of(const Scan& scan, const VoxelFrame& frame, RayPolicy policy) {
-  detail::validate(scan);
-  ScanRays rays;
-  rays.origin = scan.world_from_sensor.translation();
-  if (policy == RayPolicy::EveryReturn) {
-    rays.rays.reserve(scan.points.size() + scan.no_return.size());
+ScanRays::ScanRays(const Scan& scan, const VoxelFrame& frame)
+    : scan_((detail::validate(scan), scan)),
+      origin_(scan.world_from_sensor.translation()),
+      placer_{SensorFrame(scan.world_from_sensor), scan.max_range_m,
+              frame.addressable(origin_) ? frame.size_m * kFurthestVoxel : -1.0, frame.size_m} {
+  RayBlock block;
+  Bounds bounds(origin_);
+  const std::size_t all = blocks();
+  for (std::size_t i = 0; i < all; ++i) {
+    place(i, 1, block);
+    bounds.add(block);
+    count(block);
   }
-  RayCollector collector(scan, frame, policy, rays);
-  for (const Eigen::Vector3f& point : scan.points) {
-    collector.add(point, true);
+  // What fills the blocks up is not finite, and no ray of the scan.
+  report_.not_finite -= all * RayBlock::kRays - scan.points.size() - scan.no_return.size();
+  if (!empty()) {
+    cells_ = bounds.cells(frame);
   }
-  for (const Eigen::Vector3f& direction : scan.no_return) {
-    collector.add(direction, false);
+}
+
+std::size_t ScanRays::blocks_of_points(std::size_t stride) const {
+  return are_tiles() ? divided_up(scan_.width, kTileSide * stride) * divided_up(scan_.height, kTileSide * stride)
+                     : divided_up(scan_.points.size(), RayBlock::kRays);
+}
+
+void ScanRays::place(std::size_t number, std::size_t stride, RayBlock& block) const {
+  const std::size_t of_points = blocks_of_points(stride);
+  if (number >= of_points) {
+    gather(scan_.no_return, (number - of_points) * RayBlock::kRays, block);
+  } else if (!are_tiles()) {
+    gather(scan_.points, number * RayBlock::kRays, block);
+  } else {
+    gather_tile(number, stride, block);
   }
-  if (!rays.rays.empty()) {
-    VoxelIndex lo = frame.cell_of(rays.origin);
-    VoxelIndex hi = lo;
-    for (const ScanRay& ray : rays.rays) {
-      lo = {std::min(lo.x, ray.cell.x), std::min(lo.y, ray.cell.y), std::min(lo.z, ray.cell.z)};
-      hi = {std::max(hi.x, ray.cell.x), std::max(hi.y, ray.cell.y), std::max(hi.z, ray.cell.z)};
+  placer_.place_ends(number < of_points, block);
+}
+
+void ScanRays::gather_tile(std::size_t number, std::size_t stride, RayBlock& block) const {
+  const std::size_t tiles_wide = divided_up(scan_.width, kTileSide * stride);
+  const std::size_t first_row = number / tiles_wide * kTileSide * stride;
+  const std::size_t first_column = number % tiles_wide * kTileSide * stride;
+  for (std::size_t i = 0; i < kTileSide; ++i) {
+    const std::size_t row = first_row + i * stride;
+    const std::size_t left_in_row = row < scan_.height ? divided_up(scan_.width - first_column, stride) : 0;
+    const std::size_t count = std::min(left_in_row, kTileSide);
+    const Eigen::Vector3f* const points = scan_.points.data() + row * scan_.width + first_column;
+    for (std::size_t j = 0; j < count; ++j) {
+      put(points[j * stride], i * kTileSide + j, block);
     }
-    rays.cells = {lo, hi + VoxelIndex{1, 1, 1}};
+    for (std::size_t j = count; j < kTileSide; ++j) {
+      put(Eigen::Vector3f::Constant(kNan), i * kTileSide + j, block);
+    }
   }
-  return rays;
+}
+
+void ScanRays::count(const RayBlock& block) {
+  if (block.all_hit()) {
+    report_.hits += RayBlock::kRays;
+    return;
+  }
+  std::array<std::size_t, 6> rays{};
+  for (const std::int64_t fate : block.fate) {
+    ++rays[static_cast<std::size_t>(fate)];
+  }
+  report_.hits += rays[0];
+  report_.beyond_range += rays[1];
+  report_.no_return += rays[2];
+  report_.not_finite += rays[3];
+  report_.zero_length += rays[4];
+  report_.not_addressable += rays[5];
 }
 
 }  // namespace vantage

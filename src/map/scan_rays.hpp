@@ -2,29 +2,55 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vantage/map/occupancy_map.hpp>
+#include <map/ray_block.hpp>
+#include <vantage/geometry/voxel.hpp>
 #include <vantage/map/scan.hpp>
-#include <vector>
 
 namespace vantage {
 
-/// A ray of a scan: where it ends, in metres, in the world, and in which cell.
-struct ScanRay {
-  Eigen::Vector3d end;
-  VoxelIndex cell;
-  bool hits;  ///< whether it ended there by a return; else it only clears
-};
+/// The rays of a scan, put into the world block by block, as often as asked: cheaper than keeping them.
+class ScanRays {
+ public:
+  /// Counts the rays by their fate. Throws std::invalid_argument if the pose is not rigid or the range is not
+  /// positive. `scan` must live as long as this.
+  ScanRays(const Scan& scan, const VoxelFrame& frame);
 
-/// The usable rays of a scan, all from one origin, and what became of the others.
-struct ScanRays {
-  Eigen::Vector3d origin;
-  std::vector<ScanRay> rays;
-  VoxelBox cells;  ///< holds the cells of the origin and of all ends
-  ScanReport report;
-};
+  /// Where all rays start.
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+  /// What became of the rays; the cells are not counted yet.
+  [[nodiscard]] const ScanReport& report() const { return report_; }
+  /// Whether no ray is drawn.
+  [[nodiscard]] bool empty() const { return report_.hits + report_.beyond_range + report_.no_return == 0; }
+  /// Holds the cells of the origin and of all ends; empty if no ray is drawn.
+  [[nodiscard]] const VoxelBox& cells() const { return cells_; }
 
-/// The rays to draw, in the order of the scan; with RayPolicy::EachEndCell most returns in the cell of the one before
-/// are counted and left out. Throws std::invalid_argument if the pose is not rigid or the range is not positive.
-[[nodiscard]] ScanRays rays_of(const Scan& scan, const VoxelFrame& frame, RayPolicy policy);
+  /// How many blocks hold all rays.
+  [[nodiscard]] std::size_t blocks() const { return blocks_of_points(1) + blocks_of_directions(); }
+  /// Whether the first `blocks_of_points(1)` blocks are squares of 8 x 8 pixels of a depth image.
+  [[nodiscard]] bool are_tiles() const { return scan_.organised(); }
+  /// How many blocks hold the points; with a stride, of a depth image, those of every so manieth row and column.
+  [[nodiscard]] std::size_t blocks_of_points(std::size_t stride) const;
+  /// One block: those of the points come first. With a stride above 1 there are no others.
+  void block(std::size_t number, std::size_t stride, RayBlock& block) const {
+    place(number, stride, block);
+    placer_.place_cells(block);
+  }
+
+ private:
+  static constexpr std::size_t kTileSide = 8;
+
+  [[nodiscard]] std::size_t blocks_of_directions() const {
+    return (scan_.no_return.size() + RayBlock::kRays - 1) / RayBlock::kRays;
+  }
+  void place(std::size_t number, std::size_t stride, RayBlock& block) const;
+  void gather_tile(std::size_t number, std::size_t stride, RayBlock& block) const;
+  void count(const RayBlock& block);
+
+  const Scan& scan_;
+  Eigen::Vector3d origin_;
+  RayPlacer placer_;
+  ScanReport report_;
+  VoxelBox cells_;
+};
 
 }  // namespace vantage

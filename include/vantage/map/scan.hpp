@@ -27,7 +27,9 @@ struct Scan {
   std::size_t height = 0;  ///< rows of an organised scan, or 0
 
   /// Whether `points` is a depth image.
-  [[nodiscard]] bool organised() const { return width > 0 && width * height == points.size(); }
+  [[nodiscard]] bool organised() const {
+    return width > 0 && points.size() % width == 0 && points.size() / width == height;
+  }
 };
 
 /// What became of the rays of a scan: every one of them is counted exactly once among the first six.

@@ -7,7 +7,8 @@
 #include <random>
 #include <set>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/map/scan_cells.hpp>
+
+#include "support/compare_with_definition.hpp"
 
 namespace vantage {
 namespace {
@@ -97,34 +98,12 @@ Scan random_depth_image(std::mt19937& engine) {
   return scan;
 }
 
-std::size_t compare_with_definition(const Scan& scan, const OccupancyMapOptions& options, RayPolicy policy) {
-  OccupancyMap map(options);
-  const ScanCells expected = scan_cells(scan, map.frame(), policy, map.region());
-  const ScanReport report = map.insert(scan, policy);
-  EXPECT_EQ(report.hits, expected.report.hits);
-  EXPECT_EQ(report.beyond_range, expected.report.beyond_range);
-  EXPECT_EQ(report.no_return, expected.report.no_return);
-  EXPECT_EQ(report.not_finite, expected.report.not_finite);
-  EXPECT_EQ(report.cells_hit, expected.hit.size());
-  EXPECT_EQ(report.cells_cleared, expected.cleared.size());
-  EXPECT_EQ(report.cells_changed, expected.hit.size() + expected.cleared.size());
-  std::size_t known = 0;
-  std::size_t wrong = 0;
-  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
-    wrong += (occupancy == Occupancy::Occupied ? expected.hit : expected.cleared).contains(cell) ? 0U : 1U;
-    ++known;
-  });
-  EXPECT_EQ(wrong, 0U);
-  EXPECT_EQ(known, expected.hit.size() + expected.cleared.size());
-  return known;
-}
-
 TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCells) {
   std::mt19937 engine(1);
   std::size_t cells_compared = 0;
   for (int world = 0; world < 20; ++world) {
     for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
-      cells_compared += compare_with_definition(random_scan(engine, 200), {.resolution_m = 0.1}, policy);
+      cells_compared += test::compare_with_definition(random_scan(engine, 200), {.resolution_m = 0.1}, policy);
     }
   }
   EXPECT_GT(cells_compared, 50'000U);
@@ -137,10 +116,10 @@ TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCellsOfADepthImage) {
     const Scan scan = random_depth_image(engine);
     for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
       for (const double resolution_m : {0.03, 0.1, 0.37}) {
-        cells_compared += compare_with_definition(scan, {.resolution_m = resolution_m}, policy);
+        cells_compared += test::compare_with_definition(scan, {.resolution_m = resolution_m}, policy);
         // A region that holds the sensor in about half of the worlds.
         const Box region{{-3.0, -1.5, -0.5}, {0.1, 2.0, 1.7}};
-        cells_compared += compare_with_definition(scan, {.resolution_m = resolution_m, .region = region}, policy);
+        cells_compared += test::compare_with_definition(scan, {.resolution_m = resolution_m, .region = region}, policy);
       }
     }
   }
@@ -154,8 +133,8 @@ TEST(OccupancyMap, ARayFarBeyondTheOthersIsDrawnLikeThem) {
   scan.no_return.clear();
   scan.points.push_back({300.0F, 200.0F, 400.0F});  // a window over this one would be too large
   scan.points.push_back({-3.0F, -200.0F, 400.0F});
-  EXPECT_GT(compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EveryReturn), 10'000U);
-  EXPECT_GT(compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EachEndCell), 10'000U);
+  EXPECT_GT(test::compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EveryReturn), 10'000U);
+  EXPECT_GT(test::compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EachEndCell), 10'000U);
 }
 
 TEST(OccupancyMap, ChangedSinceNamesExactlyTheBricksWithAChangedState) {

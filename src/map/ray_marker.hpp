@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <map/ray_lanes.hpp>
+#include <map/scan_marks.hpp>
+
+namespace vantage {
+
+/// A ray to draw, from the origin of its scan.
+struct DrawnRay {
+  Eigen::Vector3d end;
+  VoxelIndex last;                ///< cell of the end
+  std::size_t axis = 0;           ///< along which faces are counted
+  std::int64_t faces_before = 0;  ///< how many faces across `axis` it crosses before the part that is drawn
+};
+
+/// Marks the cells of rays from one origin, many at a time.
+class RayMarker {
+ public:
+  RayMarker(const VoxelFrame& frame, const Eigen::Vector3d& origin, ScanMarks& marks);
+
+  /// Marks as passed the cells of rays, up to and without those of their ends. `next(lane, ray)` puts the next ray of
+  /// a lane into `ray`, or returns false if that has no more. Rays that follow each other in a lane may be
+  /// neighbours; rays of different lanes should not be: those that mark the same words at the same time wait for each
+  /// other.
+  template <class Next>
+  void mark(Next&& next) {
+    DrawnRay ray;
+    left_.fill(0);
+    while (true) {
+      std::int64_t steps = kNoRay;
+      for (std::size_t lane = 0; lane < RayLanes::kLanes; ++lane) {
+        while (left_[lane] == 0) {
+          if (next(lane, ray)) {
+            start(lane, ray);
+          } else {
+            park(lane);
+          }
+        }
+        steps = left_[lane] < steps ? left_[lane] : steps;
+      }
+      if (steps == kNoRay) {
+        return;
+      }
+      lanes_.walk(steps, marks_.passed());
+      for (std::int64_t& left : left_) {
+        left -= left == kNoRay ? 0 : steps;
+      }
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kNoRay = std::int64_t{1} << 62U;
+
+  void park(std::size_t lane);
+  void start(std::size_t lane, const DrawnRay& ray);
+  void mark_far(const DrawnRay& ray);
+
+  VoxelFrame frame_;
+  Eigen::Vector3d origin_;
+  VoxelIndex first_;
+  ScanMarks& marks_;
+  RayLanes lanes_;
+  std::array<std::int64_t, RayLanes::kLanes> left_{};  // steps to the end of the lane's ray
+};
+
+}  // namespace vantage
