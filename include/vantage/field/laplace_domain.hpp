@@ -76,7 +76,7 @@ class LaplaceDomain {
   }
   /// Row of a cell within its brick.
   [[nodiscard]] static constexpr std::size_t row_of(const VoxelIndex& cell) {
-    return static_cast<std::size_t>((cell.z & 7) * 8 + (cell.y & 7));
+    return static_cast<std::size_t>(cell.z & 7) * 8 + static_cast<std::size_t>(cell.y & 7);
   }
   /// Bit of a cell within its row.
   [[nodiscard]] static constexpr std::uint16_t bit_of(const VoxelIndex& cell) {

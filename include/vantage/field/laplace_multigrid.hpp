@@ -82,7 +82,11 @@ class LaplaceMultigrid {
   LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source, const MultigridOptions& options = {});
   /// The same problem, given as a list.
   explicit LaplaceMultigrid(const LaplaceProblem& problem, const MultigridOptions& options = {});
+  LaplaceMultigrid(const LaplaceMultigrid&) = delete;
+  LaplaceMultigrid& operator=(const LaplaceMultigrid&) = delete;
+  /// Moves; what is moved from may only be destroyed or assigned to.
   LaplaceMultigrid(LaplaceMultigrid&&) noexcept;
+  /// The same.
   LaplaceMultigrid& operator=(LaplaceMultigrid&&) noexcept;
   ~LaplaceMultigrid();
 
