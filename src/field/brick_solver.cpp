@@ -32,12 +32,12 @@ double BrickSolver::advance(float step) {
   in_waves(
       fine_,
       [&](std::size_t b) {
-        run(Advance{at(fine_.degree[kBlack], b), at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b), step, kWeight,
+        run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b), step, kWeight,
                     &sums_[b]});
       },
-      [&](std::size_t b) { run(RedSolve{at(fine_.degree[kRed], b), Around<float>(fine_, z_, b), at(red_, b)}); },
+      [&](std::size_t b) { run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)}); },
       [&](std::size_t b) {
-        run(BlackRestrict{at(fine_.degree[kBlack], b), at(r_, b), at(z_, b), Around<float>(fine_, red_, b),
+        run(BlackRestrict{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(z_, b), Around<float>(fine_, red_, b),
                           coarse_.right(b)});
       });
   return total();
@@ -48,10 +48,10 @@ double BrickSolver::correct() {
   coarse_.solve(fine_);
   in_waves(
       fine_,
-      [&](std::size_t b) { run(BlackProlong{at(fine_.degree[kBlack], b), coarse_.correction(b), at(z_, b)}); },
-      [&](std::size_t b) { run(RedSolve{at(fine_.degree[kRed], b), Around<float>(fine_, z_, b), at(red_, b)}); },
+      [&](std::size_t b) { run(BlackProlong{fine_.faces[kBlack].data() + b * kBrickRows, coarse_.correction(b), at(z_, b)}); },
+      [&](std::size_t b) { run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)}); },
       [&](std::size_t b) {
-        run(BlackSmooth{at(fine_.degree[kBlack], b), at(r_, b), Around<float>(fine_, red_, b), at(z_, b), kWeight,
+        run(BlackSmooth{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), Around<float>(fine_, red_, b), at(z_, b), kWeight,
                         &sums_[b]});
       });
   return total();
@@ -61,9 +61,9 @@ double BrickSolver::correct() {
 double BrickSolver::turn(float share) {
   in_waves(
       fine_, [&](std::size_t b) { run(Turn{at(z_, b), at(p_, b), share}); },
-      [&](std::size_t b) { run(RedSolve{at(fine_.degree[kRed], b), Around<float>(fine_, p_, b), at(red_, b)}); },
+      [&](std::size_t b) { run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, p_, b), at(red_, b)}); },
       [&](std::size_t b) {
-        run(BlackApply{at(fine_.degree[kBlack], b), at(p_, b), Around<float>(fine_, red_, b), at(q_, b), &sums_[b]});
+        run(BlackApply{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), Around<float>(fine_, red_, b), at(q_, b), &sums_[b]});
       });
   return total();
 }

@@ -36,10 +36,10 @@ CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
   for (std::size_t i = 0; i < last.size; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     matrix(row, row) += static_cast<double>(last.leak[i]);
-    for (std::uint32_t e = last.first[i]; e < last.first[i + 1]; ++e) {
-      matrix(row, row) += static_cast<double>(last.edges[e].conductance);
-      matrix(row, static_cast<Eigen::Index>(last.edges[e].to)) -= static_cast<double>(last.edges[e].conductance);
-    }
+    last.for_each_edge(i, [&](const GraphLevel::Edge& edge) {
+      matrix(row, row) += static_cast<double>(edge.conductance);
+      matrix(row, static_cast<Eigen::Index>(edge.to)) -= static_cast<double>(edge.conductance);
+    });
   }
   coarsest_ = matrix.llt().solve(Eigen::MatrixXd::Identity(size, size)).cast<float>();
 }

@@ -61,21 +61,21 @@ VANTAGE_INLINE Lanes<T> inverse_of(const Lanes<T>& degree) {
 
 /// `red = (sum of the black neighbours) / degree`: solves the red equations with nothing on the right.
 struct RedSolve {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   Around<float> black;
   float* red;
 
   VANTAGE_INLINE void operator()() const {
     for (std::size_t row = 0; row < kBrickRows; ++row) {
       const Lanes<float> sum = neighbours<kRed>(black, row).sum();
-      store<float>(red + row * 8, sum * inverse_of<float>(widen<float>(degree + row * 8)));
+      store<float>(red + row * 8, sum * inverse_of<float>(widen<float>(faces[row], kDegree)));
     }
   }
 };
 
 /// `out = S black`, the Schur complement with the red cells solved for; adds up black * out.
 struct BlackApply {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   const float* black;
   Around<float> red;
   float* out;
@@ -85,9 +85,9 @@ struct BlackApply {
     Lanes<float> sum{};
     for (std::size_t row = 0; row < kBrickRows; ++row) {
       const Lanes<float> own = load(black + row * 8);
-      const Lanes<float> faces = widen<float>(degree + row * 8);
-      const Lanes<float> applied = faces * own - neighbours<kBlack>(red, row).sum();
-      const Lanes<float> kept = faces > 0.0F ? applied : Lanes<float>{};
+      const Lanes<float> degree = widen<float>(faces[row], kDegree);
+      const Lanes<float> applied = degree * own - neighbours<kBlack>(red, row).sum();
+      const Lanes<float> kept = degree > 0.0F ? applied : Lanes<float>{};
       store<float>(out + row * 8, kept);
       sum += own * kept;
     }
@@ -97,7 +97,7 @@ struct BlackApply {
 
 /// The residual `right - S black`, summed over the cells of each block.
 struct BlackRestrict {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   const float* right;
   const float* black;
   Around<float> red;
@@ -108,10 +108,10 @@ struct BlackRestrict {
       Lanes<float> sum{};
       for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t row = line / 4 * 16 + line % 4 * 2 + (i & 1U) + (i >> 1U) * 8;
-        const Lanes<float> faces = widen<float>(degree + row * 8);
+        const Lanes<float> degree = widen<float>(faces[row], kDegree);
         const Lanes<float> residual =
-            load(right + row * 8) - (faces * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
-        sum += faces > 0.0F ? residual : Lanes<float>{};
+            load(right + row * 8) - (degree * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
+        sum += degree > 0.0F ? residual : Lanes<float>{};
       }
       store<float>(blocks + line * 8, sum);
     }
@@ -120,22 +120,22 @@ struct BlackRestrict {
 
 /// `black += correction of its block`.
 struct BlackProlong {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   const float* blocks;
   float* black;
 
   VANTAGE_INLINE void operator()() const {
     for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<float> faces = widen<float>(degree + row * 8);
+      const Lanes<float> degree = widen<float>(faces[row], kDegree);
       const Lanes<float> correction = load(blocks + (row / 16 * 4 + row % 8 / 2) * 8);
-      store<float>(black + row * 8, load(black + row * 8) + (faces > 0.0F ? correction : Lanes<float>{}));
+      store<float>(black + row * 8, load(black + row * 8) + (degree > 0.0F ? correction : Lanes<float>{}));
     }
   }
 };
 
 /// Relaxes the black cells once, by `weight`; adds up right * black after it.
 struct BlackSmooth {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   const float* right;
   Around<float> red;
   float* black;
@@ -145,11 +145,11 @@ struct BlackSmooth {
   VANTAGE_INLINE void operator()() const {
     Lanes<float> sum{};
     for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<float> faces = widen<float>(degree + row * 8);
+      const Lanes<float> degree = widen<float>(faces[row], kDegree);
       const Lanes<float> own = load(black + row * 8);
       const Lanes<float> load_here = load(right + row * 8);
-      const Lanes<float> residual = load_here - (faces * own - neighbours<kBlack>(red, row).sum());
-      const Lanes<float> smoothed = own + weight * residual * inverse_of<float>(faces);
+      const Lanes<float> residual = load_here - (degree * own - neighbours<kBlack>(red, row).sum());
+      const Lanes<float> smoothed = own + weight * residual * inverse_of<float>(degree);
       store<float>(black + row * 8, smoothed);
       sum += smoothed * load_here;
     }
@@ -160,7 +160,7 @@ struct BlackSmooth {
 /// The step of conjugate gradients, and the first relaxation of the new residual: `x += step p`, `r -= step q`,
 /// `z = weight r / degree`; adds up r * r.
 struct Advance {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   const float* p;
   const float* q;
   float* x;
@@ -172,11 +172,12 @@ struct Advance {
 
   VANTAGE_INLINE void operator()() const {
     Lanes<float> sum{};
-    for (std::size_t at = 0; at < kHalfBrick; at += kLanes) {
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      const std::size_t at = row * 8;
       const Lanes<float> residual = load(r + at) - step * load(q + at);
       store<float>(x + at, load(x + at) + step * load(p + at));
       store<float>(r + at, residual);
-      store<float>(z + at, weight * residual * inverse_of<float>(widen<float>(degree + at)));
+      store<float>(z + at, weight * residual * inverse_of<float>(widen<float>(faces[row], kDegree)));
       sum += residual * residual;
     }
     *square = sum_of<float>(sum);

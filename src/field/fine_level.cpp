@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace vantage::detail {
 namespace {
@@ -54,7 +53,14 @@ class Neighbourhood {
   std::array<const Rows*, 6> side_{};
 };
 
-// Sets the degrees and sink bits of one row, by adding six one-bit numbers per cell.
+// Bit k as bit 4 k.
+std::uint32_t nibbles_of_bits(std::uint32_t bits) {
+  bits = (bits | bits << 12U) & 0x000F000FU;
+  bits = (bits | bits << 6U) & 0x03030303U;
+  return (bits | bits << 3U) & 0x11111111U;
+}
+
+// Sets what is known of the faces of one row, by adding six one-bit numbers per cell.
 void write_degrees(FineLevel& level, std::size_t brick, std::size_t row, std::uint32_t interior,
                    const std::array<std::uint32_t, 6>& open, const std::array<std::uint32_t, 6>& sinks) {
   std::array<std::uint32_t, 3> digit{};
@@ -69,10 +75,9 @@ void write_degrees(FineLevel& level, std::size_t brick, std::size_t row, std::ui
   for (const std::size_t colour : {kRed, kBlack}) {
     const auto shift = static_cast<std::uint32_t>((row ^ row >> 3U ^ colour) & 1U);  // x of the first cell of the colour
     const auto half = [&](std::uint32_t bits) { return every_other((bits & interior) >> shift); };
-    const std::uint64_t degrees =
-        bytes_of_bits(half(digit[0])) + 2 * bytes_of_bits(half(digit[1])) + 4 * bytes_of_bits(half(digit[2]));
-    std::memcpy(level.degree[colour].data() + brick * kHalfBrick + row * 8, &degrees, sizeof degrees);
-    level.beside_sink[colour][brick * kBrickRows + row] = static_cast<std::uint8_t>(half(beside));
+    level.faces[colour][brick * kBrickRows + row] =
+        nibbles_of_bits(half(digit[0])) | nibbles_of_bits(half(digit[1])) << 1U |
+        nibbles_of_bits(half(digit[2])) << 2U | nibbles_of_bits(half(beside)) << 3U;
   }
 }
 
@@ -131,8 +136,7 @@ FineLevel make_fine_level(const LaplaceDomain& domain) {
   FineLevel level;
   level.brick_count = bricks.size() + 1;
   for (const std::size_t colour : {kRed, kBlack}) {
-    level.degree[colour].assign(level.brick_count * kHalfBrick, 0);
-    level.beside_sink[colour].assign(level.brick_count * kBrickRows, 0);
+    level.faces[colour].assign(level.brick_count * kBrickRows, 0);
   }
   level.blocks.assign(level.brick_count * kBrickBlocks, 0);
   level.links.assign(level.brick_count, {});
@@ -152,8 +156,8 @@ FineLevel make_fine_level(const LaplaceDomain& domain) {
 }
 
 std::size_t FineLevel::memory_bytes() const {
-  return bytes_of(address) + bytes_of(links) + bytes_of(ready) + bytes_of(degree[0]) + bytes_of(degree[1]) + bytes_of(beside_sink[0]) +
-         bytes_of(beside_sink[1]) + bytes_of(blocks);
+  return bytes_of(address) + bytes_of(links) + bytes_of(ready) + bytes_of(faces[0]) + bytes_of(faces[1]) +
+         bytes_of(blocks);
 }
 
 }  // namespace vantage::detail

@@ -20,6 +20,9 @@ inline constexpr std::size_t kBrickBlocks = 128;
 /// Colours of cells.
 inline constexpr std::size_t kRed = 0;
 inline constexpr std::size_t kBlack = 1;
+/// What four bits say of a cell.
+inline constexpr std::uint32_t kDegree = 7;
+inline constexpr std::uint32_t kBesideSink = 8;
 
 /// Position of a cell among those of its colour in a brick, by its row and its place in the row.
 [[nodiscard]] inline std::size_t half_offset(std::size_t row, std::size_t x) { return row * 8 + x / 2; }
@@ -35,11 +38,15 @@ struct FineLevel {
   std::vector<VoxelIndex> address;                  ///< of each brick, in units of bricks
   std::vector<std::array<std::uint32_t, 6>> links;  ///< numbers of the neighbouring bricks
   std::vector<std::uint32_t> ready;                 ///< the highest among a brick's own number and its neighbours'
-  std::array<AlignedVector<std::uint8_t>, 2> degree;  ///< open faces, by colour; 0 where there is no unknown
-  std::array<std::vector<std::uint8_t>, 2> beside_sink;  ///< bit per cell, a byte per row, by colour
+  /// For each row by colour, four bits per cell: the number of open faces, 0 where there is no unknown, and kBesideSink.
+  std::array<AlignedVector<std::uint32_t>, 2> faces;
   AlignedVector<std::uint32_t> blocks;                 ///< the operator of the blocks, see BlockLevel
   std::size_t unknowns = 0;
 
+  /// Open faces of a cell.
+  [[nodiscard]] std::uint32_t degree(std::size_t colour, std::size_t brick, std::size_t offset) const {
+    return faces[colour][brick * kBrickRows + offset / 8] >> (4 * (offset % 8)) & kDegree;
+  }
   [[nodiscard]] std::size_t memory_bytes() const;
 };
 

@@ -35,55 +35,68 @@ std::vector<std::uint32_t> by_parent(const std::vector<VoxelIndex>& at) {
 }  // namespace
 
 GraphLevel::GraphLevel(std::vector<VoxelIndex> addresses, std::vector<float> leaks, const std::vector<Join>& joins)
-    : size(addresses.size()), at(std::move(addresses)), first(size + 2, 0), leak(std::move(leaks)) {
+    : size(addresses.size()), at(std::move(addresses)), leak(std::move(leaks)) {
   even = static_cast<std::size_t>(std::count_if(at.begin(), at.end(), is_even));
   // Sort by counting, then merge what several joins say of one pair.
+  std::vector<std::uint32_t> first(size + 2, 0);
   for (const Join& join : joins) {
     ++first[join.a + 2];
     ++first[join.b + 2];
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
-  edges.resize(2 * joins.size());
+  std::vector<Edge> edges(2 * joins.size());
   for (const Join& join : joins) {
     edges[first[join.a + 1]++] = {join.b, join.conductance};
     edges[first[join.b + 1]++] = {join.a, join.conductance};
   }
-  first.pop_back();
+  Six none;
+  none.fill({static_cast<std::uint32_t>(size), 0.0F});
+  six.assign(size, none);
+  first_more.assign(size + 1, 0);
+  diagonal.resize(size);
   inverse.resize(size);
-  std::uint32_t kept = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    const std::uint32_t from = kept;
-    float diagonal = leak[i];
-    for (std::uint32_t e = std::exchange(first[i], from); e < first[i + 1]; ++e) {
-      const Edge edge = edges[e];
-      diagonal += edge.conductance;
-      std::uint32_t same = from;
-      while (same < kept && edges[same].to != edge.to) {
+    std::size_t count = 0;
+    float sum = leak[i];
+    for (std::uint32_t e = first[i]; e < first[i + 1]; ++e) {
+      sum += edges[e].conductance;
+      std::size_t same = 0;
+      const auto place = [&](std::size_t n) -> Edge& { return n < 6 ? six[i][n] : more[first_more[i] + n - 6]; };
+      while (same < count && place(same).to != edges[e].to) {
         ++same;
       }
-      if (same < kept) {
-        edges[same].conductance += edge.conductance;
-      } else {
-        edges[kept++] = edge;
+      if (same < count) {
+        place(same).conductance += edges[e].conductance;
+        continue;
       }
+      if (count >= 6) {
+        more.emplace_back();
+      }
+      place(count++) = edges[e];
     }
-    inverse[i] = diagonal > 0.0F ? 1.0F / diagonal : 0.0F;
+    first_more[i + 1] = static_cast<std::uint32_t>(more.size());
+    diagonal[i] = sum;
+    inverse[i] = sum > 0.0F ? 1.0F / sum : 0.0F;
   }
-  first[size] = kept;
-  edges.resize(kept);
-  edges.shrink_to_fit();
   x.assign(size + 1, 0.0F);
   right.assign(size + 1, 0.0F);
+}
+
+// Sum of conductance * neighbour.
+inline float GraphLevel::inflow(std::size_t of) const {
+  const Six& e = six[of];
+  const auto term = [&](std::size_t n) { return e[n].conductance * x[e[n].to]; };
+  float sum = (term(0) + term(1)) + (term(2) + term(3)) + (term(4) + term(5));
+  for (std::uint32_t i = first_more[of]; i < first_more[of + 1]; ++i) {
+    sum += more[i].conductance * x[more[i].to];
+  }
+  return sum;
 }
 
 void GraphLevel::smooth(bool even_first) {
   const auto relax = [this](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      float sum = right[i];
-      for (std::uint32_t e = first[i]; e < first[i + 1]; ++e) {
-        sum += edges[e].conductance * x[edges[e].to];
-      }
-      x[i] += kWeight * (sum * inverse[i] - x[i]);
+      x[i] += kWeight * ((right[i] + inflow(i)) * inverse[i] - x[i]);
     }
   };
   if (even_first) {
@@ -98,11 +111,7 @@ void GraphLevel::smooth(bool even_first) {
 void GraphLevel::restrict_to(std::vector<float>& sums) const {
   std::fill(sums.begin(), sums.end(), 0.0F);
   for (std::size_t i = 0; i < size; ++i) {
-    float sum = right[i] - (inverse[i] > 0.0F ? x[i] / inverse[i] : 0.0F);
-    for (std::uint32_t e = first[i]; e < first[i + 1]; ++e) {
-      sum += edges[e].conductance * x[edges[e].to];
-    }
-    sums[node[i]] += sum;
+    sums[node[i]] += right[i] - diagonal[i] * x[i] + inflow(i);
   }
 }
 
@@ -113,7 +122,7 @@ void GraphLevel::prolong(const std::vector<float>& correction) {
 }
 
 std::size_t GraphLevel::memory_bytes() const {
-  return bytes_of(at) + bytes_of(first) + bytes_of(edges) + bytes_of(leak) + bytes_of(inverse) + bytes_of(node) +
+  return bytes_of(at) + bytes_of(six) + bytes_of(first_more) + bytes_of(more) + bytes_of(diagonal) + bytes_of(leak) + bytes_of(inverse) + bytes_of(node) +
          bytes_of(x) + bytes_of(right);
 }
 
@@ -130,24 +139,23 @@ GraphLevel coarsen(GraphLevel& finer) {
     finer.node[seed] = number;
     queue.assign(1, seed);
     for (std::size_t next = 0; next < queue.size(); ++next) {
-      for (std::uint32_t e = finer.first[queue[next]]; e < finer.first[queue[next] + 1]; ++e) {
-        const std::uint32_t to = finer.edges[e].to;
-        if (finer.node[to] == kNone && halved(finer.at[to]) == at.back()) {
-          finer.node[to] = number;
-          queue.push_back(to);
+      finer.for_each_edge(queue[next], [&](const GraphLevel::Edge& edge) {
+        if (finer.node[edge.to] == kNone && halved(finer.at[edge.to]) == at.back()) {
+          finer.node[edge.to] = number;
+          queue.push_back(edge.to);
         }
-      }
+      });
     }
   }
   std::vector<float> leaks(at.size(), 0.0F);
   std::vector<GraphLevel::Join> joins;
   for (std::uint32_t i = 0; i < finer.size; ++i) {
     leaks[finer.node[i]] += kOverCorrection * finer.leak[i];
-    for (std::uint32_t e = finer.first[i]; e < finer.first[i + 1]; ++e) {
-      if (const GraphLevel::Edge& edge = finer.edges[e]; i < edge.to && finer.node[i] != finer.node[edge.to]) {
+    finer.for_each_edge(i, [&](const GraphLevel::Edge& edge) {
+      if (i < edge.to && finer.node[i] != finer.node[edge.to]) {
         joins.push_back({finer.node[i], finer.node[edge.to], kOverCorrection * edge.conductance});
       }
-    }
+    });
   }
   return {std::move(at), std::move(leaks), joins};
 }

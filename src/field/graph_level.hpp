@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vantage/geometry/voxel.hpp>
@@ -17,6 +18,8 @@ struct GraphLevel {
     std::uint32_t to;
     float conductance;
   };
+  /// The first six neighbours of a node, as most have no more; the rest of the places leads to the 0 that ends `x`.
+  using Six = std::array<Edge, 6>;
   /// A conductance between two nodes, given once.
   struct Join {
     std::uint32_t a;
@@ -27,10 +30,12 @@ struct GraphLevel {
   std::size_t size = 0;
   std::size_t even = 0;                  ///< how many nodes are of even parity
   std::vector<VoxelIndex> at;            ///< address in units of the cubes of this level
-  std::vector<std::uint32_t> first;      ///< of each node's edges; one more than nodes
-  std::vector<Edge> edges;
+  std::vector<Six> six;                  ///< of each node
+  std::vector<std::uint32_t> first_more; ///< where in `more` the edges of a node beyond six start; one more than nodes
+  std::vector<Edge> more;
   std::vector<float> leak;               ///< to the sinks
-  std::vector<float> inverse;            ///< of the sum of all conductances
+  std::vector<float> diagonal;           ///< the sum of all conductances
+  std::vector<float> inverse;            ///< of that
   std::vector<std::uint32_t> node;       ///< of the next coarser level
   std::vector<float> x;                  ///< the correction, and a 0
   std::vector<float> right;              ///< the right hand side, and one that is not used
@@ -38,10 +43,25 @@ struct GraphLevel {
   /// Nodes by their addresses (even ones first) and leaks; several joins of one pair add up.
   GraphLevel(std::vector<VoxelIndex> addresses, std::vector<float> leaks, const std::vector<Join>& joins);
 
+  /// Calls `visit(Edge)` for every edge of a node.
+  template <class Visit>
+  void for_each_edge(std::size_t of, Visit&& visit) const {
+    for (const Edge& edge : six[of]) {
+      if (edge.to != size) {
+        visit(edge);
+      }
+    }
+    for (std::uint32_t e = first_more[of]; e < first_more[of + 1]; ++e) {
+      visit(more[e]);
+    }
+  }
   void smooth(bool even_first);
   void restrict_to(std::vector<float>& sums) const;
   void prolong(const std::vector<float>& correction);
   [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  [[nodiscard]] float inflow(std::size_t of) const;
 };
 
 /// How much larger the step of a coarse level is than what plain aggregation gives, inverted: its correction is too small

@@ -35,14 +35,14 @@ VANTAGE_INLINE void store(T* to, const Lanes<T>& lanes) {
 }
 template <class T>
 VANTAGE_INLINE Lanes<T> all(T value) {
-  return Lanes<T>{} + value;
+  return Lanes<T>{value, value, value, value, value, value, value, value};
 }
-/// Eight bytes as numbers.
+/// Eight numbers of four bits, and of those the bits of `mask`.
 template <class T>
-VANTAGE_INLINE Lanes<T> widen(const std::uint8_t* from) {
-  Lanes<std::uint8_t> bytes;
-  std::memcpy(&bytes, from, sizeof bytes);
-  return __builtin_convertvector(__builtin_convertvector(bytes, Lanes<std::int32_t>), Lanes<T>);
+VANTAGE_INLINE Lanes<T> widen(std::uint32_t packed, std::uint32_t mask) {
+  const Lanes<std::uint32_t> shift{0, 4, 8, 12, 16, 20, 24, 28};
+  const Lanes<std::uint32_t> lanes = all(packed) >> shift & mask;
+  return __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(lanes), Lanes<T>);
 }
 /// Lane k of `own` one lane further: the first comes from the last lane of `below`, or the last from the first of `above`.
 template <class T>
@@ -67,15 +67,18 @@ enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 
 template <class Kernel>
 [[gnu::target("avx2"), gnu::noinline]] void run_avx2(const Kernel& kernel) {
-  kernel();
+  const Kernel local = kernel;  // whose members no store can change
+  local();
 }
 template <class Kernel>
 [[gnu::target("avx512f,avx512vl,avx512dq,avx512bw"), gnu::noinline]] void run_avx512(const Kernel& kernel) {
-  kernel();
+  const Kernel local = kernel;  // whose members no store can change
+  local();
 }
 template <class Kernel>
 [[gnu::noinline]] void run_baseline(const Kernel& kernel) {
-  kernel();
+  const Kernel local = kernel;  // whose members no store can change
+  local();
 }
 template <class Kernel>
 inline void run(const Kernel& kernel) {

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/field/laplace_multigrid.hpp>
 
 #include "field/brick_solver.hpp"
+#include "field/mirror_solver.hpp"
 #include "field/refinement.hpp"
 #include "map/option_rule.hpp"
 
@@ -21,6 +24,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 // The most a solution in float is asked to reduce the residual before it is taken again in double.
 constexpr double kReduction = 1e-4;
+// BiCGSTAB starts afresh after so many, before what it builds on is lost in rounding.
+constexpr std::size_t kMirrorIterations = 6;
 // A refinement that does not reduce the residual by this much is one too many.
 constexpr double kProgress = 0.5;
 
@@ -35,12 +40,20 @@ void MultigridOptions::validate() const {
 
 struct LaplaceMultigrid::State {
   LaplaceDomain domain;
-  std::optional<detail::Refinement> solution;  // none: no sinks
+  std::optional<detail::CellValues> solution;  // none: no sinks
   MultigridReport report;
 
   void prepare(const VoxelIndex& source);
   void solve(const VoxelIndex& source, const MultigridOptions& options);
-  void refine(detail::BrickSolver& solver, const MultigridOptions& options);
+  detail::Defect refine(detail::BrickSolver& solver, detail::Refinement& refinement, const MultigridOptions& options);
+  detail::Defect refine(detail::MirrorSolver& solver, const MultigridOptions& options);
+  bool may_go_on(const detail::Defect& defect, double last, const MultigridOptions& options);
+  void conclude(const detail::Defect& defect);
+  // By how much the residual has to fall for the tolerance, and for the proof if there is to be one.
+  [[nodiscard]] double reduction_wanted(const detail::Defect& defect, const MultigridOptions& options) const {
+    const double for_tolerance = options.tolerance / defect.norm;
+    return options.uniform_source > 0.0 ? std::min(for_tolerance, report.source_per_cell / defect.largest) : for_tolerance;
+  }
   [[nodiscard]] bool good_enough(const detail::Defect& defect, const MultigridOptions& options) const {
     return defect.norm <= options.tolerance && (defect.stuck == 0 || options.uniform_source == 0.0);
   }
@@ -69,41 +82,70 @@ void LaplaceMultigrid::State::solve(const VoxelIndex& source, const MultigridOpt
     return;
   }
   detail::BrickSolver solver(detail::make_fine_level(domain));
+  const detail::CellPlace place = detail::CellPlace::of(domain, source);
   report.source_per_cell = options.uniform_source / static_cast<double>(report.unknowns);
-  solution.emplace(solver.fine(), detail::CellPlace::of(domain, source), report.source_per_cell);
   report.levels = solver.level_count();
-  report.memory_bytes = domain.memory_bytes() + solver.memory_bytes() + solution->memory_bytes();
-  report.setup_seconds = seconds_since(std::exchange(started, Clock::now()));
-  refine(solver, options);
+  report.memory_bytes = domain.memory_bytes() + solver.memory_bytes();
+  if (options.neumann == NeumannScheme::FiniteVolume) {
+    detail::Refinement refinement(solver.fine(), place, report.source_per_cell);
+    report.memory_bytes += refinement.memory_bytes();
+    report.setup_seconds = seconds_since(std::exchange(started, Clock::now()));
+    conclude(refine(solver, refinement, options));
+    solution = refinement.take();
+  } else {
+    detail::MirrorSolver mirror(domain, solver, place, report.source_per_cell);
+    report.memory_bytes += mirror.memory_bytes();
+    report.setup_seconds = seconds_since(std::exchange(started, Clock::now()));
+    conclude(refine(mirror, options));
+    solution = mirror.take();
+  }
   report.solve_seconds = seconds_since(started);
 }
 
-void LaplaceMultigrid::State::refine(detail::BrickSolver& solver, const MultigridOptions& options) {
-  const detail::FineLevel& fine = solver.fine();
-  detail::Defect defect = solution->update(fine, solver.solution(), 0.0);
-  double last = 2.0 * defect.norm / kProgress;
-  while (!good_enough(defect, options)) {
-    if (report.iterations >= options.max_iterations) {
-      report.stop = MultigridStop::IterationLimit;
-      break;
-    }
-    if (!(defect.norm < kProgress * last)) {
-      report.stop = MultigridStop::Stalled;
-      break;
-    }
-    last = defect.norm;
-    const double wanted = 0.5 * std::min(options.tolerance / defect.norm,
-                                         defect.largest > 0.0 && options.uniform_source > 0.0
-                                             ? report.source_per_cell / defect.largest
-                                             : 1.0);
-    solution->residual(fine, 1.0 / defect.norm, solver.right());
-    report.iterations += solver.solve(std::clamp(wanted, kReduction, 0.1), options.max_iterations - report.iterations);
-    ++report.refinements;
-    defect = solution->update(fine, solver.solution(), defect.norm);
-  }
+// Whether the solution is not yet good enough and another refinement may make it so; else why not.
+bool LaplaceMultigrid::State::may_go_on(const detail::Defect& defect, double last, const MultigridOptions& options) {
   if (good_enough(defect, options)) {
     report.stop = MultigridStop::Converged;
+  } else if (report.iterations >= options.max_iterations) {
+    report.stop = MultigridStop::IterationLimit;
+  } else if (!(defect.norm < kProgress * last)) {
+    report.stop = MultigridStop::Stalled;
+  } else {
+    return true;
   }
+  return false;
+}
+
+detail::Defect LaplaceMultigrid::State::refine(detail::BrickSolver& solver, detail::Refinement& refinement,
+                                               const MultigridOptions& options) {
+  const detail::FineLevel& fine = solver.fine();
+  detail::Defect defect = refinement.update(fine, solver.solution(), 0.0);
+  for (double last = std::numeric_limits<double>::infinity(); may_go_on(defect, last, options);) {
+    last = defect.norm;
+    const double wanted = 0.5 * reduction_wanted(defect, options);
+    refinement.residual(fine, 1.0 / defect.norm, solver.right());
+    report.iterations += solver.solve(std::clamp(wanted, kReduction, 0.1), options.max_iterations - report.iterations);
+    ++report.refinements;
+    defect = refinement.update(fine, solver.solution(), last);
+  }
+  return defect;
+}
+
+detail::Defect LaplaceMultigrid::State::refine(detail::MirrorSolver& solver, const MultigridOptions& options) {
+  detail::Defect defect = solver.defect();
+  double last = std::numeric_limits<double>::infinity();
+  for (double before_last = last; may_go_on(defect, before_last, options);) {
+    before_last = std::exchange(last, defect.norm);
+    const double wanted = std::clamp(0.5 * reduction_wanted(defect, options), kReduction, 0.1);
+    report.iterations +=
+        solver.solve(wanted * defect.norm, std::min(kMirrorIterations, options.max_iterations - report.iterations));
+    ++report.refinements;
+    defect = solver.defect();
+  }
+  return defect;
+}
+
+void LaplaceMultigrid::State::conclude(const detail::Defect& defect) {
   report.residual = defect.norm;
   report.largest_residual = defect.largest;
   report.stuck_cells = defect.stuck;
@@ -132,7 +174,7 @@ std::optional<double> LaplaceMultigrid::phi(const VoxelIndex& cell) const {
   if (!state_->domain.contains(cell)) {
     return std::nullopt;
   }
-  return state_->solution ? state_->solution->value(detail::CellPlace::of(state_->domain, cell)) : 1.0;
+  return state_->solution ? state_->solution->at(detail::CellPlace::of(state_->domain, cell)) : 1.0;
 }
 
 std::vector<double> LaplaceMultigrid::values(const LaplaceProblem& problem) const {

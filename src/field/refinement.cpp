@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vantage::detail {
 namespace {
-
-using Mask = Lanes<std::int64_t>;
 
 // The right hand side: the same everywhere but in one cell, if that is in this half of a brick.
 struct Load {
@@ -27,77 +26,78 @@ struct Load {
   }
 };
 
-// One for each cell that has no strictly lower neighbour once all values are multiplied by `scale`. A value of 0 is that
-// of a sink, a lower neighbour that `beside_sink` knows of, or stands behind a closed face.
-VANTAGE_INLINE Mask stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours, std::uint8_t beside_sink,
-                                const Lanes<double>& degree, double scale) {
-  const Mask lane_bit{1, 2, 4, 8, 16, 32, 64, 128};
-  const Lanes<double> scaled = own * scale;
-  Mask lower = ((all<std::int64_t>(beside_sink) & lane_bit) != 0) & (scaled > 0.0);
+// 1 for each cell that has no strictly lower neighbour once all values are multiplied by `scale`, else 0. A value of 0 is
+// that of a sink, a lower neighbour that `faces` knows of, or stands behind a closed face.
+VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours,
+                                         std::uint32_t faces, double scale) {
+  const Lanes<double> none = all(std::numeric_limits<double>::max());
+  Lanes<double> lowest = none;
   for (const Lanes<double>& neighbour : neighbours.at) {
-    lower |= (neighbour > 0.0) & (neighbour * scale < scaled);
+    const Lanes<double> there = neighbour > 0.0 ? neighbour : none;
+    lowest = there < lowest ? there : lowest;
   }
-  return (degree > 0.0) & ~lower & 1;
+  const Lanes<double> beside_sink = widen<double>(faces, kBesideSink);
+  lowest = beside_sink > 0.0 ? Lanes<double>{} : lowest;
+  const Lanes<double> stuck = lowest * scale < own * scale ? Lanes<double>{} : all(1.0);
+  return widen<double>(faces, kDegree) > 0.0 ? stuck : Lanes<double>{};
 }
 
 struct RedUpdate {
-  const std::uint8_t* degree;
-  const std::uint8_t* beside_sink;
+  const std::uint32_t* faces;
   Around<double> black;
   double* red;
   Load load_of;
   double scale;
-  std::int64_t* stuck;
+  double* stuck;
 
   VANTAGE_INLINE void operator()() const {
-    Mask count{};
+    Lanes<double> count{};
     for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<double> faces = widen<double>(degree + row * 8);
+      const Lanes<double> degree = widen<double>(faces[row], kDegree);
       const SixNeighbours<double> beside = neighbours<kRed>(black, row);
-      const Lanes<double> solved = faces > 0.0 ? (beside.sum() + load_of.at(row)) / faces : Lanes<double>{};
+      const Lanes<double> solved = degree > 0.0 ? (beside.sum() + load_of.at(row)) / degree : Lanes<double>{};
       store<double>(red + row * 8, solved);
-      count += stuck_cells(solved, beside, beside_sink[row], faces, scale);
+      count += stuck_cells(solved, beside, faces[row], scale);
     }
-    *stuck = sum_of<std::int64_t>(count);
+    *stuck = sum_of<double>(count);
   }
 };
 
 struct BlackDefect {
-  const std::uint8_t* degree;
-  const std::uint8_t* beside_sink;
+  const std::uint32_t* faces;
   const double* black;
   Around<double> red;
   Load load_of;
   double scale;
   double* square;
   double* largest;
-  std::int64_t* stuck;
+  double* stuck;
 
   VANTAGE_INLINE void operator()() const {
     Lanes<double> sum{};
     Lanes<double> most{};
-    Mask count{};
+    Lanes<double> count{};
     for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<double> faces = widen<double>(degree + row * 8);
+      const Lanes<double> degree = widen<double>(faces[row], kDegree);
       const Lanes<double> own = load(black + row * 8);
       const SixNeighbours<double> beside = neighbours<kBlack>(red, row);
-      const Lanes<double> all_cells = load_of.at(row) - (faces * own - beside.sum());
-      const Lanes<double> residual = faces > 0.0 ? all_cells : Lanes<double>{};
+      const Lanes<double> all_cells = load_of.at(row) - (degree * own - beside.sum());
+      const Lanes<double> residual = degree > 0.0 ? all_cells : Lanes<double>{};
       sum += residual * residual;
       most = residual > most ? residual : most;
-      count += stuck_cells(own, beside, beside_sink[row], faces, scale);
+      count += stuck_cells(own, beside, faces[row], scale);
     }
     *square = sum_of<double>(sum);
     *largest = most[0];
     for (std::size_t lane = 1; lane < kLanes; ++lane) {
       *largest = most[lane] > *largest ? most[lane] : *largest;
     }
-    *stuck += sum_of<std::int64_t>(count);
+    *stuck += sum_of<double>(count);
   }
 };
 
 struct BlackResidual {
-  const std::uint8_t* degree;
+  const std::uint32_t* faces;
   const double* black;
   Around<double> red;
   Load load_of;
@@ -106,10 +106,10 @@ struct BlackResidual {
 
   VANTAGE_INLINE void operator()() const {
     for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<double> faces = widen<double>(degree + row * 8);
+      const Lanes<double> degree = widen<double>(faces[row], kDegree);
       const Lanes<double> residual =
-          load_of.at(row) - (faces * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
-      const Lanes<double> kept = faces > 0.0 ? scale * residual : Lanes<double>{};
+          load_of.at(row) - (degree * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
+      const Lanes<double> kept = degree > 0.0 ? scale * residual : Lanes<double>{};
       store<float>(out + row * 8, __builtin_convertvector(kept, Lanes<float>));
     }
   }
@@ -128,7 +128,47 @@ struct Add {
   }
 };
 
+struct CountStuck {
+  const std::uint32_t* faces;
+  const double* own;
+  double scale;
+  double* stuck;
+
+  template <std::size_t colour>
+  VANTAGE_INLINE void over(const Around<double>& other) const {
+    Lanes<double> count{};
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      count += stuck_cells(load(own + row * 8), neighbours<colour>(other, row), faces[row], scale);
+    }
+    *stuck = sum_of<double>(count);
+  }
+};
+
+template <std::size_t colour>
+struct CountStuckOf {
+  CountStuck count;
+  Around<double> other;
+
+  VANTAGE_INLINE void operator()() const { count.over<colour>(other); }
+};
+
 }  // namespace
+
+std::size_t count_stuck(const FineLevel& fine, const CellValues& values) {
+  double stuck = 0.0;
+  const auto count_in = [&](std::size_t colour, std::size_t b, double& found) {
+    return CountStuck{fine.faces[colour].data() + b * kBrickRows, values.u[colour].data() + b * kHalfBrick,
+                      values.per_source, &found};
+  };
+  for (std::size_t b = 1; b < fine.brick_count; ++b) {
+    double red = 0.0;
+    double black = 0.0;
+    run(CountStuckOf<kRed>{count_in(kRed, b, red), Around<double>(fine, values.u[kBlack], b)});
+    run(CountStuckOf<kBlack>{count_in(kBlack, b, black), Around<double>(fine, values.u[kRed], b)});
+    stuck += red + black;
+  }
+  return static_cast<std::size_t>(stuck);
+}
 
 CellPlace CellPlace::of(const LaplaceDomain& domain, const VoxelIndex& cell) {
   const std::size_t row = LaplaceDomain::row_of(cell);
@@ -138,38 +178,38 @@ CellPlace CellPlace::of(const LaplaceDomain& domain, const VoxelIndex& cell) {
 
 Refinement::Refinement(const FineLevel& fine, const CellPlace& source, double uniform)
     : source_(source), uniform_(uniform), partial_(fine.brick_count, Partial{}) {
-  u_[kRed].assign(fine.brick_count * kHalfBrick, 0.0);
-  u_[kBlack].assign(fine.brick_count * kHalfBrick, 0.0);
+  values_.u[kRed].assign(fine.brick_count * kHalfBrick, 0.0);
+  values_.u[kBlack].assign(fine.brick_count * kHalfBrick, 0.0);
 }
 
 // What the value at the source is as soon as the red cells are solved for.
 double Refinement::source_value(const FineLevel& fine) const {
   if (source_.colour == kBlack) {
-    return u_[kBlack][source_.brick * kHalfBrick + source_.offset];
+    return values_.u[kBlack][source_.brick * kHalfBrick + source_.offset];
   }
   const std::size_t row = source_.offset / 8;
   const Lanes<double> sum =
-      neighbours<kRed>(Around<double>(fine, u_[kBlack], source_.brick), row).sum() +
+      neighbours<kRed>(Around<double>(fine, values_.u[kBlack], source_.brick), row).sum() +
       Load(source_, source_.brick, kRed, uniform_).at(row);
-  return sum[source_.offset % 8] / static_cast<double>(fine.degree[kRed][source_.brick * kHalfBrick + source_.offset]);
+  return sum[source_.offset % 8] / fine.degree(kRed, source_.brick, source_.offset);
 }
 
 Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correction, double scale) {
   for (std::size_t b = 1; b < fine.brick_count; ++b) {
-    run(Add{correction.data() + b * kHalfBrick, scale, u_[kBlack].data() + b * kHalfBrick});
+    run(Add{correction.data() + b * kHalfBrick, scale, values_.u[kBlack].data() + b * kHalfBrick});
   }
-  per_source_ = 1.0 / source_value(fine);
+  values_.per_source = 1.0 / source_value(fine);
   in_waves(
       fine, [](std::size_t) {},
       [&](std::size_t b) {
-        run(RedUpdate{fine.degree[kRed].data() + b * kHalfBrick, fine.beside_sink[kRed].data() + b * kBrickRows,
-                      Around<double>(fine, u_[kBlack], b), u_[kRed].data() + b * kHalfBrick,
-                      Load(source_, b, kRed, uniform_), per_source_, &partial_[b].stuck});
+        run(RedUpdate{fine.faces[kRed].data() + b * kBrickRows,
+                      Around<double>(fine, values_.u[kBlack], b), values_.u[kRed].data() + b * kHalfBrick,
+                      Load(source_, b, kRed, uniform_), values_.per_source, &partial_[b].stuck});
       },
       [&](std::size_t b) {
-        run(BlackDefect{fine.degree[kBlack].data() + b * kHalfBrick, fine.beside_sink[kBlack].data() + b * kBrickRows,
-                        u_[kBlack].data() + b * kHalfBrick, Around<double>(fine, u_[kRed], b),
-                        Load(source_, b, kBlack, uniform_), per_source_, &partial_[b].square, &partial_[b].largest,
+        run(BlackDefect{fine.faces[kBlack].data() + b * kBrickRows,
+                        values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
+                        Load(source_, b, kBlack, uniform_), values_.per_source, &partial_[b].square, &partial_[b].largest,
                         &partial_[b].stuck});
       });
   Defect defect;
@@ -184,8 +224,8 @@ Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correct
 
 void Refinement::residual(const FineLevel& fine, double scale, HalfField<float>& out) const {
   for (std::size_t b = 1; b < fine.brick_count; ++b) {
-    run(BlackResidual{fine.degree[kBlack].data() + b * kHalfBrick, u_[kBlack].data() + b * kHalfBrick,
-                      Around<double>(fine, u_[kRed], b), Load(source_, b, kBlack, uniform_), scale,
+    run(BlackResidual{fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
+                      Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_), scale,
                       out.data() + b * kHalfBrick});
   }
 }

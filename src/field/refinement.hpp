@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vantage/field/laplace_domain.hpp>
 #include <vector>
 
@@ -20,6 +21,21 @@ struct CellPlace {
   /// `cell` must lie in a brick of the domain.
   [[nodiscard]] static CellPlace of(const LaplaceDomain& domain, const VoxelIndex& cell);
 };
+
+/// A solution, not yet divided by its value at the source.
+struct CellValues {
+  std::array<HalfField<double>, 2> u;  ///< by colour
+  double per_source = 1.0;             ///< 1 / value at the source
+
+  /// Value of a cell, 1 at the source; 0 where there is no unknown.
+  [[nodiscard]] double at(const CellPlace& place) const {
+    return u[place.colour][place.brick * kHalfBrick + place.offset] * per_source;
+  }
+  [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(u[0]) + bytes_of(u[1]); }
+};
+
+/// How many unknowns have no strictly lower neighbour once all values are divided by that of the source.
+[[nodiscard]] std::size_t count_stuck(const FineLevel& fine, const CellValues& values);
 
 /// How far a solution is from solving its equations.
 struct Defect {
@@ -40,24 +56,21 @@ class Refinement {
   /// Writes the residual of the black cells, times `scale`.
   void residual(const FineLevel& fine, double scale, HalfField<float>& out) const;
 
-  /// Value of a cell, 1 at the source; 0 where there is no unknown.
-  [[nodiscard]] double value(const CellPlace& place) const {
-    return u_[place.colour][place.brick * kHalfBrick + place.offset] * per_source_;
-  }
-  [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(u_[0]) + bytes_of(u_[1]) + bytes_of(partial_); }
+  /// The solution, which is no longer here after it.
+  [[nodiscard]] CellValues take() { return std::move(values_); }
+  [[nodiscard]] std::size_t memory_bytes() const { return values_.memory_bytes() + bytes_of(partial_); }
 
  private:
   struct Partial {
     double square;
     double largest;
-    std::int64_t stuck;
+    double stuck;
   };
   [[nodiscard]] double source_value(const FineLevel& fine) const;
 
-  std::array<HalfField<double>, 2> u_;
+  CellValues values_;
   CellPlace source_;
   double uniform_;
-  double per_source_ = 1.0;
   std::vector<Partial> partial_;  // per brick
 };
 

@@ -22,7 +22,7 @@ namespace {
 using Position = LaplaceProblem::Position;
 
 // A u = e_s + eps, u = 0 at the sinks, phi = u / u_s, straight from the definition.
-std::vector<double> dense_solution(const LaplaceProblem& problem, double eps) {
+std::vector<double> dense_solution(const LaplaceProblem& problem, NeumannScheme scheme, double eps) {
   const auto n = static_cast<Eigen::Index>(problem.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(n, n);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
@@ -33,11 +33,15 @@ std::vector<double> dense_solution(const LaplaceProblem& problem, double eps) {
     }
     a(i, i) = 0.0;
     b(i) = eps + (position == problem.source() ? 1.0 : 0.0);
-    for (const VoxelIndex& step : kFaceNeighbours) {
-      if (const auto neighbour = problem.position_of(problem.cell(position) + step)) {
-        a(i, i) += 1.0;
-        a(i, static_cast<Eigen::Index>(*neighbour)) -= 1.0;
+    for (std::size_t face = 0; face < 6; ++face) {
+      const auto neighbour = problem.position_of(problem.cell(position) + kFaceNeighbours[face]);
+      if (!neighbour) {
+        continue;
       }
+      const bool folded = scheme == NeumannScheme::Mirror &&
+                          !problem.position_of(problem.cell(position) + kFaceNeighbours[face ^ 1U]);
+      a(i, i) += folded ? 2.0 : 1.0;
+      a(i, static_cast<Eigen::Index>(*neighbour)) -= folded ? 2.0 : 1.0;
     }
   }
   const Eigen::VectorXd u = a.fullPivLu().solve(b);
@@ -57,19 +61,23 @@ TEST(MultigridOracle, EqualsDenseLuOnTinyWorlds) {
     if (problem.sink_count() == 0) {
       continue;
     }
-    const LaplaceMultigrid field(problem, {.tolerance = 1e-13, .uniform_source = world % 2 == 0 ? 1e-4 : 1e-2});
-    ASSERT_EQ(field.report().stop, MultigridStop::Converged) << "world " << world;
-    const std::vector<double> phi = field.values(problem);
-    const std::vector<double> expected = dense_solution(problem, field.report().source_per_cell);
-    for (std::size_t i = 0; i < problem.size(); ++i) {
-      ASSERT_NEAR(phi[i], expected[i], 1e-11) << "world " << world << " cell " << i << " of " << problem.size();
+    for (const auto scheme : {NeumannScheme::FiniteVolume, NeumannScheme::Mirror}) {
+      const double uniform_source = world % 2 == 0 ? 1e-4 : 1e-2;
+      const LaplaceMultigrid field(problem,
+                                   {.neumann = scheme, .tolerance = 1e-13, .uniform_source = uniform_source});
+      ASSERT_EQ(field.report().stop, MultigridStop::Converged) << "world " << world;
+      const std::vector<double> phi = field.values(problem);
+      const std::vector<double> expected = dense_solution(problem, scheme, field.report().source_per_cell);
+      for (std::size_t i = 0; i < problem.size(); ++i) {
+        ASSERT_NEAR(phi[i], expected[i], 1e-11) << "world " << world << " cell " << i << " of " << problem.size();
+      }
+      ASSERT_EQ(count_stuck_cells(problem, phi), 0U) << "world " << world;
+      ++cases;
+      cells += problem.size();
     }
-    ASSERT_EQ(count_stuck_cells(problem, phi), 0U) << "world " << world;
-    ++cases;
-    cells += problem.size();
   }
-  EXPECT_GE(cases, 450U);
-  EXPECT_GE(cells, 15000U);
+  EXPECT_GE(cases, 900U);
+  EXPECT_GE(cells, 30000U);
 }
 
 TEST(MultigridOracle, EqualsTheRelaxation) {
@@ -81,15 +89,20 @@ TEST(MultigridOracle, EqualsTheRelaxation) {
     if (problem.sink_count() == 0) {
       continue;
     }
-    const LaplaceMultigrid field(problem, {.tolerance = 1e-12, .uniform_source = 0.0});
-    const LaplaceSolution expected = relax_laplace(problem, {.tolerance = 1e-12, .over_relaxation = 1.9});
-    const std::vector<double> phi = field.values(problem);
-    for (std::size_t i = 0; i < problem.size(); ++i) {
-      ASSERT_NEAR(phi[i], expected.phi[i], 1e-9) << "seed " << seed;
+    for (const auto scheme : {NeumannScheme::FiniteVolume, NeumannScheme::Mirror}) {
+      const LaplaceMultigrid field(problem, {.neumann = scheme, .tolerance = 1e-12, .uniform_source = 0.0});
+      const LaplaceSolution expected =
+          relax_laplace(problem, {.neumann = scheme, .tolerance = 1e-12, .over_relaxation = 1.8});
+      ASSERT_EQ(field.report().stop, MultigridStop::Converged) << "seed " << seed << " " << field.report().residual;
+      ASSERT_EQ(expected.report.stop, LaplaceStop::Converged) << "seed " << seed << " " << (scheme == NeumannScheme::Mirror);
+      const std::vector<double> phi = field.values(problem);
+      for (std::size_t i = 0; i < problem.size(); ++i) {
+        ASSERT_NEAR(phi[i], expected.phi[i], 1e-9) << "seed " << seed;
+      }
+      cells += problem.size();
     }
-    cells += problem.size();
   }
-  EXPECT_GE(cells, 12000U);
+  EXPECT_GE(cells, 25000U);
 }
 
 struct Worlds {
@@ -139,7 +152,8 @@ TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
       if (problem.sink_count() == 0) {
         continue;
       }
-      const LaplaceMultigrid field(problem);
+      const LaplaceMultigrid field(
+          problem, {.neumann = seed % 3 == 0 ? NeumannScheme::Mirror : NeumannScheme::FiniteVolume});
       ASSERT_EQ(field.report().stop, MultigridStop::Converged) << kind.name << " " << seed;
       ASSERT_TRUE(field.report().certified) << kind.name << " " << seed;
       ASSERT_LT(field.report().largest_residual, field.report().source_per_cell) << kind.name << " " << seed;
@@ -215,7 +229,7 @@ TEST(MultigridOracle, OperatorAndPreconditionerAreSymmetricAndPositive) {
     const auto random_field = [&] {
       detail::HalfField<float> field(solver.right().size(), 0.0F);
       for (std::size_t i = 0; i < field.size(); ++i) {
-        field[i] = solver.fine().degree[detail::kBlack][i] > 0 ? normal(engine) : 0.0F;
+        field[i] = solver.fine().degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0 ? normal(engine) : 0.0F;
       }
       return field;
     };
@@ -252,15 +266,15 @@ TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
   std::normal_distribution<float> normal;
   detail::HalfField<float> black(fine.brick_count * detail::kHalfBrick, 0.0F);
   for (std::size_t i = 0; i < black.size(); ++i) {
-    black[i] = fine.degree[detail::kBlack][i] > 0 ? normal(engine) : 0.0F;
+    black[i] = fine.degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0 ? normal(engine) : 0.0F;
   }
   std::size_t bricks = 0;
   for (std::size_t b = 1; b < fine.brick_count; ++b, ++bricks) {
     detail::HalfField<float> best(detail::kHalfBrick);
     detail::HalfField<float> baseline(detail::kHalfBrick);
-    const std::uint8_t* degree = fine.degree[detail::kRed].data() + b * detail::kHalfBrick;
-    detail::run(detail::RedSolve{degree, detail::Around<float>(fine, black, b), best.data()});
-    detail::RedSolve{degree, detail::Around<float>(fine, black, b), baseline.data()}();
+    const std::uint32_t* faces = fine.faces[detail::kRed].data() + b * detail::kBrickRows;
+    detail::run(detail::RedSolve{faces, detail::Around<float>(fine, black, b), best.data()});
+    detail::RedSolve{faces, detail::Around<float>(fine, black, b), baseline.data()}();
     ASSERT_EQ(std::memcmp(best.data(), baseline.data(), detail::kHalfBrick * sizeof(float)), 0);
   }
   EXPECT_GE(bricks, 50U);

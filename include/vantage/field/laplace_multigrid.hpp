@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vantage/field/laplace_domain.hpp>
 #include <vantage/field/laplace_problem.hpp>
+#include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace vantage {
 
 /// Options of LaplaceMultigrid.
 struct MultigridOptions {
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
   double tolerance = 1e-8;  ///< stop when the residual is this share of the source, in the Euclidean norm, in (0, 1)
   /// A source spread evenly over all unknowns, in total, as a share of the sensor's own, >= 0. Without it there is no
   /// certificate: phi falls below what a double can tell apart, and is level in dead ends.
@@ -64,7 +66,8 @@ struct MultigridReport {
 };
 
 /// Solves the problem of Shade & Newman 2011, IV (see LaplaceProblem), by conjugate gradients preconditioned with
-/// multigrid, in time and memory proportional to the number of cells.
+/// multigrid, in time and memory proportional to the number of cells. (NeumannScheme::Mirror, whose operator is not
+/// symmetric, by BiCGSTAB with the same preconditioner, a few times slower.)
 ///
 ///     const LaplaceMultigrid field(known_free_domain(map), sensor_cell);
 ///     if (field.report().certified) ... field.phi(cell) ...
