@@ -241,7 +241,7 @@ Defect MirrorSolver::defect() {
   for (const HalfField<double>& half : r_) {
     defect.largest = std::max(defect.largest, *std::max_element(half.begin(), half.end()));
   }
-  u_.per_source = 1.0 / u_.u[source_.colour][source_.brick * kHalfBrick + source_.offset];
+  u_.at_source = u_.u[source_.colour][source_.brick * kHalfBrick + source_.offset];
   defect.stuck = count_stuck(preconditioner_.fine(), u_);
   return defect;
 }

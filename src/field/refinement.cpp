@@ -26,10 +26,10 @@ struct Load {
   }
 };
 
-// 1 for each cell that has no strictly lower neighbour once all values are multiplied by `scale`, else 0. A value of 0 is
+// 1 for each cell that has no strictly lower neighbour once all values are divided by `at_source`, else 0. A value of 0 is
 // that of a sink, a lower neighbour that `faces` knows of, or stands behind a closed face.
 VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours,
-                                         std::uint32_t faces, double scale) {
+                                         std::uint32_t faces, double at_source) {
   const Lanes<double> none = all(std::numeric_limits<double>::max());
   Lanes<double> lowest = none;
   for (const Lanes<double>& neighbour : neighbours.at) {
@@ -38,7 +38,7 @@ VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeig
   }
   const Lanes<double> beside_sink = widen<double>(faces, kBesideSink);
   lowest = beside_sink > 0.0 ? Lanes<double>{} : lowest;
-  const Lanes<double> stuck = lowest * scale < own * scale ? Lanes<double>{} : all(1.0);
+  const Lanes<double> stuck = lowest / at_source < own / at_source ? Lanes<double>{} : all(1.0);
   return widen<double>(faces, kDegree) > 0.0 ? stuck : Lanes<double>{};
 }
 
@@ -47,7 +47,7 @@ struct RedUpdate {
   Around<double> black;
   double* red;
   Load load_of;
-  double scale;
+  double at_source;
   double* stuck;
 
   VANTAGE_INLINE void operator()() const {
@@ -57,7 +57,7 @@ struct RedUpdate {
       const SixNeighbours<double> beside = neighbours<kRed>(black, row);
       const Lanes<double> solved = degree > 0.0 ? (beside.sum() + load_of.at(row)) / degree : Lanes<double>{};
       store<double>(red + row * 8, solved);
-      count += stuck_cells(solved, beside, faces[row], scale);
+      count += stuck_cells(solved, beside, faces[row], at_source);
     }
     *stuck = sum_of<double>(count);
   }
@@ -68,7 +68,7 @@ struct BlackDefect {
   const double* black;
   Around<double> red;
   Load load_of;
-  double scale;
+  double at_source;
   double* square;
   double* largest;
   double* stuck;
@@ -85,7 +85,7 @@ struct BlackDefect {
       const Lanes<double> residual = degree > 0.0 ? all_cells : Lanes<double>{};
       sum += residual * residual;
       most = residual > most ? residual : most;
-      count += stuck_cells(own, beside, faces[row], scale);
+      count += stuck_cells(own, beside, faces[row], at_source);
     }
     *square = sum_of<double>(sum);
     *largest = most[0];
@@ -131,14 +131,14 @@ struct Add {
 struct CountStuck {
   const std::uint32_t* faces;
   const double* own;
-  double scale;
+  double at_source;
   double* stuck;
 
   template <std::size_t colour>
   VANTAGE_INLINE void over(const Around<double>& other) const {
     Lanes<double> count{};
     for (std::size_t row = 0; row < kBrickRows; ++row) {
-      count += stuck_cells(load(own + row * 8), neighbours<colour>(other, row), faces[row], scale);
+      count += stuck_cells(load(own + row * 8), neighbours<colour>(other, row), faces[row], at_source);
     }
     *stuck = sum_of<double>(count);
   }
@@ -158,7 +158,7 @@ std::size_t count_stuck(const FineLevel& fine, const CellValues& values) {
   double stuck = 0.0;
   const auto count_in = [&](std::size_t colour, std::size_t b, double& found) {
     return CountStuck{fine.faces[colour].data() + b * kBrickRows, values.u[colour].data() + b * kHalfBrick,
-                      values.per_source, &found};
+                      values.at_source, &found};
   };
   for (std::size_t b = 1; b < fine.brick_count; ++b) {
     double red = 0.0;
@@ -198,18 +198,18 @@ Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correct
   for (std::size_t b = 1; b < fine.brick_count; ++b) {
     run(Add{correction.data() + b * kHalfBrick, scale, values_.u[kBlack].data() + b * kHalfBrick});
   }
-  values_.per_source = 1.0 / source_value(fine);
+  values_.at_source = source_value(fine);
   in_waves(
       fine, [](std::size_t) {},
       [&](std::size_t b) {
         run(RedUpdate{fine.faces[kRed].data() + b * kBrickRows,
                       Around<double>(fine, values_.u[kBlack], b), values_.u[kRed].data() + b * kHalfBrick,
-                      Load(source_, b, kRed, uniform_), values_.per_source, &partial_[b].stuck});
+                      Load(source_, b, kRed, uniform_), values_.at_source, &partial_[b].stuck});
       },
       [&](std::size_t b) {
         run(BlackDefect{fine.faces[kBlack].data() + b * kBrickRows,
                         values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
-                        Load(source_, b, kBlack, uniform_), values_.per_source, &partial_[b].square, &partial_[b].largest,
+                        Load(source_, b, kBlack, uniform_), values_.at_source, &partial_[b].square, &partial_[b].largest,
                         &partial_[b].stuck});
       });
   Defect defect;

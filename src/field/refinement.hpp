@@ -25,11 +25,11 @@ struct CellPlace {
 /// A solution, not yet divided by its value at the source.
 struct CellValues {
   std::array<HalfField<double>, 2> u;  ///< by colour
-  double per_source = 1.0;             ///< 1 / value at the source
+  double at_source = 1.0;              ///< value at the source
 
   /// Value of a cell, 1 at the source; 0 where there is no unknown.
   [[nodiscard]] double at(const CellPlace& place) const {
-    return u[place.colour][place.brick * kHalfBrick + place.offset] * per_source;
+    return u[place.colour][place.brick * kHalfBrick + place.offset] / at_source;
   }
   [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(u[0]) + bytes_of(u[1]); }
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 #include <vantage/field/laplace_guess.hpp>
+#include <vantage/field/laplace_multigrid.hpp>
 #include <vantage/field/streamline.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
@@ -28,6 +29,13 @@ RelaxationOptions relaxation_options(const HarmonicOptions& options) {
   relaxation.over_relaxation = options.over_relaxation;
   relaxation.uniform_source = options.uniform_source;
   return relaxation;
+}
+
+MultigridOptions multigrid_options(const HarmonicOptions& options) {
+  MultigridOptions multigrid;
+  multigrid.neumann = options.neumann;
+  multigrid.uniform_source = options.uniform_source;
+  return multigrid;
 }
 
 // Cells from which some frontier is seen, each once.
@@ -104,6 +112,29 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
 void HarmonicPlanner::solve(const FrontierSurvey& survey, PlanStatistics& statistics) {
   field_.emplace(HarmonicField{
       LaplaceProblem(survey.reachable.cells(), viewpoints(survey), *survey.reachable.start()), {}, {}, {}, 0, true});
+  if (options_.solver == FieldSolver::Multigrid) {
+    solve_by_multigrid();
+  } else {
+    relax();
+  }
+  statistics.solver_sweeps = field_->report.sweeps;
+  statistics.ray_operations += field_->report.cell_updates;
+}
+
+// Only a certified field is followed: then the way down from any cell ends at a sink.
+void HarmonicPlanner::solve_by_multigrid() {
+  const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_));
+  const MultigridReport& report = multigrid.report();
+  field_->phi = multigrid.values(field_->problem);
+  field_->stuck_cells = report.stuck_cells;
+  field_->followed = report.certified;
+  field_->report.stop = report.stop == MultigridStop::Converged ? LaplaceStop::Converged : LaplaceStop::SweepLimit;
+  field_->report.sweeps = report.iterations;
+  field_->report.cell_updates = report.iterations * report.unknowns;
+  field_->report.seconds = report.setup_seconds + report.solve_seconds;
+}
+
+void HarmonicPlanner::relax() {
   LaplaceRelaxation relaxation(field_->problem, relaxation_options(options_));
   if (options_.solver == FieldSolver::CoarseToFine) {
     relaxation.start_from(coarse_to_fine_guess(field_->problem, options_.uniform_source));
@@ -122,8 +153,6 @@ void HarmonicPlanner::solve(const FrontierSurvey& survey, PlanStatistics& statis
   field_->phi.assign(relaxation.phi().begin(), relaxation.phi().end());
   field_->report = relaxation.report();
   field_->stuck_cells = count_stuck_cells(field_->problem, field_->phi);
-  statistics.solver_sweeps = field_->report.sweeps;
-  statistics.ray_operations += field_->report.cell_updates;
 }
 
 // The cells from the start to the sink that the field leads to; the shortest way where it leads nowhere.

@@ -111,7 +111,9 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
   HarmonicOptions options;
   read_survey(read, options.survey)
       .choice("solver", options.solver,
-              {{"coarse-to-fine", FieldSolver::CoarseToFine}, {"gauss-seidel", FieldSolver::GaussSeidel}})
+              {{"multigrid", FieldSolver::Multigrid},
+               {"coarse-to-fine", FieldSolver::CoarseToFine},
+               {"gauss-seidel", FieldSolver::GaussSeidel}})
       .choice("neumann", options.neumann,
               {{"finite-volume", NeumannScheme::FiniteVolume}, {"mirror", NeumannScheme::Mirror}})
       .number("tolerance", options.tolerance)

@@ -18,17 +18,18 @@ namespace vantage {
 
 /// How the harmonic field is found.
 enum class FieldSolver : std::uint8_t {
+  Multigrid,     ///< to a small residual, with a certificate that the way down from every cell ends at a sink
   CoarseToFine,  ///< a first guess from coarse to fine, then a few sweeps of the relaxation
   GaussSeidel,   ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
 };
 
 /// Options of HarmonicPlanner.
 struct HarmonicOptions {
-  FieldSolver solver = FieldSolver::CoarseToFine;  ///< how the field is solved
+  FieldSolver solver = FieldSolver::Multigrid;  ///< how the field is solved
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
   double tolerance = 1e-4;             ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
   std::size_t smoothing_sweeps = 20;   ///< CoarseToFine: sweeps after the guess
-  std::size_t max_sweeps = 50000;      ///< no plan takes more, > 0
+  std::size_t max_sweeps = 50000;      ///< of the relaxation; no plan takes more, > 0
   double over_relaxation = 1.0;        ///< in (0, 2); 1 is Gauss-Seidel
   double uniform_source = 1e-4;        ///< see RelaxationOptions; 0 is the field of the paper
   int patience = 2;                    ///< views that may fail to resolve a cell before it is given up, > 0
@@ -42,7 +43,9 @@ struct HarmonicField {
   std::vector<Eigen::Vector3d> streamline;   ///< from the sensor to the sink that was chosen
   LaplaceReport report;  ///< how the solver ended
   std::size_t stuck_cells = 0;  ///< cells without a strictly lower neighbour; 0: descent from every cell ends in a sink
-  bool followed = true;  ///< false: descent from the source got stuck, and the plan takes the shortest way instead
+  /// False: the field is not certified (Multigrid), or descent from the source gets stuck (the others), and the plan takes
+  /// the shortest way instead.
+  bool followed = true;
 };
 
 /// Harmonic exploration, Shade & Newman 2011: solve Laplace's equation over the space the platform can reach, 1 at the
@@ -66,6 +69,8 @@ class HarmonicPlanner final : public ExplorationPlanner {
 
  private:
   void solve(const FrontierSurvey& survey, PlanStatistics& statistics);
+  void solve_by_multigrid();
+  void relax();
   [[nodiscard]] std::vector<VoxelIndex> way_down(const OccupancyMap& map, const Pose& current,
                                                  const FrontierSurvey& survey);
 

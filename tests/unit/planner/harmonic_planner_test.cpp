@@ -48,7 +48,7 @@ void expect_admitted(const OccupancyMap& map, const Platform& platform, const Po
 TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
   const OccupancyMap map = box_with_opening();
   const Pose current = pose_looking({0.5, 0.5, 0.5}, 0.0);
-  for (const FieldSolver solver : {FieldSolver::CoarseToFine, FieldSolver::GaussSeidel}) {
+  for (const FieldSolver solver : {FieldSolver::Multigrid, FieldSolver::CoarseToFine, FieldSolver::GaussSeidel}) {
     for (const NeumannScheme neumann : {NeumannScheme::FiniteVolume, NeumannScheme::Mirror}) {
       const PlannerSetup setup = setup_with(all_around());
       HarmonicPlanner planner(setup, {.solver = solver, .neumann = neumann});
