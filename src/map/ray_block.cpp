@@ -13,9 +13,9 @@ inline void ends(const RayPlacer& placer, RayFate beyond, RayBlock& block) {
   const double furthest_m = placer.furthest_m;
   const double furthest_hit_m = beyond == RayFate::BeyondRange ? max_range_m : -1.0;
   for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-    double x = block.point[0][i];
-    double y = block.point[1][i];
-    double z = block.point[2][i];
+    double x = block.point[3 * i];
+    double y = block.point[3 * i + 1];
+    double z = block.point[3 * i + 2];
     const double squared = SensorFrame::squared(x, y, z);
     std::int64_t fate = 0;
     if constexpr (kLimited) {

@@ -7,25 +7,31 @@
 namespace vantage {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
 std::size_t divided_up(std::size_t count, std::size_t by) { return (count + by - 1) / by; }
 
-void put(const Eigen::Vector3f& point, std::size_t ray, RayBlock& block) {
-  block.point[0][ray] = point.x();
-  block.point[1][ray] = point.y();
-  block.point[2][ray] = point.z();
+// Copies points to the rays of a block from `ray` on, every so manieth.
+void put(const Eigen::Vector3f* points, std::size_t count, std::size_t stride, std::size_t ray, RayBlock& block) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  if (stride == 1) {
+    std::copy_n(points->data(), 3 * count, &block.point[3 * ray]);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    std::copy_n(points[i * stride].data(), 3, &block.point[3 * (ray + i)]);
+  }
 }
 
-// The rays `first`, ... of a list; NaN behind its end.
+// Rays that no scan has.
+void put_none(std::size_t first, std::size_t end, RayBlock& block) {
+  std::fill(block.point.begin() + static_cast<std::ptrdiff_t>(3 * first),
+            block.point.begin() + static_cast<std::ptrdiff_t>(3 * end), std::numeric_limits<float>::quiet_NaN());
+}
+
+// The rays `first`, ... of a list.
 void gather(const std::vector<Eigen::Vector3f>& rays, std::size_t first, RayBlock& block) {
   const std::size_t count = std::min(rays.size() - first, RayBlock::kRays);
-  for (std::size_t i = 0; i < count; ++i) {
-    put(rays[first + i], i, block);
-  }
-  for (std::size_t i = count; i < RayBlock::kRays; ++i) {
-    put(Eigen::Vector3f::Constant(kNan), i, block);
-  }
+  put(rays.data() + first, count, 1, 0, block);
+  put_none(count, RayBlock::kRays, block);
 }
 
 // The smallest and the largest coordinates of many blocks, without a dependency from ray to ray.
@@ -38,13 +44,15 @@ class Bounds {
     }
   }
   void add(const RayBlock& block) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-        const double end = block.end[axis][i];
-        lo_[axis][i] = end < lo_[axis][i] ? end : lo_[axis][i];
-        hi_[axis][i] = end > hi_[axis][i] ? end : hi_[axis][i];
+    compiled_for(best_instruction_set(), [&] {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+          const double end = block.end[axis][i];
+          lo_[axis][i] = end < lo_[axis][i] ? end : lo_[axis][i];
+          hi_[axis][i] = end > hi_[axis][i] ? end : hi_[axis][i];
+        }
       }
-    }
+    });
   }
   [[nodiscard]] VoxelBox cells(const VoxelFrame& frame) const {
     Eigen::Vector3d lo;
@@ -67,7 +75,8 @@ ScanRays::ScanRays(const Scan& scan, const VoxelFrame& frame)
     : scan_((detail::validate(scan), scan)),
       origin_(scan.world_from_sensor.translation()),
       placer_{SensorFrame(scan.world_from_sensor), scan.max_range_m,
-              frame.addressable(origin_) ? frame.size_m * kFurthestVoxel : -1.0, frame.size_m} {
+              frame.addressable(origin_) ? frame.size_m * kFurthestVoxel : -1.0, frame.size_m},
+      point_blocks_(blocks_of_points(1)) {
   RayBlock block;
   Bounds bounds(origin_);
   const std::size_t all = blocks();
@@ -89,32 +98,29 @@ std::size_t ScanRays::blocks_of_points(std::size_t stride) const {
 }
 
 void ScanRays::place(std::size_t number, std::size_t stride, RayBlock& block) const {
-  const std::size_t of_points = blocks_of_points(stride);
-  if (number >= of_points) {
-    gather(scan_.no_return, (number - of_points) * RayBlock::kRays, block);
+  const bool is_of_points = stride > 1 || number < point_blocks_;
+  if (!is_of_points) {
+    gather(scan_.no_return, (number - point_blocks_) * RayBlock::kRays, block);
   } else if (!are_tiles()) {
     gather(scan_.points, number * RayBlock::kRays, block);
   } else {
     gather_tile(number, stride, block);
   }
-  placer_.place_ends(number < of_points, block);
+  placer_.place_ends(is_of_points, block);
 }
 
 void ScanRays::gather_tile(std::size_t number, std::size_t stride, RayBlock& block) const {
   const std::size_t tiles_wide = divided_up(scan_.width, kTileSide * stride);
   const std::size_t first_row = number / tiles_wide * kTileSide * stride;
   const std::size_t first_column = number % tiles_wide * kTileSide * stride;
+  const std::size_t left_in_row = divided_up(scan_.width - first_column, stride);
   for (std::size_t i = 0; i < kTileSide; ++i) {
     const std::size_t row = first_row + i * stride;
-    const std::size_t left_in_row = row < scan_.height ? divided_up(scan_.width - first_column, stride) : 0;
-    const std::size_t count = std::min(left_in_row, kTileSide);
-    const Eigen::Vector3f* const points = scan_.points.data() + row * scan_.width + first_column;
-    for (std::size_t j = 0; j < count; ++j) {
-      put(points[j * stride], i * kTileSide + j, block);
+    const std::size_t count = row < scan_.height ? std::min(left_in_row, kTileSide) : 0;
+    if (count > 0) {
+      put(scan_.points.data() + row * scan_.width + first_column, count, stride, i * kTileSide, block);
     }
-    for (std::size_t j = count; j < kTileSide; ++j) {
-      put(Eigen::Vector3f::Constant(kNan), i * kTileSide + j, block);
-    }
+    put_none(i * kTileSide + count, (i + 1) * kTileSide, block);
   }
 }
 

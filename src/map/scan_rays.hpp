@@ -25,7 +25,7 @@ class ScanRays {
   [[nodiscard]] const VoxelBox& cells() const { return cells_; }
 
   /// How many blocks hold all rays.
-  [[nodiscard]] std::size_t blocks() const { return blocks_of_points(1) + blocks_of_directions(); }
+  [[nodiscard]] std::size_t blocks() const { return point_blocks_ + blocks_of_directions(); }
   /// Whether the first `blocks_of_points(1)` blocks are squares of 8 x 8 pixels of a depth image.
   [[nodiscard]] bool are_tiles() const { return scan_.organised(); }
   /// How many blocks hold the points; with a stride, of a depth image, those of every so manieth row and column.
@@ -49,6 +49,7 @@ class ScanRays {
   const Scan& scan_;
   Eigen::Vector3d origin_;
   RayPlacer placer_;
+  std::size_t point_blocks_;
   ScanReport report_;
   VoxelBox cells_;
 };

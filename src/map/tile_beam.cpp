@@ -39,32 +39,25 @@ Range range_of(const Doubles& a, const Doubles& b) {
 double along(const VoxelIndex& cell, std::size_t axis) { return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z; }
 
 // The rays of a block as lines over the distance along their major axis, in cells from their origin.
+template <std::size_t kMajor>
 class TileBeam {
  public:
   TileBeam(const RayBlock& block, const Eigen::Vector3d& origin, const VoxelFrame& frame, const ScanMarks& marks)
       : marks_(marks) {
     const VoxelIndex first = frame.cell_of(origin);
-    std::array<double, 3> step{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      step[axis] = block.end[axis][0] - origin[static_cast<Eigen::Index>(axis)];
-    }
-    for (std::size_t axis = 1; axis < 3; ++axis) {
-      major_ = std::abs(step[axis]) > std::abs(step[major_]) ? axis : major_;
-    }
-    up_ = step[major_] > 0.0;
+    up_ = block.end[kMajor][0] > origin[kMajor];
     const double cells_per_metre = 1.0 / frame.size_m;
-    const double start = origin[static_cast<Eigen::Index>(major_)];
+    const double start = origin[kMajor];
     const double sign = up_ ? cells_per_metre : -cells_per_metre;
-    first_ = static_cast<std::int32_t>(along(first, major_));
+    first_ = static_cast<std::int32_t>(along(first, kMajor));
     const double first_face_m = (first_ + (up_ ? 1 : 0)) * frame.size_m;
     to_face_ = (first_face_m - start) * sign;
     for (std::size_t i = 0; i < kRays; ++i) {
-      length_[i] = (block.end[major_][i] - start) * sign;
-      faces_[i] = (up_ ? 1 : -1) * (block.cell[major_][i] - first_);
+      length_[i] = (block.end[kMajor][i] - start) * sign;
+      faces_[i] = (up_ ? 1 : -1) * (block.cell[kMajor][i] - first_);
     }
     for (std::size_t side = 0; side < 2; ++side) {
-      const std::size_t axis = (major_ + 1 + side) % 3;
-      axis_[side] = axis;
+      const std::size_t axis = kSides[side];
       const double from = origin[static_cast<Eigen::Index>(axis)];
       const VoxelBox& window = marks.window();
       offset_[side] = from * cells_per_metre - along(window.lo, axis);
@@ -77,7 +70,6 @@ class TileBeam {
     }
   }
 
-  [[nodiscard]] std::size_t major() const { return major_; }
   // Those which cross so many faces along the major axis.
   [[nodiscard]] std::uint64_t rays_with_faces(double faces) const {
     std::uint64_t rays = 0;
@@ -120,6 +112,8 @@ class TileBeam {
   }
 
  private:
+  static constexpr std::array<std::size_t, 2> kSides{(kMajor + 1) % 3, (kMajor + 2) % 3};
+
   // Along the major axis, from where a slice begins.
   [[nodiscard]] double start_of(std::int64_t slice) const {
     return slice == 0 ? 0.0 : to_face_ + static_cast<double>(slice - 1);
@@ -168,11 +162,11 @@ class TileBeam {
     std::array<std::int32_t, 3> hi{};
     const std::int32_t one = cell_at(slice);
     const std::int32_t other = cell_at(end - 1);
-    lo[major_] = std::min(one, other);
-    hi[major_] = std::max(one, other) + 1;
+    lo[kMajor] = std::min(one, other);
+    hi[kMajor] = std::max(one, other) + 1;
     for (std::size_t side = 0; side < 2; ++side) {
       const double last = extent_[side] - 1.0;
-      const std::size_t axis = axis_[side];
+      const std::size_t axis = kSides[side];
       lo[axis] = lo_[side] + static_cast<std::int32_t>(std::clamp(offset_[side] + at[side].lo - kMargin, 0.0, last));
       hi[axis] =
           lo_[side] + static_cast<std::int32_t>(std::clamp(offset_[side] + at[side].hi + kMargin, 0.0, last)) + 1;
@@ -181,19 +175,43 @@ class TileBeam {
   }
 
   const ScanMarks& marks_;
-  std::size_t major_ = 0;
   bool up_ = true;
   std::int32_t first_ = 0;  // cell of the origin along the major axis
   double to_face_ = 0.0;    // from the origin to the first face across it
   Doubles length_;          // along the major axis
   Doubles faces_;           // crossed across it
-  std::array<std::size_t, 2> axis_{};
   std::array<Doubles, 2> slope_;
   std::array<Range, 2> slopes_{};
   std::array<double, 2> offset_{};  // of the origin in the window
   std::array<double, 2> extent_{};
   std::array<std::int32_t, 2> lo_{};
 };
+
+// The axis along which a ray goes furthest.
+std::size_t major_axis(const RayBlock& block, std::size_t ray, const Eigen::Vector3d& origin) {
+  std::size_t major = 0;
+  double furthest = -1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double step = std::abs(block.end[axis][ray] - origin[static_cast<Eigen::Index>(axis)]);
+    major = step > furthest ? axis : major;
+    furthest = std::max(step, furthest);
+  }
+  return major;
+}
+
+template <std::size_t kMajor>
+UndrawnPart undrawn_part_along(const RayBlock& block, const Eigen::Vector3d& origin, const VoxelFrame& frame,
+                               const ScanMarks& marks) {
+  UndrawnPart part{~std::uint64_t{0}, kMajor, 0};
+  compiled_for(best_instruction_set(), [&] {
+    const TileBeam<kMajor> beam(block, origin, frame, marks);
+    part.faces_before = beam.marked_slices();
+    if (part.faces_before > 0) {
+      part.rays = beam.rays_with_faces(static_cast<double>(part.faces_before));
+    }
+  });
+  return part;
+}
 
 }  // namespace
 
@@ -210,14 +228,10 @@ UndrawnPart undrawn_part(RayBlock& block, std::uint64_t usable, const Eigen::Vec
       block.cell[axis][gap] = block.cell[axis][stand_in];
     }
   }
-  UndrawnPart part;
-  compiled_for(best_instruction_set(), [&] {
-    const TileBeam beam(block, origin, frame, marks);
-    part = {~std::uint64_t{0}, beam.major(), beam.marked_slices()};
-    if (part.faces_before > 0) {
-      part.rays = beam.rays_with_faces(static_cast<double>(part.faces_before));
-    }
-  });
+  const std::size_t major = major_axis(block, stand_in, origin);
+  UndrawnPart part = major == 0   ? undrawn_part_along<0>(block, origin, frame, marks)
+                     : major == 1 ? undrawn_part_along<1>(block, origin, frame, marks)
+                                  : undrawn_part_along<2>(block, origin, frame, marks);
   part.rays &= usable;
   return part;
 }

@@ -103,10 +103,8 @@ TEST(InstructionSet, PointsArePlacedAlike) {
       const double range_m = i % 2 == 0 ? std::numeric_limits<double>::infinity() : 4.0 + unit(engine);
       const RayPlacer placer{SensorFrame(pose), range_m, size_m * kFurthestVoxel, size_m};
       RayBlock plain;
-      for (auto& axis : plain.point) {
-        for (float& coordinate : axis) {
-          coordinate = random_coordinate(engine);
-        }
+      for (float& coordinate : plain.point) {
+        coordinate = random_coordinate(engine);
       }
       RayBlock block = plain;
       const bool are_returns = i % 5 != 0;
