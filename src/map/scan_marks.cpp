@@ -82,11 +82,15 @@ bool ScanMarks::all_marked(const VoxelBox& cells) const {
 }
 
 BrickMarks& ScanMarks::far_brick(const VoxelIndex& brick) {
-  const auto [place, is_new] = far_.try_emplace(brick);
-  if (is_new) {
-    far_order_.push_back(brick);
+  if (last_far_ == nullptr || brick != last_far_->address) {  // a ray stays in a brick for some steps
+    BrickDirectory::Number& number = far_numbers_.place(brick);
+    if (number == BrickDirectory::kNone) {
+      number = static_cast<BrickDirectory::Number>(far_.size());
+      far_.emplace_back().address = brick;
+    }
+    last_far_ = &far_[number];
   }
-  return place->second;
+  return last_far_->marks;
 }
 
 }  // namespace vantage

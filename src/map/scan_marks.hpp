@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <deque>
 #include <memory>
-#include <unordered_map>
 #include <vantage/map/brick.hpp>
-#include <vector>
+#include <vantage/map/brick_directory.hpp>
 
 namespace vantage {
 
@@ -18,8 +18,8 @@ struct BrickMarks {
   std::array<std::uint64_t, Brick::kWords> hit{};
 };
 
-/// The cells that a scan touches, as bit planes in the layout of bricks: a dense window around the scan, and a hash table
-/// for what a few far rays touch outside of it.
+/// The cells that a scan touches, as bit planes in the layout of bricks: a dense window around the scan, and a sparse
+/// directory for what a few far rays touch outside of it.
 ///
 /// The position of a cell of the window, word * 64 + bit, is the sum of one part for each axis, and the parts have no bits
 /// in common: rows and columns of bricks are padded to powers of two.
@@ -77,13 +77,16 @@ class ScanMarks {
         visit(brick, passed, hit);
       }
     });
-    for (const VoxelIndex& brick : far_order_) {
-      const BrickMarks& marks = far_.at(brick);
-      visit(brick, marks.passed.data(), marks.hit.data());
+    for (const FarBrick& brick : far_) {
+      visit(brick.address, brick.marks.passed.data(), brick.marks.hit.data());
     }
   }
 
  private:
+  struct FarBrick {
+    BrickMarks marks;
+    VoxelIndex address;
+  };
   struct Free {
     void operator()(std::uint64_t* words) const { std::free(words); }
   };
@@ -108,8 +111,9 @@ class ScanMarks {
   std::size_t words_ = 0;
   Plane passed_;
   Plane hit_;
-  std::unordered_map<VoxelIndex, BrickMarks> far_;
-  std::vector<VoxelIndex> far_order_;
+  BrickDirectory far_numbers_;
+  std::deque<FarBrick> far_;
+  FarBrick* last_far_ = nullptr;
 };
 
 }  // namespace vantage
