@@ -31,8 +31,9 @@ struct BlocksAround {
     }
   }
   // `line` is z * 4 + y.
-  [[nodiscard]] VANTAGE_INLINE BlockSums sums(std::size_t line) const {
-    const std::size_t y = line % 4;
+  template <std::size_t line>
+  [[nodiscard]] VANTAGE_INLINE BlockSums sums() const {
+    constexpr std::size_t y = line % 4;
     const Lanes<float> here = load(own + line * 8);
     const std::array<Lanes<float>, 6> neighbour{
         shifted_up<float>(here, load(side[0] + line * 8)),
@@ -57,22 +58,24 @@ struct BlocksAround {
   }
 };
 
+// Relaxes the lines whose y + z is of one parity.
+template <std::size_t parity>
 struct Smooth {
   BlocksAround around;
   const float* right;
   float* x;
-  std::size_t parity;
 
   VANTAGE_INLINE void operator()() const {
-    for (std::size_t line = 0; line < 16; ++line) {
-      if (((line ^ line >> 2U) & 1U) != parity) {
-        continue;
-      }
-      const BlockSums sums = around.sums(line);
-      const Lanes<float> own = load(x + line * 8);
-      const Lanes<float> step = (load(right + line * 8) + sums.inflow) / sums.diagonal - own;
-      store<float>(x + line * 8, sums.diagonal > 0.0F ? own + kWeight * step : own);
-    }
+    unrolled(
+        [&](auto i) VANTAGE_INLINE_LAMBDA {
+          constexpr std::size_t z = i / 2;
+          constexpr std::size_t line = z * 4 + i % 2 * 2 + ((z ^ parity) & 1U);
+          const BlockSums sums = around.sums<line>();
+          const Lanes<float> own = load(x + line * 8);
+          const Lanes<float> step = (load(right + line * 8) + sums.inflow) / sums.diagonal - own;
+          store<float>(x + line * 8, sums.diagonal > 0.0F ? own + kWeight * step : own);
+        },
+        std::make_index_sequence<8>{});
   }
 };
 
@@ -82,10 +85,13 @@ struct Residual {
   float* residual;
 
   VANTAGE_INLINE void operator()() const {
-    for (std::size_t line = 0; line < 16; ++line) {
-      const BlockSums sums = around.sums(line);
-      store<float>(residual + line * 8, load(right + line * 8) - (sums.diagonal * load(around.own + line * 8) - sums.inflow));
-    }
+    unrolled(
+        [&](auto line) VANTAGE_INLINE_LAMBDA {
+          const BlockSums sums = around.sums<line>();
+          store<float>(residual + line * 8,
+                       load(right + line * 8) - (sums.diagonal * load(around.own + line * 8) - sums.inflow));
+        },
+        std::make_index_sequence<16>{});
   }
 };
 
@@ -99,8 +105,14 @@ void BlockLevel::smooth(const FineLevel& fine, bool even_first) {
     for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
       // The parity changes from brick to brick along x, or rows relaxed together would meet there.
       const bool flipped = (fine.address[brick].x & 1) != 0;
-      run(Smooth{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, x.data() + brick * kBrickBlocks,
-                 even == flipped ? 1U : 0U});
+      const BlocksAround around(fine, x, brick);
+      const float* load_here = right.data() + brick * kBrickBlocks;
+      float* own = x.data() + brick * kBrickBlocks;
+      if (even == flipped) {
+        run(Smooth<1>{around, load_here, own});
+      } else {
+        run(Smooth<0>{around, load_here, own});
+      }
     }
   }
 }

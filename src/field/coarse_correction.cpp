@@ -84,19 +84,17 @@ void CoarseCorrection::cycle(std::size_t level) {
 void CoarseCorrection::solve(const FineLevel& fine) {
   GraphLevel& next = graphs_.front();
   std::fill(blocks_.x.begin(), blocks_.x.end(), 0.0F);
-  for (int visit = 0; visit < kCycles; ++visit) {
-    for (int i = 0; i < kSweeps; ++i) {
-      blocks_.smooth(fine, true);
-    }
-    blocks_.restrict_to(fine, next.right);
-    std::fill(next.x.begin(), next.x.end(), 0.0F);
-    for (int i = 0; i < kCycles; ++i) {
-      cycle(0);
-    }
-    blocks_.prolong(next.x);
-    for (int i = 0; i < kSweeps; ++i) {
-      blocks_.smooth(fine, false);
-    }
+  for (int i = 0; i < kSweeps; ++i) {
+    blocks_.smooth(fine, true);
+  }
+  blocks_.restrict_to(fine, next.right);
+  std::fill(next.x.begin(), next.x.end(), 0.0F);
+  for (int i = 0; i < kCycles; ++i) {
+    cycle(0);
+  }
+  blocks_.prolong(next.x);
+  for (int i = 0; i < kSweeps; ++i) {
+    blocks_.smooth(fine, false);
   }
 }
 

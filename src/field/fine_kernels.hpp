@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "field/fine_level.hpp"
 #include "field/lanes.hpp"
@@ -53,6 +55,43 @@ VANTAGE_INLINE SixNeighbours<T> neighbours(const Around<T>& other, std::size_t r
   return {{level, beside, load(below_y), load(above_y), load(below_z), load(above_z)}};
 }
 
+/// Two layers of rows of a brick, and what lies around them: with the position of a row in them known to the compiler,
+/// all addresses are.
+template <class T>
+struct TwoLayers {
+  const T* rows;                 // 16 rows
+  const T* below;                // the layer before them, 8 rows
+  const T* above;                // the layer after them
+  std::array<const T*, 4> side;  // 16 rows at the sides in x and y
+
+  VANTAGE_INLINE TwoLayers(const Around<T>& around, std::size_t pair)
+      : rows(around.own + pair * 128),
+        below(pair > 0 ? rows - 64 : around.side[4] + 7 * 64),
+        above(pair < 3 ? rows + 128 : around.side[5]),
+        side{around.side[0] + pair * 128, around.side[1] + pair * 128, around.side[2] + pair * 128,
+             around.side[3] + pair * 128} {}
+};
+
+/// Neighbours of the cells of `colour` in row `i` of two layers, as above.
+template <std::size_t colour, std::size_t i, class T>
+VANTAGE_INLINE SixNeighbours<T> neighbours(const TwoLayers<T>& other) {
+  constexpr std::size_t y = i % 8;
+  constexpr bool lower = i < 8;
+  constexpr bool starts_at_one = ((i ^ i >> 3U ^ colour) & 1U) != 0;
+  const Lanes<T> level = load(other.rows + i * 8);
+  const Lanes<T> beside = starts_at_one ? shifted_down<T>(level, load(other.side[1] + i * 8))
+                                        : shifted_up<T>(level, load(other.side[0] + i * 8));
+  return {{level, beside,
+           load(y > 0 ? other.rows + (i - 1) * 8 : other.side[2] + (i + 7) * 8),
+           load(y < 7 ? other.rows + (i + 1) * 8 : other.side[3] + (i - 7) * 8),
+           load(lower ? other.below + i * 8 : other.rows + (i - 8) * 8),
+           load(lower ? other.rows + (i + 8) * 8 : other.above + (i - 8) * 8)}};
+}
+
+/// Rows of two layers, and the lines of blocks over them.
+using EachRow = std::make_index_sequence<16>;
+using EachLine = std::make_index_sequence<4>;
+
 /// 1 / degree, 0 where there is no unknown.
 template <class T>
 VANTAGE_INLINE Lanes<T> inverse_of(const Lanes<T>& degree) {
@@ -66,9 +105,15 @@ struct RedSolve {
   float* red;
 
   VANTAGE_INLINE void operator()() const {
-    for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<float> sum = neighbours<kRed>(black, row).sum();
-      store<float>(red + row * 8, sum * inverse_of<float>(widen<float>(faces[row], kDegree)));
+    for (std::size_t pair = 0; pair < 4; ++pair) {
+      const TwoLayers<float> around(black, pair);
+      unrolled(
+          [&](auto i) VANTAGE_INLINE_LAMBDA {
+            const std::size_t row = pair * 16 + i;
+            const Lanes<float> sum = neighbours<kRed, i>(around).sum();
+            store<float>(red + row * 8, sum * inverse_of<float>(widen<float>(faces[row], kDegree)));
+          },
+          EachRow{});
     }
   }
 };
@@ -83,13 +128,19 @@ struct BlackApply {
 
   VANTAGE_INLINE void operator()() const {
     Lanes<float> sum{};
-    for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<float> own = load(black + row * 8);
-      const Lanes<float> degree = widen<float>(faces[row], kDegree);
-      const Lanes<float> applied = degree * own - neighbours<kBlack>(red, row).sum();
-      const Lanes<float> kept = degree > 0.0F ? applied : Lanes<float>{};
-      store<float>(out + row * 8, kept);
-      sum += own * kept;
+    for (std::size_t pair = 0; pair < 4; ++pair) {
+      const TwoLayers<float> around(red, pair);
+      unrolled(
+          [&](auto i) VANTAGE_INLINE_LAMBDA {
+            const std::size_t row = pair * 16 + i;
+            const Lanes<float> own = load(black + row * 8);
+            const Lanes<float> degree = widen<float>(faces[row], kDegree);
+            const Lanes<float> applied = degree * own - neighbours<kBlack, i>(around).sum();
+            const Lanes<float> kept = degree > 0.0F ? applied : Lanes<float>{};
+            store<float>(out + row * 8, kept);
+            sum += own * kept;
+          },
+          EachRow{});
     }
     *dot = sum_of<float>(sum);
   }
@@ -104,17 +155,25 @@ struct BlackRestrict {
   float* blocks;
 
   VANTAGE_INLINE void operator()() const {
-    for (std::size_t line = 0; line < 16; ++line) {
-      Lanes<float> sum{};
-      for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t row = line / 4 * 16 + line % 4 * 2 + (i & 1U) + (i >> 1U) * 8;
-        const Lanes<float> degree = widen<float>(faces[row], kDegree);
-        const Lanes<float> residual =
-            load(right + row * 8) - (degree * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
-        sum += degree > 0.0F ? residual : Lanes<float>{};
-      }
-      store<float>(blocks + line * 8, sum);
+    for (std::size_t pair = 0; pair < 4; ++pair) {
+      const TwoLayers<float> around(red, pair);
+      unrolled(
+          [&](auto line) VANTAGE_INLINE_LAMBDA {
+            store<float>(blocks + (pair * 4 + line) * 8, (residual<2 * line>(around, pair) + residual<2 * line + 1>(around, pair)) +
+                                                             (residual<2 * line + 8>(around, pair) + residual<2 * line + 9>(around, pair)));
+          },
+          EachLine{});
     }
+  }
+
+ private:
+  template <std::size_t i>
+  VANTAGE_INLINE Lanes<float> residual(const TwoLayers<float>& around, std::size_t pair) const {
+    const std::size_t row = pair * 16 + i;
+    const Lanes<float> degree = widen<float>(faces[row], kDegree);
+    const Lanes<float> all_cells =
+        load(right + row * 8) - (degree * load(black + row * 8) - neighbours<kBlack, i>(around).sum());
+    return degree > 0.0F ? all_cells : Lanes<float>{};
   }
 };
 
@@ -144,14 +203,20 @@ struct BlackSmooth {
 
   VANTAGE_INLINE void operator()() const {
     Lanes<float> sum{};
-    for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<float> degree = widen<float>(faces[row], kDegree);
-      const Lanes<float> own = load(black + row * 8);
-      const Lanes<float> load_here = load(right + row * 8);
-      const Lanes<float> residual = load_here - (degree * own - neighbours<kBlack>(red, row).sum());
-      const Lanes<float> smoothed = own + weight * residual * inverse_of<float>(degree);
-      store<float>(black + row * 8, smoothed);
-      sum += smoothed * load_here;
+    for (std::size_t pair = 0; pair < 4; ++pair) {
+      const TwoLayers<float> around(red, pair);
+      unrolled(
+          [&](auto i) VANTAGE_INLINE_LAMBDA {
+            const std::size_t row = pair * 16 + i;
+            const Lanes<float> degree = widen<float>(faces[row], kDegree);
+            const Lanes<float> own = load(black + row * 8);
+            const Lanes<float> load_here = load(right + row * 8);
+            const Lanes<float> residual = load_here - (degree * own - neighbours<kBlack, i>(around).sum());
+            const Lanes<float> smoothed = own + weight * residual * inverse_of<float>(degree);
+            store<float>(black + row * 8, smoothed);
+            sum += smoothed * load_here;
+          },
+          EachRow{});
     }
     *dot = sum_of<float>(sum);
   }

@@ -66,7 +66,7 @@ struct GraphLevel {
 
 /// How much larger the step of a coarse level is than what plain aggregation gives, inverted: its correction is too small
 /// because it has steps where the solution has slopes.
-inline constexpr float kOverCorrection = 0.55F;
+inline constexpr float kOverCorrection = 0.5F;
 
 /// The next level: pieces of 2 x 2 x 2 cubes that hang together. Sets `finer.node`.
 [[nodiscard]] GraphLevel coarsen(GraphLevel& finer);

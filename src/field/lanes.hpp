@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+#include <utility>
 
 // Passing vectors wider than the baseline's registers has no stable calling convention; here they only ever pass through
 // functions that are inlined.
@@ -22,6 +24,7 @@ template <class T>
 using Lanes = typename LanesOf<T>::type;
 
 #define VANTAGE_INLINE [[gnu::always_inline]] inline
+#define VANTAGE_INLINE_LAMBDA __attribute__((always_inline))
 
 template <class T>
 VANTAGE_INLINE Lanes<T> load(const T* from) {
@@ -57,6 +60,12 @@ VANTAGE_INLINE Lanes<T> shifted_down(const Lanes<T>& own, const Lanes<T>& above)
 template <class T>
 VANTAGE_INLINE T sum_of(const Lanes<T>& lanes) {
   return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
+/// Calls `visit` with each of 0 ... count - 1 as a constant.
+template <class Visit, std::size_t... i>
+VANTAGE_INLINE void unrolled(Visit&& visit, std::index_sequence<i...> /*count*/) {
+  (visit(std::integral_constant<std::size_t, i>{}), ...);
 }
 
 /// Calls `kernel()` compiled for the widest instruction set of this processor. The kernel's call operator must be
