@@ -55,7 +55,8 @@ struct LaplaceMultigrid::State {
     return options.uniform_source > 0.0 ? std::min(for_tolerance, report.source_per_cell / defect.largest) : for_tolerance;
   }
   [[nodiscard]] bool good_enough(const detail::Defect& defect, const MultigridOptions& options) const {
-    return defect.norm <= options.tolerance && (defect.stuck == 0 || options.uniform_source == 0.0);
+    return defect.norm <= options.tolerance && defect.checked &&
+           (defect.stuck == 0 || options.uniform_source == 0.0);
   }
 };
 
@@ -119,16 +120,21 @@ bool LaplaceMultigrid::State::may_go_on(const detail::Defect& defect, double las
 detail::Defect LaplaceMultigrid::State::refine(detail::BrickSolver& solver, detail::Refinement& refinement,
                                                const MultigridOptions& options) {
   const detail::FineLevel& fine = solver.fine();
-  detail::Defect defect = refinement.update(fine, solver.solution(), 0.0);
+  detail::Defect defect = refinement.update(fine, solver.solution(), 0.0, false);
   for (double last = std::numeric_limits<double>::infinity(); may_go_on(defect, last, options);) {
     last = defect.norm;
     const double wanted = 0.5 * reduction_wanted(defect, options);
     refinement.residual(fine, 1.0 / defect.norm, solver.right());
     report.iterations += solver.solve(std::clamp(wanted, kReduction, 0.1), options.max_iterations - report.iterations);
     ++report.refinements;
-    defect = refinement.update(fine, solver.solution(), last);
+    // A solution that is not meant to be the last is not worth checking; if it is good enough after all, it is looked at
+    // again below.
+    defect = refinement.update(fine, solver.solution(), last, wanted >= kReduction);
+    if (!defect.checked && defect.norm <= options.tolerance) {
+      defect = refinement.update(fine, solver.solution(), 0.0, true);
+    }
   }
-  return defect;
+  return defect.checked ? defect : refinement.update(fine, solver.solution(), 0.0, true);
 }
 
 detail::Defect LaplaceMultigrid::State::refine(detail::MirrorSolver& solver, const MultigridOptions& options) {

@@ -42,6 +42,7 @@ VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeig
   return widen<double>(faces, kDegree) > 0.0 ? stuck : Lanes<double>{};
 }
 
+template <bool checked>
 struct RedUpdate {
   const std::uint32_t* faces;
   Around<double> black;
@@ -57,12 +58,15 @@ struct RedUpdate {
       const SixNeighbours<double> beside = neighbours<kRed>(black, row);
       const Lanes<double> solved = degree > 0.0 ? (beside.sum() + load_of.at(row)) / degree : Lanes<double>{};
       store<double>(red + row * 8, solved);
-      count += stuck_cells(solved, beside, faces[row], at_source);
+      if constexpr (checked) {
+        count += stuck_cells(solved, beside, faces[row], at_source);
+      }
     }
     *stuck = sum_of<double>(count);
   }
 };
 
+template <bool checked>
 struct BlackDefect {
   const std::uint32_t* faces;
   const double* black;
@@ -85,7 +89,9 @@ struct BlackDefect {
       const Lanes<double> residual = degree > 0.0 ? all_cells : Lanes<double>{};
       sum += residual * residual;
       most = residual > most ? residual : most;
-      count += stuck_cells(own, beside, faces[row], at_source);
+      if constexpr (checked) {
+        count += stuck_cells(own, beside, faces[row], at_source);
+      }
     }
     *square = sum_of<double>(sum);
     *largest = most[0];
@@ -194,24 +200,32 @@ double Refinement::source_value(const FineLevel& fine) const {
   return sum[source_.offset % 8] / fine.degree(kRed, source_.brick, source_.offset);
 }
 
-Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correction, double scale) {
+template <bool checked>
+void Refinement::pass(const FineLevel& fine) {
+  in_waves(
+      fine, [](std::size_t) {},
+      [&](std::size_t b) {
+        run(RedUpdate<checked>{fine.faces[kRed].data() + b * kBrickRows, Around<double>(fine, values_.u[kBlack], b),
+                               values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_),
+                               values_.at_source, &partial_[b].stuck});
+      },
+      [&](std::size_t b) {
+        run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
+                                 Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_),
+                                 values_.at_source, &partial_[b].square, &partial_[b].largest, &partial_[b].stuck});
+      });
+}
+
+Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correction, double scale, bool check) {
   for (std::size_t b = 1; b < fine.brick_count; ++b) {
     run(Add{correction.data() + b * kHalfBrick, scale, values_.u[kBlack].data() + b * kHalfBrick});
   }
   values_.at_source = source_value(fine);
-  in_waves(
-      fine, [](std::size_t) {},
-      [&](std::size_t b) {
-        run(RedUpdate{fine.faces[kRed].data() + b * kBrickRows,
-                      Around<double>(fine, values_.u[kBlack], b), values_.u[kRed].data() + b * kHalfBrick,
-                      Load(source_, b, kRed, uniform_), values_.at_source, &partial_[b].stuck});
-      },
-      [&](std::size_t b) {
-        run(BlackDefect{fine.faces[kBlack].data() + b * kBrickRows,
-                        values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
-                        Load(source_, b, kBlack, uniform_), values_.at_source, &partial_[b].square, &partial_[b].largest,
-                        &partial_[b].stuck});
-      });
+  if (check) {
+    pass<true>(fine);
+  } else {
+    pass<false>(fine);
+  }
   Defect defect;
   for (const Partial& partial : partial_) {
     defect.norm += partial.square;
@@ -219,6 +233,7 @@ Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correct
     defect.stuck += static_cast<std::size_t>(partial.stuck);
   }
   defect.norm = std::sqrt(defect.norm);
+  defect.checked = check;
   return defect;
 }
 

@@ -41,6 +41,7 @@ struct CellValues {
 struct Defect {
   double norm = 0.0;         ///< Euclidean
   double largest = 0.0;      ///< of the cells where the solution is too low
+  bool checked = true;       ///< whether these were looked for:
   std::size_t stuck = 0;     ///< cells without a strictly lower neighbour
 };
 
@@ -50,9 +51,9 @@ class Refinement {
   /// A unit source in the cell `source`, `uniform` in every cell.
   Refinement(const FineLevel& fine, const CellPlace& source, double uniform);
 
-  /// Adds `scale * correction` to the black cells, solves for the red ones, and looks for cells without a lower
-  /// neighbour among the values divided by that of the source.
-  Defect update(const FineLevel& fine, const HalfField<float>& correction, double scale);
+  /// Adds `scale * correction` to the black cells, solves for the red ones, and if it is to `check` looks for cells
+  /// without a lower neighbour among the values divided by that of the source.
+  Defect update(const FineLevel& fine, const HalfField<float>& correction, double scale, bool check);
   /// Writes the residual of the black cells, times `scale`.
   void residual(const FineLevel& fine, double scale, HalfField<float>& out) const;
 
@@ -66,6 +67,8 @@ class Refinement {
     double largest;
     double stuck;
   };
+  template <bool checked>
+  void pass(const FineLevel& fine);
   [[nodiscard]] double source_value(const FineLevel& fine) const;
 
   CellValues values_;
