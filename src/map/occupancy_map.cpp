@@ -65,6 +65,16 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options) : options_(option
   max_steps_ = steps(options.log_odds_max);
 }
 
+bool OccupancyMap::contested(const VoxelIndex& cell) const {
+  const Brick* brick = find_brick(Brick::of_cell(cell));
+  const std::size_t offset = Brick::offset_of(cell);
+  if (brick == nullptr || brick->at(offset) != Occupancy::Free) {
+    return false;
+  }
+  const int steps = brick->log_odds[offset];
+  return steps > min_steps_ && steps % miss_steps_ != 0;
+}
+
 std::optional<double> OccupancyMap::log_odds(const VoxelIndex& cell) const {
   const Brick* brick = find_brick(Brick::of_cell(cell));
   const std::size_t offset = Brick::offset_of(cell);

@@ -1,40 +1,50 @@
 // SPDX-License-Identifier: MIT
-#include <unordered_set>
+#include <algorithm>
 #include <utility>
 #include <vantage/planner/failed_views.hpp>
 
 namespace vantage {
+namespace {
 
-void FailedViews::expect(const OccupancyMap& map, const Pose& pose, std::vector<VoxelIndex> unknown_cells) {
-  expected_ = Expectation{pose, map.revision(), std::move(unknown_cells)};
+int known_neighbours(const OccupancyMap& map, const VoxelIndex& cell) {
+  return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+    return map.at(cell + step) != Occupancy::Unknown;
+  }));
+}
+
+}  // namespace
+
+void FailedViews::expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought) {
+  expected_ = Expectation{goal, map.revision(), std::move(sought)};
 }
 
 void FailedViews::review(const OccupancyMap& map, const Pose& current) {
   if (reviewed_ == map.revision()) {
     return;
   }
-  if (reviewed_ && *reviewed_ < map.revision() && !failures_.empty()) {
-    const std::vector<VoxelIndex> bricks = map.changed_since(*reviewed_);
-    const std::unordered_set<VoxelIndex> changed(bricks.begin(), bricks.end());
-    std::erase_if(failures_, [&](const auto& entry) { return changed.contains(Brick::of_cell(entry.first)); });
-  }
   reviewed_ = map.revision();
-  if (!expected_ || expected_->revision >= map.revision()) {
+  // By neighbours that are known, not by those that change their mind: surfaces flip between free and occupied for
+  // ever, while what is known only grows, so no cell gets more than six chances.
+  std::erase_if(failures_, [&](const auto& entry) {
+    const auto& [cell, failures] = entry;
+    return map.at(cell) != Occupancy::Unknown || known_neighbours(map, cell) > failures.known_neighbours;
+  });
+  if (!expected_ || expected_->revision >= map.revision() || !expected_->goal.isApprox(current, 1e-6)) {
     return;
   }
-  if (expected_->pose.isApprox(current, 1e-6)) {
-    for (const VoxelIndex& cell : expected_->cells) {
-      if (map.at(cell) == Occupancy::Unknown) {
-        ++failures_[cell];
-      }
+  for (const VoxelIndex& cell : expected_->sought) {
+    if (map.at(cell) == Occupancy::Unknown) {
+      Failures& failures = failures_[cell];
+      ++failures.views;
+      failures.known_neighbours = known_neighbours(map, cell);
     }
-    expected_.reset();
   }
+  expected_.reset();
 }
 
 bool FailedViews::gave_up(const VoxelIndex& unknown) const {
   const auto failure = failures_.find(unknown);
-  return failure != failures_.end() && failure->second >= patience_;
+  return failure != failures_.end() && failure->second.views >= patience_;
 }
 
 }  // namespace vantage

@@ -70,7 +70,8 @@ Plan FrontierCycle::go(TargetView chosen, std::vector<Pose> path) {
   plan_.goal = chosen.view;
   plan_.path = std::move(path);
   plan_.reason = "a view of " + std::to_string(chosen.unknown.size()) + " frontier cells";
-  failed_.expect(map_, plan_.goal.pose, std::move(chosen.unknown));
+  plan_.sought = std::move(chosen.unknown);
+  failed_.expect(map_, plan_.goal.pose, plan_.sought);
   return std::move(plan_);
 }
 

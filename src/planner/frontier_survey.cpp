@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
@@ -26,11 +27,13 @@ std::vector<Eigen::Vector3d> spread_directions(std::size_t count) {
   return directions;
 }
 
-// The states of the known part of the map in one block: a survey asks for them millions of times.
-VoxelGrid<Occupancy> dense_states(const OccupancyMap& map) {
-  VoxelGrid<Occupancy> states(map.bounds(), Occupancy::Unknown);
-  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) { states[cell] = occupancy; });
-  return states;
+// The cells that sight passes, in one block: a survey asks for them millions of times.
+VoxelGrid<std::uint8_t> clear_cells(const OccupancyMap& map) {
+  VoxelGrid<std::uint8_t> clear(map.bounds());
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+    clear[cell] = occupancy == Occupancy::Free && !map.contested(cell) ? 1 : 0;
+  });
+  return clear;
 }
 
 // Finds a viewpoint for one unknown cell after another.
@@ -38,11 +41,14 @@ class ViewpointSearch {
  public:
   ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                   const ReachableSpace& reachable, std::size_t direction_count)
-      : frame_(map.frame()), platform_(platform), sensor_(sensor), reachable_(reachable), states_(dense_states(map)),
+      : frame_(map.frame()), platform_(platform), sensor_(sensor), reachable_(reachable), clear_(clear_cells(map)),
         directions_(spread_directions(direction_count)) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
+    if (!can_be_seen(unknown)) {
+      return std::nullopt;
+    }
     const Eigen::Vector3d centre = frame_.centre_of(unknown);
     if (const auto found = along(unknown, (frame_.centre_of(frontier) - centre).normalized())) {
       return found;
@@ -55,6 +61,9 @@ class ViewpointSearch {
     return std::nullopt;
   }
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown) {
+    if (!can_be_seen(unknown)) {
+      return std::nullopt;
+    }
     for (const VoxelIndex& cell : reachable_.cells()) {
       if (serves(cell, unknown)) {
         return cell;
@@ -65,18 +74,23 @@ class ViewpointSearch {
   [[nodiscard]] std::uint64_t operations() const { return operations_; }
 
  private:
-  Occupancy state(const VoxelIndex& cell) const { return states_.value_or(cell, Occupancy::Unknown); }
+  // A line of sight enters a cell by a face (where it grazes an edge, VoxelRay crosses a face neighbour, too).
+  bool can_be_seen(const VoxelIndex& unknown) const {
+    return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                       [&](const VoxelIndex& step) { return clear(unknown + step); });
+  }
+  bool clear(const VoxelIndex& cell) const { return clear_.value_or(cell, 0) != 0; }
 
   std::optional<VoxelIndex> along(const VoxelIndex& unknown, const Eigen::Vector3d& direction) {
     const Eigen::Vector3d centre = frame_.centre_of(unknown);
     // No further than the known part of the map can reach: a sensor's range may be without bound.
-    const double furthest_m = std::min(sensor_.max_range_m, frame_.box_of(states_.box()).extent().norm() + frame_.size_m);
+    const double furthest_m = std::min(sensor_.max_range_m, frame_.box_of(clear_.box()).extent().norm() + frame_.size_m);
     for (const VoxelIndex& cell : VoxelRay(frame_, centre, centre + furthest_m * direction)) {
       if (cell == unknown) {
         continue;
       }
       ++operations_;
-      if (state(cell) != Occupancy::Free) {
+      if (!clear(cell)) {
         return std::nullopt;
       }
       if (reachable_.contains(cell) && serves(cell, unknown)) {
@@ -96,9 +110,13 @@ class ViewpointSearch {
     if (!platform_.can_tilt() && !sensor_.in_view(platform_.facing(from, line).linear().transpose() * line)) {
       return false;
     }
+    return in_sight(from, unknown);
+  }
+
+  bool in_sight(const Eigen::Vector3d& from, const VoxelIndex& unknown) {
     for (const VoxelIndex& cell : VoxelRay(frame_, from, frame_.centre_of(unknown))) {
       ++operations_;
-      if (cell != unknown && state(cell) != Occupancy::Free) {
+      if (cell != unknown && !clear(cell)) {
         return false;
       }
     }
@@ -109,7 +127,7 @@ class ViewpointSearch {
   const Platform& platform_;
   const RangeSensor& sensor_;
   const ReachableSpace& reachable_;
-  VoxelGrid<Occupancy> states_;
+  VoxelGrid<std::uint8_t> clear_;
   std::vector<Eigen::Vector3d> directions_;
   std::uint64_t operations_ = 0;
 };
@@ -125,19 +143,32 @@ std::vector<VoxelIndex> unknown_neighbours(const OccupancyMap& map, const VoxelI
   return unknown;
 }
 
-// The frontier cells worth a view: the members of clusters that are large enough, in raster order.
-std::vector<VoxelIndex> large_enough(std::vector<VoxelIndex> frontier, std::size_t min_cluster_cells) {
-  if (min_cluster_cells <= 1) {
-    return frontier;
+bool near_contested(const OccupancyMap& map, const std::vector<VoxelIndex>& cluster) {
+  return std::any_of(cluster.begin(), cluster.end(), [&](const VoxelIndex& cell) {
+    bool found = false;
+    for_each_cell(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(2),
+                  [&](const VoxelIndex& other) { found = found || map.contested(other); });
+    return found;
+  });
+}
+
+// Leaves the targets in clusters that are worth a view; returns how many it took out.
+std::size_t drop_small_clusters(const OccupancyMap& map, const FrontierSurveyOptions& options,
+                                std::vector<FrontierTarget>& targets) {
+  std::vector<VoxelIndex> cells;
+  cells.reserve(targets.size());
+  for (const FrontierTarget& target : targets) {
+    cells.push_back(target.frontier);
   }
-  std::vector<VoxelIndex> kept;
-  for (const std::vector<VoxelIndex>& cluster : frontier_clusters(frontier)) {
-    if (cluster.size() >= min_cluster_cells) {
-      kept.insert(kept.end(), cluster.begin(), cluster.end());
+  std::unordered_set<VoxelIndex> small;
+  for (const std::vector<VoxelIndex>& cluster : frontier_clusters(cells)) {
+    if (cluster.size() < options.min_cluster_cells ||
+        (cluster.size() < options.min_contested_cluster_cells && near_contested(map, cluster))) {
+      small.insert(cluster.begin(), cluster.end());
     }
   }
-  std::sort(kept.begin(), kept.end(), RasterOrder{});
-  return kept;
+  std::erase_if(targets, [&](const FrontierTarget& target) { return small.contains(target.frontier); });
+  return small.size();
 }
 
 // Whether the platform comes close: some reachable cell lies within half its body, and one cell more.
@@ -158,8 +189,6 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
   FrontierSurvey survey{.reachable = ReachableSpace(map, platform, current)};
   std::vector<VoxelIndex> frontier = frontier_cells(map);
   survey.frontier_cells = frontier.size();
-  frontier = large_enough(std::move(frontier), options.min_cluster_cells);
-  survey.leftover.too_small = survey.frontier_cells - frontier.size();
 
   std::vector<VoxelIndex> hidden;
   if (!frontier.empty() && survey.reachable.start()) {
@@ -178,11 +207,13 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
         hidden.push_back(cell);
       }
     }
+    survey.leftover.too_small = drop_small_clusters(map, options, survey.targets);
     // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
     if (survey.targets.empty() && hidden.size() * survey.reachable.size() <= options.exhaustive_pairs) {
       std::erase_if(hidden, [&](const VoxelIndex& cell) {
         return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown); });
       });
+      survey.leftover.too_small += drop_small_clusters(map, options, survey.targets);
     }
     survey.ray_operations = search.operations();
   } else {
@@ -199,7 +230,7 @@ bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const 
                     std::uint64_t& operations) {
   for (const VoxelIndex& cell : VoxelRay(map.frame(), from, map.frame().centre_of(target))) {
     ++operations;
-    if (cell != target && map.at(cell) != Occupancy::Free) {
+    if (cell != target && (map.at(cell) != Occupancy::Free || map.contested(cell))) {
       return false;
     }
   }

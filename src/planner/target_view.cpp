@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <vantage/planner/target_view.hpp>
 
 namespace vantage {
@@ -9,14 +10,20 @@ struct Sighting {
   Eigen::Vector3d line;  // from the viewpoint to the centre of the unknown cell
 };
 
-// The targets in range and in plain sight of a position, whichever way the sensor looks.
+// Cells further off may slip between the rays: a view cannot count on them.
+double counted_range_m(const OccupancyMap& map, const RangeSensor& sensor) {
+  return std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
+}
+
+// The targets in plain sight of a position and no further than `furthest_m`, whichever way the sensor looks.
 std::vector<Sighting> sightings_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
-                                     const Eigen::Vector3d& position, std::uint64_t& operations) {
+                                     const Eigen::Vector3d& position, double furthest_m,
+                                     std::uint64_t& operations) {
   std::vector<Sighting> sightings;
   for (const FrontierTarget& target : survey.targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
     const double range_m = line.norm();
-    if (range_m >= sensor.min_range_m && range_m <= sensor.max_range_m &&
+    if (range_m >= sensor.min_range_m && range_m <= furthest_m &&
         in_plain_sight(map, position, target.unknown, operations)) {
       sightings.push_back({target.unknown, line});
     }
@@ -39,9 +46,11 @@ TargetView keep_in_view(const RangeSensor& sensor, const Pose& pose, const std::
 
 TargetView targets_seen_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
                              const Pose& pose, std::uint64_t& operations) {
+  const double furthest_m = counted_range_m(map, sensor);
   TargetView seen{.view = {.pose = pose}};
   for (const FrontierTarget& target : survey.targets) {
-    if (sees(map, sensor, pose, target.unknown, operations)) {
+    const double range_m = (map.frame().centre_of(target.unknown) - pose.translation()).norm();
+    if (range_m <= furthest_m && sees(map, sensor, pose, target.unknown, operations)) {
       seen.unknown.push_back(target.unknown);
     }
   }
@@ -53,7 +62,8 @@ TargetView view_of_target(const OccupancyMap& map, const Platform& platform, con
                           const FrontierSurvey& survey, const FrontierTarget& wanted, std::uint64_t& operations) {
   const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
   const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
-  const std::vector<Sighting> sightings = sightings_from(map, sensor, survey, position, operations);
+  const double furthest_m = std::max(counted_range_m(map, sensor), line.norm());
+  const std::vector<Sighting> sightings = sightings_from(map, sensor, survey, position, furthest_m, operations);
   TargetView best = keep_in_view(sensor, platform.facing(position, line), sightings);
   // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the wanted.
   constexpr std::size_t kTried = 32;

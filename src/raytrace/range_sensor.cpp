@@ -212,6 +212,14 @@ double RangeSensor::vertical_angle_rad() const {
              : std::atan((cy + 0.5) / fy) + std::atan((static_cast<double>(height) - 0.5 - cy) / fy);
 }
 
+double RangeSensor::resolving_range_m(double cell_m) const {
+  // A pinhole's rays are furthest apart, by 1 / f, at the principal point.
+  const bool pinhole = projection == Projection::Pinhole;
+  const double across = pinhole ? 1.0 / fx : horizontal_fov_rad / static_cast<double>(width);
+  const double down = pinhole ? 1.0 / fy : vertical_fov_rad / static_cast<double>(height);
+  return cell_m / std::max(across, down);
+}
+
 RangeSensor RangeSensor::rays_for(double cell_m) const {
   detail::require_option(std::isfinite(cell_m) && cell_m > 0.0, "rays_for: cell_m", cell_m, "> 0");
   RangeSensor reduced = *this;

@@ -171,8 +171,14 @@ bool ExplorationRun::still_admitted(const Pose& pose, const std::vector<Pose>& p
   return true;
 }
 
-// To the goal, or to where a scan on the way has closed it or spent the budget. The last scan is left to be reported
-// with the plan that comes of it.
+bool ExplorationRun::still_sought(const std::vector<VoxelIndex>& cells) const {
+  return cells.empty() || std::any_of(cells.begin(), cells.end(), [&](const VoxelIndex& cell) {
+           return map_.at(cell) == Occupancy::Unknown;
+         });
+}
+
+// To the goal, or to where a scan on the way has closed it, made it needless or spent the budget. The last scan is left
+// to be reported with the plan that comes of it.
 void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
   for (std::size_t next = 1; next < plan.path.size(); ++next) {
     const Pose from = progress.pose;
@@ -184,7 +190,7 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
       move(progress, between(from, to, done_m / length_m));
       scan(progress);
       const bool spent = progress.record.views.size() >= options_.max_views;
-      if (spent || !still_admitted(progress.pose, plan.path, next)) {
+      if (spent || !still_admitted(progress.pose, plan.path, next) || !still_sought(plan.sought)) {
         return;
       }
       if (on_view) {

@@ -76,6 +76,11 @@ class OccupancyMap {
     const Brick* brick = find_brick(Brick::of_cell(cell));
     return brick == nullptr ? Occupancy::Unknown : brick->at(Brick::offset_of(cell));
   }
+  /// Whether a cell is free although rays have ended in it since it was last free for sure (at the lower clamp): its
+  /// log-odds are none that misses alone could make. Such a cell holds a piece of a surface that rays at a grazing angle
+  /// have worn away, and neither it nor what lies behind it should be counted upon. Several hits that happen to add up
+  /// to a whole number of misses go unnoticed.
+  [[nodiscard]] bool contested(const VoxelIndex& cell) const;
   /// Log-odds of a cell; none where it is unknown.
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const;
   /// Log-odds of the cell of 2^level finest cells an edge at `coarse` (in units of that cell); none if all of it is

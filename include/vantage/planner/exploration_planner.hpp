@@ -65,6 +65,9 @@ struct Plan {
   Outcome outcome = Outcome::Blocked;  ///< what to do now
   View goal;  ///< the view to take; meaningful if outcome is Move
   std::vector<Pose> path;  ///< from the current pose to goal.pose, both included; empty unless outcome is Move
+  /// The unknown cells that the view is to resolve. Once scans on the way have made all of them known, the rest of the
+  /// way is not worth following: plan again. Empty if the planner cannot say.
+  std::vector<VoxelIndex> sought;
   Leftover leftover;  ///< what was given up
   std::string reason = "plan() was not called";  ///< one sentence, for a person
   PlanStatistics statistics;  ///< what it took

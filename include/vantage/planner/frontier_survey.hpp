@@ -23,11 +23,15 @@ struct FrontierTarget {
 
 /// What counts as worth a view, for every planner alike.
 struct FrontierSurveyOptions {
-  std::size_t min_cluster_cells = 1;  ///< smaller 26-connected frontier clusters are left as `too_small`, >= 1
+  /// Smaller 26-connected clusters of observable frontier cells are left as `too_small`, >= 1.
+  std::size_t min_cluster_cells = 1;
+  /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear surfaces
+  /// away, false frontiers of a few cells open without end.
+  std::size_t min_contested_cluster_cells = 16;
   std::size_t sight_directions = 512; ///< directions in which an unknown cell looks back for a viewpoint, >= 6
   /// When nothing is observable along those directions, every pair of a frontier and a reachable cell is tried, up to
   /// this many, before the map may be called explored.
-  std::size_t exhaustive_pairs = 20'000'000;
+  std::size_t exhaustive_pairs = 1'000'000;
 };
 
 /// Where the platform can go, which frontier cells are left and which of them some reachable pose can resolve: the

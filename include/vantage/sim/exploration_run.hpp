@@ -35,8 +35,8 @@ struct ExplorationRunOptions {
 };
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
-/// sensor scans every `scan_spacing_m`; when a scan shows that the rest of the way is no longer admitted, the run plans
-/// again. The same world, planner and options give the same record, but for its times and memory.
+/// sensor scans every `scan_spacing_m`; when a scan shows that the rest of the way is no longer admitted, or has
+/// resolved all that the plan sought, the run plans again. The same world, planner and options give the same record, but for its times and memory.
 class ExplorationRun {
  public:
   /// Called after every scan, with what was recorded and the map then.
@@ -63,6 +63,7 @@ class ExplorationRun {
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);
   [[nodiscard]] bool still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const;
+  [[nodiscard]] bool still_sought(const std::vector<VoxelIndex>& cells) const;
   void move(Progress& progress, const Pose& to);
 
   World world_;
