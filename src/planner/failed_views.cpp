@@ -32,19 +32,28 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
   if (!expected_ || expected_->revision >= map.revision() || !expected_->goal.isApprox(current, 1e-6)) {
     return;
   }
+  const VoxelIndex viewpoint = map.frame().cell_of(current.translation());
   for (const VoxelIndex& cell : expected_->sought) {
     if (map.at(cell) == Occupancy::Unknown) {
       Failures& failures = failures_[cell];
-      ++failures.views;
+      if (!failed_from(cell, viewpoint)) {
+        failures.viewpoints.push_back(viewpoint);
+      }
       failures.known_neighbours = known_neighbours(map, cell);
     }
   }
   expected_.reset();
 }
 
+bool FailedViews::failed_from(const VoxelIndex& unknown, const VoxelIndex& viewpoint) const {
+  const auto failure = failures_.find(unknown);
+  return failure != failures_.end() && std::find(failure->second.viewpoints.begin(), failure->second.viewpoints.end(),
+                                                 viewpoint) != failure->second.viewpoints.end();
+}
+
 bool FailedViews::gave_up(const VoxelIndex& unknown) const {
   const auto failure = failures_.find(unknown);
-  return failure != failures_.end() && failure->second.views >= patience_;
+  return failure != failures_.end() && failure->second.viewpoints.size() >= static_cast<std::size_t>(patience_);
 }
 
 }  // namespace vantage

@@ -40,8 +40,8 @@ VoxelGrid<std::uint8_t> clear_cells(const OccupancyMap& map) {
 class ViewpointSearch {
  public:
   ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                  const ReachableSpace& reachable, std::size_t direction_count)
-      : frame_(map.frame()), platform_(platform), sensor_(sensor), reachable_(reachable), clear_(clear_cells(map)),
+                  const ReachableSpace& reachable, const FailedViews& failed, std::size_t direction_count)
+      : frame_(map.frame()), platform_(platform), sensor_(sensor), reachable_(reachable), failed_(failed), clear_(clear_cells(map)),
         directions_(spread_directions(direction_count)) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
@@ -104,7 +104,7 @@ class ViewpointSearch {
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
     const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
     const double range_m = line.norm();
-    if (range_m < sensor_.min_range_m || range_m > sensor_.max_range_m) {
+    if (range_m < sensor_.min_range_m || range_m > sensor_.max_range_m || failed_.failed_from(unknown, viewpoint)) {
       return false;
     }
     if (!platform_.can_tilt() && !sensor_.in_view(platform_.facing(from, line).linear().transpose() * line)) {
@@ -127,6 +127,7 @@ class ViewpointSearch {
   const Platform& platform_;
   const RangeSensor& sensor_;
   const ReachableSpace& reachable_;
+  const FailedViews& failed_;
   VoxelGrid<std::uint8_t> clear_;
   std::vector<Eigen::Vector3d> directions_;
   std::uint64_t operations_ = 0;
@@ -192,7 +193,7 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
 
   std::vector<VoxelIndex> hidden;
   if (!frontier.empty() && survey.reachable.start()) {
-    ViewpointSearch search(map, platform, sensor, survey.reachable, options.sight_directions);
+    ViewpointSearch search(map, platform, sensor, survey.reachable, failed, options.sight_directions);
     const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
       for (const VoxelIndex& unknown : unknown_neighbours(map, cell, failed)) {
         if (const std::optional<VoxelIndex> viewpoint = find(unknown)) {

@@ -13,12 +13,13 @@ namespace vantage {
 /// cannot measure: a surface without texture, the open sky, the inside of a wall that rays at a grazing angle have worn
 /// away in the map. A planner's only memory beside the map; without it a resumed planner merely tries once more.
 ///
-/// An unknown cell is given up after `patience` views that were meant for it. The memory decays: when one more of the
-/// cell's face neighbours becomes known, it gets another chance.
+/// An unknown cell is given up after views from `patience` different cells that were meant for it, and never looked at
+/// twice from the same one. The memory decays: when one more of the cell's face neighbours becomes known, it gets another
+/// chance.
 class FailedViews {
  public:
   /// `patience` > 0.
-  explicit FailedViews(int patience = 1) : patience_(patience) {}
+  explicit FailedViews(int patience = 2) : patience_(patience) {}
 
   /// Announces that a view from `goal` is meant to resolve these cells.
   void expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought);
@@ -26,6 +27,8 @@ class FailedViews {
   /// sought that is still unknown counts a failure. A second call
   /// without a change of the map does nothing.
   void review(const OccupancyMap& map, const Pose& current);
+  /// Whether a view from this cell has failed to resolve `unknown`.
+  [[nodiscard]] bool failed_from(const VoxelIndex& unknown, const VoxelIndex& viewpoint) const;
   /// Whether views of this unknown cell have failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
   /// How many cells have failed at least once.
@@ -38,8 +41,8 @@ class FailedViews {
     std::vector<VoxelIndex> sought;
   };
   struct Failures {
-    int views = 0;
-    int known_neighbours = 0;  // when the latest of them was counted
+    std::vector<VoxelIndex> viewpoints;
+    int known_neighbours = 0;  // when the latest of them failed
   };
 
   int patience_;

@@ -33,6 +33,34 @@ TEST(OccupancyMap, KnowsNothingAtFirst) {
   EXPECT_TRUE(map.bounds().empty());
 }
 
+// Against the history of the cell: a free cell is contested exactly when a ray has ended in it since it last was unknown
+// or at the lower clamp. (So few updates cannot add up to a whole number of misses.)
+TEST(OccupancyMap, AFreeCellThatWasHitIsContestedUntilItIsFreeForSure) {
+  std::mt19937 engine(7);
+  const OccupancyMapOptions options;
+  std::size_t contested = 0;
+  std::size_t free = 0;
+  for (int world = 0; world < 2000; ++world) {
+    OccupancyMap map(options);
+    double log_odds = 0.0;
+    bool hit_since = false;
+    for (int update = 0; update < 12; ++update) {
+      const bool hit = engine() % 4 == 0;
+      log_odds = std::clamp(log_odds + (hit ? options.log_odds_hit : options.log_odds_miss), options.log_odds_min,
+                            options.log_odds_max);
+      hit_since = hit || (hit_since && log_odds > options.log_odds_min + 1e-9);
+      map.set_log_odds(VoxelIndex{1, 2, 3}, log_odds);
+      const bool is_free = map.at({1, 2, 3}) == Occupancy::Free;
+      EXPECT_EQ(map.contested({1, 2, 3}), is_free && hit_since) << log_odds;
+      contested += map.contested({1, 2, 3}) ? 1U : 0U;
+      free += is_free ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(contested, 3000U);
+  EXPECT_GT(free - contested, 3000U);
+  EXPECT_FALSE(OccupancyMap().contested({1, 2, 3}));
+}
+
 TEST(OccupancyMap, StepHoldsThePapersConstantsExactly) {
   const OccupancyMap map;
   EXPECT_DOUBLE_EQ(map.log_odds_step(), 0.05);

@@ -149,5 +149,20 @@ TEST(RangeSensor, ReducedRaysAreNoFurtherApartThanTheCell) {
   EXPECT_THROW((void)RangeSensor::preset("kinect").rays_for(0.0), std::invalid_argument);
 }
 
+TEST(RangeSensor, NeighbouringRaysAreACellApartAtTheResolvingRange) {
+  for (const std::string_view name : RangeSensor::preset_names()) {
+    const RangeSensor sensor = RangeSensor::preset(name);
+    const double cell_m = 0.1;
+    const double range_m = sensor.resolving_range_m(cell_m);
+    const std::size_t column = sensor.width / 2;
+    const std::size_t row = sensor.height / 2;
+    const Eigen::Vector3d ray = sensor.direction(column, row);
+    const double across_m = range_m * (sensor.direction(column + 1, row) - ray).norm();
+    const double down_m = range_m * (sensor.direction(column, row + 1) - ray).norm();
+    EXPECT_NEAR(std::max(across_m, down_m), cell_m, 1e-3 * cell_m) << name;
+    EXPECT_DOUBLE_EQ(sensor.resolving_range_m(2.0 * cell_m), 2.0 * range_m) << name;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <vantage/planner/failed_views.hpp>
+
+namespace vantage {
+namespace {
+
+const VoxelIndex kUnknown{5, 5, 5};
+
+OccupancyMap slab_before_the_unknown() {
+  OccupancyMap map({.resolution_m = 0.2});
+  for_each_cell({{0, 0, 0}, {5, 10, 10}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  return map;
+}
+
+// What a host does: the planner announces a view, the host takes it, the planner looks at the map again.
+void view_in_vain(FailedViews& failed, OccupancyMap& map, const Pose& goal) {
+  failed.expect(map, goal, {kUnknown});
+  map.set_log_odds(VoxelIndex{0, 0, 0}, -1.0);  // a new revision that tells nothing
+  failed.review(map, goal);
+}
+
+TEST(FailedViews, GivesACellUpAfterViewsFromAsManyPlacesAsItHasPatience) {
+  for (const int patience : {1, 2, 3}) {
+    OccupancyMap map = slab_before_the_unknown();
+    FailedViews failed(patience);
+    for (int view = 1; view <= patience; ++view) {
+      EXPECT_FALSE(failed.gave_up(kUnknown)) << view;
+      const VoxelIndex from{2, 5, view};
+      const Pose goal = pose_looking(map.frame().centre_of(from), 0.0);
+      EXPECT_FALSE(failed.failed_from(kUnknown, from));
+      view_in_vain(failed, map, goal);
+      view_in_vain(failed, map, goal);  // the same place again tells nothing new
+      EXPECT_TRUE(failed.failed_from(kUnknown, from));
+      EXPECT_EQ(failed.gave_up(kUnknown), view == patience) << view;
+    }
+    EXPECT_FALSE(failed.gave_up({5, 5, 6}));
+  }
+}
+
+TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {
+  OccupancyMap map = slab_before_the_unknown();
+  const Pose goal = pose_looking({0.5, 1.1, 1.1}, 0.0);
+  FailedViews failed(1);
+  failed.review(map, goal);
+  failed.expect(map, goal, {kUnknown});
+  failed.review(map, goal);
+  EXPECT_FALSE(failed.gave_up(kUnknown)) << "the map is what it was: no view was taken";
+  map.set_log_odds(VoxelIndex{0, 0, 0}, -1.0);
+  failed.review(map, pose_looking({0.7, 1.1, 1.1}, 0.0));
+  EXPECT_FALSE(failed.gave_up(kUnknown)) << "the sensor is elsewhere";
+  map.set_log_odds(VoxelIndex{0, 0, 0}, -1.2);
+  failed.review(map, goal);
+  EXPECT_TRUE(failed.gave_up(kUnknown));
+}
+
+TEST(FailedViews, ForgetsWhenMoreOfTheNeighboursBecomesKnownNotWhenTheyChangeTheirMind) {
+  OccupancyMap map = slab_before_the_unknown();
+  FailedViews failed(1);
+  view_in_vain(failed, map, pose_looking({0.5, 1.1, 1.1}, 0.0));
+  ASSERT_TRUE(failed.gave_up(kUnknown));
+  for (const Occupancy mind : {Occupancy::Occupied, Occupancy::Free, Occupancy::Occupied}) {
+    map.set({4, 5, 5}, mind);
+    failed.review(map, Pose::Identity());
+    EXPECT_TRUE(failed.gave_up(kUnknown));
+  }
+  map.set({5, 6, 5}, Occupancy::Free);
+  failed.review(map, Pose::Identity());
+  EXPECT_FALSE(failed.gave_up(kUnknown));
+}
+
+TEST(FailedViews, KeepsNothingOfCellsThatBecameKnown) {
+  OccupancyMap map = slab_before_the_unknown();
+  FailedViews failed(1);
+  view_in_vain(failed, map, pose_looking({0.5, 1.1, 1.1}, 0.0));
+  EXPECT_EQ(failed.size(), 1U);
+  map.set(kUnknown, Occupancy::Occupied);
+  failed.review(map, Pose::Identity());
+  EXPECT_EQ(failed.size(), 0U);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/robot/free_flyer.hpp>
+
+namespace vantage {
+namespace {
+
+RangeSensor all_around() { return RangeSensor::spherical(120, 60, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0); }
+
+// A closed room of 12 x 12 x 12 free cells; what lies behind its walls is unknown.
+OccupancyMap closed_room() {
+  OccupancyMap map({.resolution_m = 0.2});
+  for_each_cell({{-1, -1, -1}, {13, 13, 13}}, [&](const VoxelIndex& cell) {
+    map.set(cell, VoxelBox{{0, 0, 0}, {12, 12, 12}}.contains(cell) ? Occupancy::Free : Occupancy::Occupied);
+  });
+  return map;
+}
+
+FrontierSurvey survey_of(const OccupancyMap& map, const FrontierSurveyOptions& options = {}) {
+  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), all_around(), pose_looking({1.1, 1.1, 1.1}, 0.0), options,
+                          FailedViews());
+}
+
+constexpr VoxelBox kOpening{{12, 4, 4}, {13, 6, 6}};  // four cells of the wall at x = 12
+
+TEST(FrontierSurvey, AnOpeningOfFreeCellsIsATarget) {
+  OccupancyMap map = closed_room();
+  EXPECT_TRUE(survey_of(map).targets.empty());
+  for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  const FrontierSurvey survey = survey_of(map);
+  EXPECT_EQ(survey.frontier_cells, 4U);
+  EXPECT_EQ(survey.targets.size(), 4U);
+  for (const FrontierTarget& target : survey.targets) {
+    EXPECT_TRUE(kOpening.contains(target.frontier));
+    EXPECT_EQ(target.unknown, (target.frontier + VoxelIndex{1, 0, 0}));
+    EXPECT_TRUE(survey.reachable.contains(target.viewpoint));
+  }
+}
+
+// Hit once, missed three times: free by 0.35, which no number of misses makes.
+TEST(FrontierSurvey, SightDoesNotPassAWornWall) {
+  OccupancyMap map = closed_room();
+  for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set_log_odds(cell, 0.85 - 3 * 0.4); });
+  const FrontierSurvey survey = survey_of(map);
+  EXPECT_EQ(survey.frontier_cells, 4U);
+  EXPECT_TRUE(survey.targets.empty());
+  EXPECT_EQ(survey.leftover.unobservable + survey.leftover.unreachable, 4U);
+}
+
+TEST(FrontierSurvey, SmallClustersNearAWornWallAreLeft) {
+  OccupancyMap map = closed_room();
+  for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  map.set_log_odds(VoxelIndex{12, 7, 4}, 0.85 - 3 * 0.4);  // two cells off the opening
+  EXPECT_EQ(survey_of(map).leftover.too_small, 4U);
+  EXPECT_TRUE(survey_of(map).targets.empty());
+  EXPECT_EQ(survey_of(map, {.min_contested_cluster_cells = 4}).targets.size(), 4U);
+  EXPECT_EQ(survey_of(map, {.min_cluster_cells = 5, .min_contested_cluster_cells = 1}).leftover.too_small, 4U);
+}
+
+}  // namespace
+}  // namespace vantage
