@@ -27,7 +27,7 @@ struct FrontierSurveyOptions {
   std::size_t min_cluster_cells = 1;
   /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear surfaces
   /// away, false frontiers of a few cells open without end.
-  std::size_t min_contested_cluster_cells = 16;
+  std::size_t min_contested_cluster_cells = 32;
   std::size_t sight_directions = 512; ///< directions in which an unknown cell looks back for a viewpoint, >= 6
   /// When nothing is observable along those directions, every pair of a frontier and a reachable cell is tried, up to
   /// this many, before the map may be called explored.
