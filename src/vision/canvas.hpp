@@ -20,6 +20,7 @@ inline constexpr Colour kGridLine{228, 231, 236};
 inline constexpr Colour kFreeSpace{252, 252, 250};
 inline constexpr Colour kUnknownSpace{183, 189, 199};
 inline constexpr Colour kOccupiedSpace{29, 32, 40};
+inline constexpr Colour kPartlyOccupiedSpace{128, 130, 134};  // half-way: a column of cells both free and occupied
 inline constexpr Colour kStart{22, 145, 84};
 inline constexpr Colour kEnd{206, 43, 55};
 

@@ -67,6 +67,9 @@ void draw_views(MapSheet& sheet, const FloorPlanContent& content) {
 void draw_legend(MapSheet& sheet, const FloorPlanContent& content) {
   sheet.legend_swatch(drawing::kFreeSpace, "free");
   sheet.legend_swatch(drawing::kOccupiedSpace, "occupied");
+  if (!content.slice_z_m) {
+    sheet.legend_swatch(drawing::kPartlyOccupiedSpace, "free at some heights");
+  }
   sheet.legend_swatch(drawing::kUnknownSpace, "unknown");
   if (!content.travelled.empty()) {
     sheet.legend([](Canvas& canvas, cv::Point2d at) { draw_start(canvas, at); }, "start");

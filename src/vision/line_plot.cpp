@@ -19,7 +19,7 @@ using drawing::Colour;
 constexpr double kPanelWidth = 640.0;
 constexpr double kPanelHeight = 460.0;
 constexpr double kLeft = 82.0;
-constexpr double kRight = 36.0;
+constexpr double kRight = 78.0;  // holds the value at the end of a curve
 constexpr double kTop = 88.0;
 constexpr double kBottom = 66.0;
 constexpr double kText = 10.0;
@@ -123,8 +123,8 @@ void draw_series(Canvas& canvas, const LinePlot& plot, const Frame& frame, std::
   if (last) {
     const cv::Point2d end = frame.at(series.x[*last], std::clamp(series.y[*last], frame.y.low, frame.y.high));
     canvas.disc(end, 5.0, colour);
-    const double y = end.y + (end.y < frame.area.y + 0.5 * frame.area.height ? 26.0 : -14.0) + 18.0 * static_cast<double>(index);
-    canvas.label({end.x, y}, drawing::write_number(series.y[*last], 0.1) + plot.value_unit, kText + 1.0, colour, Align::Right);
+    canvas.label({end.x + 10.0, end.y + 0.5 * kText}, drawing::write_number(series.y[*last], 0.1) + plot.value_unit,
+                 kText, colour, Align::Left);
   }
 }
 
