@@ -33,13 +33,13 @@ struct BlocksAround {
   // `line` is z * 4 + y.
   template <std::size_t line>
   [[nodiscard]] VANTAGE_INLINE BlockSums sums() const {
-    constexpr std::size_t y = line % 4;
+    constexpr std::size_t kY = line % 4;
     const Lanes<float> here = load(own + line * 8);
     const std::array<Lanes<float>, 6> neighbour{
         shifted_up<float>(here, load(side[0] + line * 8)),
         shifted_down<float>(here, load(side[1] + line * 8)),
-        load(y > 0 ? own + (line - 1) * 8 : side[2] + (line + 3) * 8),
-        load(y < 3 ? own + (line + 1) * 8 : side[3] + (line - 3) * 8),
+        load(kY > 0 ? own + (line - 1) * 8 : side[2] + (line + 3) * 8),
+        load(kY < 3 ? own + (line + 1) * 8 : side[3] + (line - 3) * 8),
         load(line >= 4 ? own + (line - 4) * 8 : side[4] + (line + 12) * 8),
         load(line < 12 ? own + (line + 4) * 8 : side[5] + (line - 12) * 8)};
     const Lanes<std::uint32_t> counts = load(packed + line * 8);
@@ -68,12 +68,12 @@ struct Smooth {
   VANTAGE_INLINE void operator()() const {
     unrolled(
         [&](auto i) VANTAGE_INLINE_LAMBDA {
-          constexpr std::size_t z = i / 2;
-          constexpr std::size_t line = z * 4 + i % 2 * 2 + ((z ^ parity) & 1U);
-          const BlockSums sums = around.sums<line>();
-          const Lanes<float> own = load(x + line * 8);
-          const Lanes<float> step = (load(right + line * 8) + sums.inflow) / sums.diagonal - own;
-          store<float>(x + line * 8, sums.diagonal > 0.0F ? own + kWeight * step : own);
+          constexpr std::size_t kZ = i / 2;
+          constexpr std::size_t kLine = kZ * 4 + i % 2 * 2 + ((kZ ^ parity) & 1U);
+          const BlockSums sums = around.sums<kLine>();
+          const Lanes<float> own = load(x + kLine * 8);
+          const Lanes<float> step = (load(right + kLine * 8) + sums.inflow) / sums.diagonal - own;
+          store<float>(x + kLine * 8, sums.diagonal > 0.0F ? own + kWeight * step : own);
         },
         std::make_index_sequence<8>{});
   }

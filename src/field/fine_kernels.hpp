@@ -75,17 +75,17 @@ struct TwoLayers {
 /// Neighbours of the cells of `colour` in row `i` of two layers, as above.
 template <std::size_t colour, std::size_t i, class T>
 VANTAGE_INLINE SixNeighbours<T> neighbours(const TwoLayers<T>& other) {
-  constexpr std::size_t y = i % 8;
-  constexpr bool lower = i < 8;
-  constexpr bool starts_at_one = ((i ^ i >> 3U ^ colour) & 1U) != 0;
+  constexpr std::size_t kY = i % 8;
+  constexpr bool kLower = i < 8;
+  constexpr bool kStartsAtOne = ((i ^ i >> 3U ^ colour) & 1U) != 0;
   const Lanes<T> level = load(other.rows + i * 8);
-  const Lanes<T> beside = starts_at_one ? shifted_down<T>(level, load(other.side[1] + i * 8))
+  const Lanes<T> beside = kStartsAtOne ? shifted_down<T>(level, load(other.side[1] + i * 8))
                                         : shifted_up<T>(level, load(other.side[0] + i * 8));
   return {{level, beside,
-           load(y > 0 ? other.rows + (i - 1) * 8 : other.side[2] + (i + 7) * 8),
-           load(y < 7 ? other.rows + (i + 1) * 8 : other.side[3] + (i - 7) * 8),
-           load(lower ? other.below + i * 8 : other.rows + (i - 8) * 8),
-           load(lower ? other.rows + (i + 8) * 8 : other.above + (i - 8) * 8)}};
+           load(kY > 0 ? other.rows + (i - 1) * 8 : other.side[2] + (i + 7) * 8),
+           load(kY < 7 ? other.rows + (i + 1) * 8 : other.side[3] + (i - 7) * 8),
+           load(kLower ? other.below + i * 8 : other.rows + (i - 8) * 8),
+           load(kLower ? other.rows + (i + 8) * 8 : other.above + (i - 8) * 8)}};
 }
 
 /// Rows of two layers, and the lines of blocks over them.

@@ -71,7 +71,7 @@ bool OccupancyMap::contested(const VoxelIndex& cell) const {
   if (brick == nullptr || brick->at(offset) != Occupancy::Free) {
     return false;
   }
-  const int steps = brick->log_odds[offset];
+  const std::int8_t steps = brick->log_odds[offset];
   return steps > min_steps_ && steps % miss_steps_ != 0;
 }
 
