@@ -44,13 +44,13 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
         explore 'small house' 0.2 'harmonic nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4
         ;;
       house-fine)
-        explore 'small house' 0.1 'nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4 --max-views 1000
+        explore 'small house' 0.1 'nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4 --max-views 2000
         ;;
       collapsed-house)
-        explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/collapsed_house.ply --max-views 1000
+        explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/collapsed_house.ply --max-views 2000
         ;;
       office)
-        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/osrf_first_office.ply --max-views 1000
+        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/osrf_first_office.ply --max-views 2000
         ;;
       *)
         echo "results.sh: '$part' is none of house-coarse house-fine collapsed-house office" >&2

@@ -9,7 +9,10 @@
 namespace vantage {
 namespace {
 
-bool is_free(const OccupancyMap& map, const VoxelIndex& cell) { return map.at(cell) == Occupancy::Free; }
+// A contested cell holds a piece of a surface, free or not.
+bool is_free(const OccupancyMap& map, const VoxelIndex& cell) {
+  return map.at(cell) == Occupancy::Free && !map.contested(cell);
+}
 
 // The free cells of a box, as 1.
 VoxelGrid<std::uint8_t> free_cells(const OccupancyMap& map, const VoxelBox& box) {
@@ -18,7 +21,7 @@ VoxelGrid<std::uint8_t> free_cells(const OccupancyMap& map, const VoxelBox& box)
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
       for_each_offset(brick.free(word), word, [&](std::size_t offset) {
         const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
-        if (box.contains(cell)) {
+        if (box.contains(cell) && !map.contested(cell)) {
           free[cell] = 1;
         }
       });

@@ -15,7 +15,7 @@ struct FreeFlyerOptions {
   bool yaw_only = false;  ///< the optical axis stays level (a multirotor with a fixed camera, a ground robot)
 };
 
-/// A sphere that flies: every cell it touches must be known free.
+/// A sphere that flies: every cell it touches must be known free and not contested (OccupancyMap::contested).
 class FreeFlyer final : public Platform {
  public:
   FreeFlyer() : FreeFlyer(FreeFlyerOptions{}) {}

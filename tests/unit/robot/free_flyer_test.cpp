@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCell = 0.1;
 
-/// A block of known-free cells with single cells knocked out of it, occupied or unknown.
+/// A block of known-free cells with single cells knocked out of it: occupied, contested or unknown.
 OccupancyMap random_map(std::mt19937& engine, std::int32_t side, double blocked_share) {
   OccupancyMap map({.resolution_m = kCell});
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -21,20 +21,22 @@ OccupancyMap random_map(std::mt19937& engine, std::int32_t side, double blocked_
     const double draw = share(engine);
     if (draw > blocked_share) {
       map.set(cell, Occupancy::Free);
-    } else if (draw > 0.5 * blocked_share) {
+    } else if (draw > 0.6 * blocked_share) {
       map.set(cell, Occupancy::Occupied);
+    } else if (draw > 0.3 * blocked_share) {
+      map.set_log_odds(cell, 0.85 - 3 * 0.4);  // hit once, missed three times
     }
   });
   return map;
 }
 
-/// The definition, spelled out: every cell whose box comes nearer than the radius is free.
+/// The definition, spelled out: every cell whose box comes nearer than the radius is free for sure.
 bool sphere_is_free(const OccupancyMap& map, const Eigen::Vector3d& centre, double radius_m) {
   const VoxelIndex home = map.frame().cell_of(centre);
   bool free = true;
   for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(5), [&](const VoxelIndex& cell) {
     if (cell == home || map.frame().box_of(cell).distance_to(centre) < radius_m - 1e-9) {
-      free = free && map.at(cell) == Occupancy::Free;
+      free = free && map.at(cell) == Occupancy::Free && !map.contested(cell);
     }
   });
   return free;
