@@ -21,21 +21,39 @@ using detail::kOctomapDepth;
 using detail::kOctomapReach;
 using detail::OctomapLeaf;
 
-// A tree may set its threshold elsewhere than at 0; the state is what counts.
-double log_odds_of(const OctomapLeaf& leaf) {
-  return leaf.occupied ? std::max(leaf.log_odds, 0.0) : std::min(leaf.log_odds, -1e-9);
+// Whether a free leaf's log-odds mean to a map of these options what they mean to the tree that made them.
+enum class BeamModel : std::uint8_t { Same, Other };
+
+BeamModel beam_model_of(const octomap::OcTree& tree, const OccupancyMapOptions& options) {
+  constexpr double kRounding = 0.02;  // OctoMap states probabilities: 0.4 is -0.405
+  const bool same = std::abs(tree.getProbMissLog() - options.log_odds_miss) < kRounding &&
+                    std::abs(tree.getClampingThresMinLog() - options.log_odds_min) < kRounding;
+  return same ? BeamModel::Same : BeamModel::Other;
 }
 
-void write_leaf(const OctomapLeaf& leaf, OccupancyMap& map) {
+// A tree may set its threshold elsewhere than at 0; the state is what counts. What another beam model calls free is
+// brought to a whole number of our misses: else every free cell would look contested.
+double log_odds_of(const OctomapLeaf& leaf, BeamModel model, const OccupancyMapOptions& options) {
+  if (leaf.occupied) {
+    return std::max(leaf.log_odds, 0.0);
+  }
+  if (model == BeamModel::Same && leaf.log_odds < 0.0) {
+    return leaf.log_odds;
+  }
+  return std::max(1.0, std::round(leaf.log_odds / options.log_odds_miss)) * options.log_odds_miss;
+}
+
+void write_leaf(const OctomapLeaf& leaf, BeamModel model, OccupancyMap& map) {
   const std::int32_t edge = std::int32_t{1} << leaf.level;
-  map.set_log_odds(VoxelBox{leaf.first, leaf.first + VoxelIndex{edge, edge, edge}}, log_odds_of(leaf));
+  map.set_log_odds(VoxelBox{leaf.first, leaf.first + VoxelIndex{edge, edge, edge}},
+                   log_odds_of(leaf, model, map.options()));
 }
 
 // Fills a new map from anything that has `for_each_leaf(visit)`: once to count, so that what is too large costs nothing,
 // and once to write.
 template <class ForEachLeaf>
-OctomapImport import_leaves(double resolution_m, const OctomapImportOptions& options, const std::string& what,
-                            const ForEachLeaf& for_each_leaf) {
+OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapImportOptions& options,
+                            const std::string& what, const ForEachLeaf& for_each_leaf) {
   OccupancyMapOptions map_options = options.map;
   map_options.resolution_m = resolution_m;
   OctomapImport import{OccupancyMap(map_options)};
@@ -51,7 +69,7 @@ OctomapImport import_leaves(double resolution_m, const OctomapImportOptions& opt
     }
   });
   for_each_leaf([&](const OctomapLeaf& leaf) {
-    write_leaf(leaf, import.map);
+    write_leaf(leaf, model, import.map);
     const std::optional<double> held = import.map.log_odds(leaf.first);
     if (held && std::isfinite(leaf.log_odds)) {
       import.log_odds_rounding = std::max(import.log_odds_rounding, std::abs(*held - leaf.log_odds));
@@ -165,7 +183,7 @@ class OctreeWriter {
 
 OctomapImport load_octomap(const std::filesystem::path& path, const OctomapImportOptions& options) {
   const detail::OctomapFile file(path);
-  return import_leaves(file.resolution_m(), options, path.string(),
+  return import_leaves(file.resolution_m(), BeamModel::Same, options, path.string(),
                        [&](const std::function<void(const OctomapLeaf&)>& visit) { file.for_each_leaf(visit); });
 }
 
@@ -187,7 +205,7 @@ void save_octomap(const OccupancyMap& map, const std::filesystem::path& path) {
 std::unique_ptr<octomap::OcTree> to_octree(const OccupancyMap& map) { return make_octree(map, Keep::LogOdds); }
 
 OctomapImport from_octree(const octomap::OcTree& tree, const OctomapImportOptions& options) {
-  return import_leaves(tree.getResolution(), options, "from_octree",
+  return import_leaves(tree.getResolution(), beam_model_of(tree, options.map), options, "from_octree",
                        [&](const auto& visit) { for_each_leaf_of(tree, visit); });
 }
 
@@ -207,7 +225,7 @@ std::size_t OctomapFollower::update() {
     const VoxelIndex cell = cell_of(entry->first);
     const Occupancy before = map_.at(cell);
     if (const octomap::OcTreeNode* node = tree_.search(entry->first)) {
-      write_leaf({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)}, map_);
+      write_leaf({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)}, beam_model_of(tree_, map_.options()), map_);
     } else {
       map_.set(cell, Occupancy::Unknown);
     }

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vantage/planner/failed_views.hpp>
 
+#include "map/option_rule.hpp"
+
 namespace vantage {
 namespace {
 
@@ -12,7 +14,18 @@ int known_neighbours(const OccupancyMap& map, const VoxelIndex& cell) {
   }));
 }
 
+// As near as a robot comes to its goals: within a cell of the position, and ten degrees of the direction.
+bool arrived(const OccupancyMap& map, const Pose& goal, const Pose& current) {
+  constexpr double kCosine = 0.985;
+  return (goal.translation() - current.translation()).norm() <= map.resolution_m() &&
+         optical_axis(goal).dot(optical_axis(current)) >= kCosine;
+}
+
 }  // namespace
+
+FailedViews::FailedViews(int patience) : patience_(patience) {
+  detail::require_option(patience > 0, "FailedViews::patience", patience, "> 0");
+}
 
 void FailedViews::expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought) {
   expected_ = Expectation{goal, map.revision(), std::move(sought)};
@@ -24,15 +37,16 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
   }
   reviewed_ = map.revision();
   // By neighbours that are known, not by those that change their mind: surfaces flip between free and occupied for
-  // ever, while what is known only grows, so no cell gets more than six chances.
+  // ever, while what is known only grows, so no cell gets more than six chances
+  // (unless the host makes the map forget).
   std::erase_if(failures_, [&](const auto& entry) {
     const auto& [cell, failures] = entry;
     return map.at(cell) != Occupancy::Unknown || known_neighbours(map, cell) > failures.known_neighbours;
   });
-  if (!expected_ || expected_->revision >= map.revision() || !expected_->goal.isApprox(current, 1e-6)) {
+  if (!expected_ || expected_->revision >= map.revision() || !arrived(map, expected_->goal, current)) {
     return;
   }
-  const VoxelIndex viewpoint = map.frame().cell_of(current.translation());
+  const VoxelIndex viewpoint = map.frame().cell_of(expected_->goal.translation());
   for (const VoxelIndex& cell : expected_->sought) {
     if (map.at(cell) == Occupancy::Unknown) {
       Failures& failures = failures_[cell];

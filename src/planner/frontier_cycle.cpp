@@ -51,7 +51,8 @@ FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const
                        ? "no frontier is left"
                        : "no observable frontier is left; given up: " + std::to_string(left.unreachable) +
                              " unreachable, " + std::to_string(left.unobservable) + " unobservable, " +
-                             std::to_string(left.too_small) + " too small";
+                             std::to_string(left.too_small) + " too small" +
+                             (survey_.exhausted ? "" : " (not every line of sight was tried)");
   }
 }
 
@@ -92,6 +93,9 @@ void validate(const PlannerSetup& setup) {
 void validate(const FrontierSurveyOptions& options) {
   require_option(options.min_cluster_cells >= 1, "FrontierSurveyOptions::min_cluster_cells",
                  options.min_cluster_cells, ">= 1");
+  require_option(options.min_contested_cluster_cells >= 1, "FrontierSurveyOptions::min_contested_cluster_cells",
+                 options.min_contested_cluster_cells, ">= 1");
+  require_option(options.patience >= 1, "FrontierSurveyOptions::patience", options.patience, ">= 1");
   require_option(options.sight_directions >= 6, "FrontierSurveyOptions::sight_directions", options.sight_directions,
                  ">= 6");
 }

@@ -46,6 +46,7 @@ FrontierGainPlanner::FrontierGainPlanner(const PlannerSetup& setup, const Fronti
     : setup_(setup), options_(options) {
   detail::validate(setup);
   validate(options);
+  failed_ = FailedViews(options.survey.patience);
 }
 
 Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <unordered_set>
@@ -60,11 +61,16 @@ class ViewpointSearch {
     }
     return std::nullopt;
   }
-  std::optional<VoxelIndex> try_all(const VoxelIndex& unknown) {
+  // Tries every reachable cell, while there are pairs left to try.
+  std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
     if (!can_be_seen(unknown)) {
       return std::nullopt;
     }
     for (const VoxelIndex& cell : reachable_.cells()) {
+      if (pairs == 0) {
+        return std::nullopt;
+      }
+      --pairs;
       if (serves(cell, unknown)) {
         return cell;
       }
@@ -153,9 +159,9 @@ bool near_contested(const OccupancyMap& map, const std::vector<VoxelIndex>& clus
   });
 }
 
-// Leaves the targets in clusters that are worth a view; returns how many it took out.
-std::size_t drop_small_clusters(const OccupancyMap& map, const FrontierSurveyOptions& options,
-                                std::vector<FrontierTarget>& targets) {
+// The targets in clusters that are worth a view.
+std::vector<FrontierTarget> large_clusters(const OccupancyMap& map, const FrontierSurveyOptions& options,
+                                           const std::vector<FrontierTarget>& targets) {
   std::vector<VoxelIndex> cells;
   cells.reserve(targets.size());
   for (const FrontierTarget& target : targets) {
@@ -168,8 +174,10 @@ std::size_t drop_small_clusters(const OccupancyMap& map, const FrontierSurveyOpt
       small.insert(cluster.begin(), cluster.end());
     }
   }
-  std::erase_if(targets, [&](const FrontierTarget& target) { return small.contains(target.frontier); });
-  return small.size();
+  std::vector<FrontierTarget> large;
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(large),
+               [&](const FrontierTarget& target) { return !small.contains(target.frontier); });
+  return large;
 }
 
 // Whether the platform comes close: some reachable cell lies within half its body, and one cell more.
@@ -208,13 +216,22 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
         hidden.push_back(cell);
       }
     }
-    survey.leftover.too_small = drop_small_clusters(map, options, survey.targets);
     // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
-    if (survey.targets.empty() && hidden.size() * survey.reachable.size() <= options.exhaustive_pairs) {
+    if (std::vector<FrontierTarget> large = large_clusters(map, options, survey.targets); !large.empty()) {
+      survey.leftover.too_small = survey.targets.size() - large.size();
+      survey.targets = std::move(large);
+    } else {
+      std::size_t pairs = options.exhaustive_pairs;
       std::erase_if(hidden, [&](const VoxelIndex& cell) {
-        return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown); });
+        return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
       });
-      survey.leftover.too_small += drop_small_clusters(map, options, survey.targets);
+      survey.exhausted = pairs > 0;
+      std::sort(survey.targets.begin(), survey.targets.end(), [](const FrontierTarget& a, const FrontierTarget& b) {
+        return RasterOrder{}(a.frontier, b.frontier);
+      });
+      large = large_clusters(map, options, survey.targets);
+      survey.leftover.too_small = survey.targets.size() - large.size();
+      survey.targets = std::move(large);
     }
     survey.ray_operations = search.operations();
   } else {

@@ -75,11 +75,11 @@ std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const P
 }  // namespace
 
 HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options)
-    : setup_(setup), options_(options), failed_(options.patience) {
+    : setup_(setup), options_(options) {
   detail::validate(setup);
   detail::validate(options.survey);
-  detail::require_option(options.patience >= 1, "HarmonicOptions::patience", options.patience, ">= 1");
   relaxation_options(options).validate();
+  failed_ = FailedViews(options.survey.patience);
 }
 
 Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {

@@ -88,6 +88,7 @@ class SettingReader {
 SettingReader& read_survey(SettingReader& read, FrontierSurveyOptions& options) {
   return read.number("min_cluster_cells", options.min_cluster_cells)
       .number("min_contested_cluster_cells", options.min_contested_cluster_cells)
+      .number("patience", options.patience)
       .number("sight_directions", options.sight_directions)
       .number("exhaustive_pairs", options.exhaustive_pairs);
 }
@@ -122,7 +123,6 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
       .number("max_sweeps", options.max_sweeps)
       .number("over_relaxation", options.over_relaxation)
       .number("uniform_source", options.uniform_source)
-      .number("patience", options.patience)
       .done();
   return std::make_unique<HarmonicPlanner>(setup, options);
 }

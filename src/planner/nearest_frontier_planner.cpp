@@ -12,6 +12,7 @@ NearestFrontierPlanner::NearestFrontierPlanner(const PlannerSetup& setup, const 
     : setup_(setup), options_(options) {
   detail::validate(setup);
   detail::validate(options);
+  failed_ = FailedViews(options.patience);
 }
 
 Plan NearestFrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {

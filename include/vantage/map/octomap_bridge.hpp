@@ -15,7 +15,10 @@ namespace vantage {
 
 /// How an octree becomes an OccupancyMap.
 struct OctomapImportOptions {
-  /// The map to make; its `resolution_m` is not used: the octree brings its own.
+  /// The map to make; its `resolution_m` is not used: the octree brings its own. An `.ot` does not name the beam model
+  /// that made it: give the constants of its maker here, or its free cells may look contested
+  /// (OccupancyMap::contested). An octree in memory names its own; where it differs, free cells come in as the nearest
+  /// whole number of misses.
   OccupancyMapOptions map = {};
   /// Refuse an octree whose leaves, expanded to finest cells, are more than this: one leaf near the root of a damaged
   /// file would otherwise fill the memory. About 1.3 bytes a cell.

@@ -65,7 +65,7 @@ struct Plan {
   Outcome outcome = Outcome::Blocked;  ///< what to do now
   View goal;  ///< the view to take; meaningful if outcome is Move
   std::vector<Pose> path;  ///< from the current pose to goal.pose, both included; empty unless outcome is Move
-  /// The unknown cells that the view is to resolve. Once scans on the way have made all of them known, the rest of the
+  /// The unknown cells that the view is to resolve, once for every frontier cell beside them. Once scans on the way have made all of them known, the rest of the
   /// way is not worth following: plan again. Empty if the planner cannot say.
   std::vector<VoxelIndex> sought;
   Leftover leftover;  ///< what was given up
@@ -78,7 +78,7 @@ struct Plan {
 ///
 /// Every planner keeps this contract, and one test suite holds all of them to it: the path starts at `current`, ends at
 /// `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored exactly when nothing
-/// observable is left; the same map, pose and seed give the same plan for any number of threads; planning twice without
+/// observable is left but what the options leave as too small; the same map, pose and seed give the same plan for any number of threads; planning twice without
 /// a new scan changes nothing; and but for the memory of failed goals a planner holds nothing that the map cannot
 /// rebuild.
 class ExplorationPlanner {

@@ -28,22 +28,24 @@ struct FrontierSurveyOptions {
   /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear surfaces
   /// away, false frontiers of a few cells open without end.
   std::size_t min_contested_cluster_cells = 32;
+  int patience = 2;  ///< places from which a view of a cell may fail before it is given up (FailedViews), >= 1
   std::size_t sight_directions = 512; ///< directions in which an unknown cell looks back for a viewpoint, >= 6
-  /// When nothing is observable along those directions, every pair of a frontier and a reachable cell is tried, up to
-  /// this many, before the map may be called explored.
-  std::size_t exhaustive_pairs = 1'000'000;
+  /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are tried
+  /// one by one before the map may be called explored: all of them, or this many, and the plan says so.
+  std::size_t exhaustive_pairs = 3'000'000;
 };
 
 /// Where the platform can go, which frontier cells are left and which of them some reachable pose can resolve: the
 /// definitions of "reachable", "observable" and "leftover" that all planners share.
 ///
 /// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one of
-/// its unknown face neighbours passes free cells only, is between the sensor's shortest and longest range, and falls
+/// its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest and longest range, and falls
 /// into its field of view in an orientation that the platform can take there.
 struct FrontierSurvey {
   ReachableSpace reachable;  ///< cells the platform can bring the sensor to
   std::vector<FrontierTarget> targets = {};  ///< the observable frontier cells, in raster order of `frontier`
   std::size_t frontier_cells = 0;       ///< all of them, inside the region
+  bool exhausted = true;  ///< false: FrontierSurveyOptions::exhaustive_pairs ran out before every pair was tried
   Leftover leftover = {};  ///< frontier cells given up, by cause
   std::uint64_t ray_operations = 0;     ///< cells visited while looking for lines of sight
 };
@@ -53,7 +55,8 @@ struct FrontierSurvey {
                                               const RangeSensor& sensor, const Pose& current,
                                               const FrontierSurveyOptions& options, const FailedViews& failed);
 
-/// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free.
+/// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free
+/// and not contested.
 /// `operations` counts the cells visited.
 [[nodiscard]] bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                                   std::uint64_t& operations);

@@ -32,7 +32,6 @@ struct HarmonicOptions {
   std::size_t max_sweeps = 50000;      ///< of the relaxation; no plan takes more, > 0
   double over_relaxation = 1.0;        ///< in (0, 2); 1 is Gauss-Seidel
   double uniform_source = 1e-4;        ///< see RelaxationOptions; 0 is the field of the paper
-  int patience = 2;  ///< cells from which a view of a cell may fail before it is given up, > 0
   FrontierSurveyOptions survey = {};   ///< what counts as observable
 };
 

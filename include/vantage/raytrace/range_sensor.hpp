@@ -59,8 +59,8 @@ struct RangeSensor {
   [[nodiscard]] double horizontal_angle_rad() const;
   /// Full vertical angle of view, radians.
   [[nodiscard]] double vertical_angle_rad() const;
-  /// How far from the sensor neighbouring rays are at most `cell_m` apart, metres: nearer than that no cell of this size
-  /// slips between them. Not limited by the range.
+  /// How far from the sensor neighbouring rays are at most `cell_m` apart, metres: nearer than that hardly a cell of this
+  /// size slips between them (only one turned against the rows of pixels). Not limited by the range.
   [[nodiscard]] double resolving_range_m(double cell_m) const;
   /// The same sensor with just enough columns and rows that neighbouring rays are at most `cell_m` apart at the maximum
   /// range (Vasquez-Gomez et al. 2013, eq. 6); never more than it has.

@@ -202,7 +202,29 @@ TEST(OctomapBridge, ATreesOwnThresholdDecidesWhatIsOccupied) {
   EXPECT_EQ(import.map.at({1, 2, 3}), Occupancy::Free);
   EXPECT_EQ(import.map.at({1, 2, 4}), Occupancy::Free);
   EXPECT_EQ(import.map.at({1, 2, 5}), Occupancy::Occupied);
-  EXPECT_NEAR(import.log_odds_rounding, 0.45, 1e-6);
+  EXPECT_FALSE(import.map.contested({1, 2, 3}));
+  EXPECT_NEAR(import.log_odds_rounding, 0.8, 1e-6);
+}
+
+// Scans of a wall in a tree with other constants: its free cells are free, not contested.
+TEST(OctomapBridge, FreeCellsOfAnotherBeamModelAreNotContested) {
+  octomap::OcTree tree(0.1);
+  tree.setProbMiss(0.45);
+  tree.setClampingThresMin(0.2);
+  octomap::Pointcloud wall;
+  for (float y = -1.0F; y < 1.0F; y += 0.05F) {
+    wall.push_back(2.0F, y, 0.05F);
+  }
+  for (int scan = 0; scan < 3; ++scan) {
+    tree.insertPointCloud(wall, octomap::point3d(0.05F, 0.05F, 0.05F));
+  }
+  const OctomapImport import = from_octree(tree);
+  std::size_t free = 0;
+  import.map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+    free += occupancy == Occupancy::Free ? 1U : 0U;
+    EXPECT_FALSE(import.map.contested(cell));
+  });
+  EXPECT_GT(free, 100U);
 }
 
 TEST(OctomapBridge, ImportsOnlyTheRegion) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <vantage/planner/failed_views.hpp>
 
 namespace vantage {
@@ -48,11 +49,13 @@ TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {
   failed.review(map, goal);
   EXPECT_FALSE(failed.gave_up(kUnknown)) << "the map is what it was: no view was taken";
   map.set_log_odds(VoxelIndex{0, 0, 0}, -1.0);
-  failed.review(map, pose_looking({0.7, 1.1, 1.1}, 0.0));
+  failed.review(map, pose_looking({0.75, 1.1, 1.1}, 0.0));  // more than a cell away
+  failed.review(map, pose_looking({0.5, 1.1, 1.1}, 0.3));    // more than ten degrees off
   EXPECT_FALSE(failed.gave_up(kUnknown)) << "the sensor is elsewhere";
   map.set_log_odds(VoxelIndex{0, 0, 0}, -1.2);
-  failed.review(map, goal);
-  EXPECT_TRUE(failed.gave_up(kUnknown));
+  failed.review(map, pose_looking({0.55, 1.1, 1.05}, 0.1));
+  EXPECT_TRUE(failed.gave_up(kUnknown)) << "as near as robots come to their goals";
+  EXPECT_THROW(FailedViews(0), std::invalid_argument);
 }
 
 TEST(FailedViews, ForgetsWhenMoreOfTheNeighboursBecomesKnownNotWhenTheyChangeTheirMind) {

@@ -176,7 +176,7 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   };
   const PlannerSetup setup = setup_with(all_around());
   EXPECT_EQ(message(setup, {}), "");
-  EXPECT_NE(message(setup, {.patience = 0}).find("HarmonicOptions::patience"), std::string::npos);
+  EXPECT_NE(message(setup, {.survey = {.patience = 0}}).find("FrontierSurveyOptions::patience"), std::string::npos);
   EXPECT_NE(message(setup, {.tolerance = -1.0}).find("tolerance"), std::string::npos);
   EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"), std::string::npos);
   HarmonicPlanner planner(setup);
