@@ -4,10 +4,10 @@
 # house-coarse house-fine collapsed-house office (default: all of them). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage names another).
 # Reports that lie in the folder RESULTS (default: build/results) already are not made again.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+here="$(cd "$(dirname "$0")/.." && pwd)"
 : "${VANTAGE_DATA:?must name the folder with the worlds}"
-vantage=${VANTAGE:-build/release/bin/vantage}
-results=${RESULTS:-build/results}
+vantage=${VANTAGE:-$here/build/release/bin/vantage}
+results=${RESULTS:-$here/build/results}
 seeds=${SEEDS:-1 2 3 4 5}
 mkdir -p "$results"
 

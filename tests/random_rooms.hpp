@@ -15,13 +15,13 @@ namespace vantage {
 
 /// How a seeded world for the field looks.
 struct RoomsOptions {
-  VoxelIndex extent{48, 48, 48};     ///< cells, the closed shell included
-  std::int32_t room_cells = 16;      ///< from wall to wall
-  std::int32_t door_cells = 4;       ///< edge of a door
-  std::int32_t wall_cells = 1;       ///< thickness of a wall, 0: none
-  double doors = 0.6;                ///< share of the walls between two rooms that have one
-  double clutter = 0.0002;           ///< boxes of up to 5 cells, per cell
-  double unexplored = 0.3;           ///< share of the diagonal that is still unknown
+  VoxelIndex extent{48, 48, 48};  ///< cells, the closed shell included
+  std::int32_t room_cells = 16;   ///< from wall to wall
+  std::int32_t door_cells = 4;    ///< edge of a door
+  std::int32_t wall_cells = 1;    ///< thickness of a wall, 0: none
+  double doors = 0.6;             ///< share of the walls between two rooms that have one
+  double clutter = 0.0002;        ///< boxes of up to 5 cells, per cell
+  double unexplored = 0.3;        ///< share of the diagonal that is still unknown
   std::uint32_t seed = 1;
 };
 
@@ -29,7 +29,7 @@ struct RoomsOptions {
 struct RandomRooms {
   std::vector<VoxelIndex> cells;  ///< free and known, in raster order, other components included
   std::vector<VoxelIndex> sinks;
-  VoxelIndex source;              ///< a cell of the largest component, towards the low corner
+  VoxelIndex source;  ///< a cell of the largest component, towards the low corner
   VoxelBox box;
 
   explicit RandomRooms(const RoomsOptions& options) : box{{0, 0, 0}, options.extent} {
@@ -61,48 +61,53 @@ struct RandomRooms {
     return to <= from ? from : std::uniform_int_distribution<std::int32_t>(from, to)(engine);
   }
   void fill(State& state, const VoxelBox& part, std::uint8_t value) const {
-    const VoxelBox inside{{std::max(part.lo.x, 1), std::max(part.lo.y, 1), std::max(part.lo.z, 1)},
-                          {std::min(part.hi.x, box.hi.x - 1), std::min(part.hi.y, box.hi.y - 1),
-                           std::min(part.hi.z, box.hi.z - 1)}};
+    const VoxelBox inside{
+        {std::max(part.lo.x, 1), std::max(part.lo.y, 1), std::max(part.lo.z, 1)},
+        {std::min(part.hi.x, box.hi.x - 1), std::min(part.hi.y, box.hi.y - 1), std::min(part.hi.z, box.hi.z - 1)}};
     for_each_cell(inside, [&](const VoxelIndex& cell) { state[cell] = value; });
   }
   void build(State& state, const RoomsOptions& o, std::mt19937& engine) const {
     const auto in_wall = [&](std::int32_t at) { return at % o.room_cells >= o.room_cells - o.wall_cells; };
     for_each_cell(box, [&](const VoxelIndex& c) {
-      const bool shell = c.x == 0 || c.y == 0 || c.z == 0 || c.x == box.hi.x - 1 || c.y == box.hi.y - 1 || c.z == box.hi.z - 1;
+      const bool shell =
+          c.x == 0 || c.y == 0 || c.z == 0 || c.x == box.hi.x - 1 || c.y == box.hi.y - 1 || c.z == box.hi.z - 1;
       state[c] = shell || in_wall(c.x) || in_wall(c.y) || in_wall(c.z) ? kWall : kFree;
     });
     std::bernoulli_distribution has_door(o.doors);
     const std::int32_t inner = o.room_cells - o.wall_cells;
-    for_each_cell({{0, 0, 0}, {box.hi.x / o.room_cells + 1, box.hi.y / o.room_cells + 1, box.hi.z / o.room_cells + 1}},
-                  [&](const VoxelIndex& room) {
-                    const VoxelIndex corner{room.x * o.room_cells, room.y * o.room_cells, room.z * o.room_cells};
-                    for (int axis = 0; axis < 3; ++axis) {
-                      if (!has_door(engine)) {
-                        continue;
-                      }
-                      const auto along = [&](int which) {
-                        return which == axis ? inner : draw(engine, 1, inner - o.door_cells);
-                      };
-                      const auto size = [&](int which) { return which == axis ? o.wall_cells : o.door_cells; };
-                      const VoxelIndex lo = corner + VoxelIndex{along(0), along(1), along(2)};
-                      fill(state, {lo, lo + VoxelIndex{size(0), size(1), size(2)}}, kFree);
-                    }
-                  });
+    for_each_cell(
+        {{0, 0, 0}, {box.hi.x / o.room_cells + 1, box.hi.y / o.room_cells + 1, box.hi.z / o.room_cells + 1}},
+        [&](const VoxelIndex& room) {
+          const VoxelIndex corner{room.x * o.room_cells, room.y * o.room_cells, room.z * o.room_cells};
+          for (int axis = 0; axis < 3; ++axis) {
+            if (!has_door(engine)) {
+              continue;
+            }
+            const auto along = [&](int which) {
+              return which == axis ? inner : draw(engine, 1, inner - o.door_cells);
+            };
+            const auto size = [&](int which) { return which == axis ? o.wall_cells : o.door_cells; };
+            const VoxelIndex lo = corner + VoxelIndex{along(0), along(1), along(2)};
+            fill(state, {lo, lo + VoxelIndex{size(0), size(1), size(2)}}, kFree);
+          }
+        });
     const auto boxes = static_cast<std::int32_t>(o.clutter * static_cast<double>(box.size()));
     for (std::int32_t i = 0; i < boxes; ++i) {
-      const VoxelIndex lo{draw(engine, 0, box.hi.x - 1), draw(engine, 0, box.hi.y - 1), draw(engine, 0, box.hi.z - 1)};
+      const VoxelIndex lo{draw(engine, 0, box.hi.x - 1), draw(engine, 0, box.hi.y - 1),
+                          draw(engine, 0, box.hi.z - 1)};
       fill(state, {lo, lo + VoxelIndex{draw(engine, 1, 5), draw(engine, 1, 5), draw(engine, 1, 5)}}, kWall);
     }
   }
   // Unknown: what lies beyond a tilted plane, and in a ball.
   void explore(State& state, const RoomsOptions& o, std::mt19937& engine) const {
     const double longest = std::max({box.hi.x, box.hi.y, box.hi.z});
-    const VoxelIndex centre{draw(engine, 0, box.hi.x - 1), draw(engine, 0, box.hi.y - 1), draw(engine, 0, box.hi.z - 1)};
+    const VoxelIndex centre{draw(engine, 0, box.hi.x - 1), draw(engine, 0, box.hi.y - 1),
+                            draw(engine, 0, box.hi.z - 1)};
     for_each_cell(box, [&](const VoxelIndex& c) {
       const double along = 0.5 * c.x / box.hi.x + 0.3 * c.y / box.hi.y + 0.2 * c.z / box.hi.z;
       const VoxelIndex d = c - centre;
-      const double distance = std::sqrt(static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y + static_cast<double>(d.z) * d.z);
+      const double distance =
+          std::sqrt(static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y + static_cast<double>(d.z) * d.z);
       if (along > 1.0 - o.unexplored || distance < 0.08 * longest) {
         state[c] = kUnknown;
       }
@@ -110,9 +115,8 @@ struct RandomRooms {
   }
   void collect(const State& state) {
     const auto is_sink = [&](const VoxelIndex& cell) {
-      return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
-        return state.value_or(cell + step, kWall) == kUnknown;
-      });
+      return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                         [&](const VoxelIndex& step) { return state.value_or(cell + step, kWall) == kUnknown; });
     };
     for_each_cell(box, [&](const VoxelIndex& cell) {
       if (state[cell] == kFree) {

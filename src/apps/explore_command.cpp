@@ -38,8 +38,8 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
   const double cells = (region.extent() / request.resolution_m).prod();
   if (!(cells <= kMostCells)) {
     std::ostringstream message;
-    message << "--resolution " << request.resolution_m << " makes " << cells << " cells of the region, must be at most "
-            << kMostCells;
+    message << "--resolution " << request.resolution_m << " makes " << cells
+            << " cells of the region, must be at most " << kMostCells;
     throw std::invalid_argument(message.str());
   }
   if (start && !region.contains(start->translation())) {

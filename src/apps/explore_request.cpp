@@ -95,7 +95,8 @@ std::optional<Pose> start_of(const ExploreRequest& request) {
   }
   const std::vector<double> n = numbers_of("--start", request.start);
   if (n.size() < 3 || n.size() > 5) {
-    throw std::invalid_argument("--start has " + std::to_string(n.size()) + " numbers, must be x,y,z[,yaw_deg[,pitch_deg]]");
+    throw std::invalid_argument("--start has " + std::to_string(n.size()) +
+                                " numbers, must be x,y,z[,yaw_deg[,pitch_deg]]");
   }
   constexpr double kRadians = std::numbers::pi / 180.0;
   return pose_looking({n[0], n[1], n[2]}, n.size() > 3 ? n[3] * kRadians : 0.0, n.size() > 4 ? n[4] * kRadians : 0.0);

@@ -43,7 +43,9 @@ double median(std::vector<double> values) {
 }
 
 std::string times(const char* what, const std::vector<double>& ms) {
-  return ms.empty() ? "" : format("  %-12s median %.1f ms, longest %.1f ms\n", what, median(ms), *std::max_element(ms.begin(), ms.end()));
+  return ms.empty() ? ""
+                    : format("  %-12s median %.1f ms, longest %.1f ms\n", what, median(ms),
+                             *std::max_element(ms.begin(), ms.end()));
 }
 
 }  // namespace
@@ -76,12 +78,14 @@ void RunPrinter::summary(const RunRecord& record) {
   out_ << "\n  " << format("%-12s ", "outcome") << to_string(record.outcome) << ": " << record.reason << '\n'
        << format("  %-12s %zu, over a path of %.1f m\n", "views", record.views.size(), record.path_length_m());
   if (record.coverage) {
-    out_ << format("  %-12s %.2f %% of %zu observable cells\n", "coverage", 100.0 * *record.coverage, record.observable_cells);
+    out_ << format("  %-12s %.2f %% of %zu observable cells\n", "coverage", 100.0 * *record.coverage,
+                   record.observable_cells);
   }
-  out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu too small\n", "left over", record.leftover.unreachable,
-                 record.leftover.unobservable, record.leftover.too_small)
+  out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu too small\n", "left over",
+                 record.leftover.unreachable, record.leftover.unobservable, record.leftover.too_small)
        << format("  %-12s %zu\n", "collisions", record.collisions) << times("inserting", insert_ms)
-       << times("planning", plan_ms) << format("  %-12s %.0f MB at most\n", "memory", record.peak_memory_mb) << std::flush;
+       << times("planning", plan_ms) << format("  %-12s %.0f MB at most\n", "memory", record.peak_memory_mb)
+       << std::flush;
 }
 
 }  // namespace vantage::apps

@@ -20,7 +20,9 @@ struct Octet {
       : first(number / 8 * 64 + number / 4 % 2 * 16 + number % 4 * 2),
         in_brick{static_cast<std::int32_t>(number % 4), static_cast<std::int32_t>(number / 4 % 2),
                  static_cast<std::int32_t>(number / 8)} {}
-  [[nodiscard]] std::size_t block(std::size_t i) const { return first + (i & 1U) + (i >> 1U & 1U) * 8 + (i >> 2U) * 32; }
+  [[nodiscard]] std::size_t block(std::size_t i) const {
+    return first + (i & 1U) + (i >> 1U & 1U) * 8 + (i >> 2U) * 32;
+  }
 };
 
 // The blocks of an octet joined to its block `seed`.

@@ -9,8 +9,8 @@
 namespace vantage::detail {
 namespace {
 
-// Rows couple along x within themselves, which is relaxed with the old values (Jacobi): by a little less than fully, so
-// that it still smooths where a corridor leaves nothing but that.
+// Rows couple along x within themselves, which is relaxed with the old values (Jacobi): by a little less than fully,
+// so that it still smooths where a corridor leaves nothing but that.
 constexpr float kWeight = 0.95F;
 
 struct BlockSums {
@@ -35,25 +35,25 @@ struct BlocksAround {
   [[nodiscard]] VANTAGE_INLINE BlockSums sums() const {
     constexpr std::size_t kY = line % 4;
     const Lanes<float> here = load(own + line * 8);
-    const std::array<Lanes<float>, 6> neighbour{
-        shifted_up<float>(here, load(side[0] + line * 8)),
-        shifted_down<float>(here, load(side[1] + line * 8)),
-        load(kY > 0 ? own + (line - 1) * 8 : side[2] + (line + 3) * 8),
-        load(kY < 3 ? own + (line + 1) * 8 : side[3] + (line - 3) * 8),
-        load(line >= 4 ? own + (line - 4) * 8 : side[4] + (line + 12) * 8),
-        load(line < 12 ? own + (line + 4) * 8 : side[5] + (line - 12) * 8)};
+    const std::array<Lanes<float>, 6> neighbour{shifted_up<float>(here, load(side[0] + line * 8)),
+                                                shifted_down<float>(here, load(side[1] + line * 8)),
+                                                load(kY > 0 ? own + (line - 1) * 8 : side[2] + (line + 3) * 8),
+                                                load(kY < 3 ? own + (line + 1) * 8 : side[3] + (line - 3) * 8),
+                                                load(line >= 4 ? own + (line - 4) * 8 : side[4] + (line + 12) * 8),
+                                                load(line < 12 ? own + (line + 4) * 8 : side[5] + (line - 12) * 8)};
     const Lanes<std::uint32_t> counts = load(packed + line * 8);
     BlockSums sums{};
     for (std::uint32_t face = 0; face < 6; ++face) {
       const Lanes<std::uint32_t> faces = counts >> (3U * face) & 7U;
-      const Lanes<float> conductance = __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(faces), Lanes<float>);
+      const Lanes<float> conductance =
+          __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(faces), Lanes<float>);
       sums.inflow += conductance * neighbour[face];
       sums.diagonal += conductance;
     }
     const Lanes<std::uint32_t> leaks = counts >> 18U;
     sums.inflow *= 0.5F;
-    sums.diagonal =
-        0.5F * sums.diagonal + __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(leaks), Lanes<float>);
+    sums.diagonal = 0.5F * sums.diagonal +
+                    __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(leaks), Lanes<float>);
     return sums;
   }
 };

@@ -10,15 +10,15 @@
 namespace vantage::detail {
 
 /// The first coarse level: one unknown per 2 x 2 x 2 cells, in the bricks of the fine level. Between two blocks the
-/// conductance is half the number of open faces between their cells, half because their centres lie twice as far apart;
-/// to sinks it is the number of faces. A block is packed in 32 bits: six counts of 3 bits in the order of
+/// conductance is half the number of open faces between their cells, half because their centres lie twice as far
+/// apart; to sinks it is the number of faces. A block is packed in 32 bits: six counts of 3 bits in the order of
 /// kFaceNeighbours, then 5 bits for the faces to sinks.
 ///
-/// A block may hold cells that are not joined within it; it is so rare for walls at least a cell thick that it does not
-/// show in the number of iterations.
+/// A block may hold cells that are not joined within it; it is so rare for walls at least a cell thick that it does
+/// not show in the number of iterations.
 struct BlockLevel {
-  AlignedVector<float> x;      ///< the correction
-  AlignedVector<float> right;  ///< the right hand side
+  AlignedVector<float> x;           ///< the correction
+  AlignedVector<float> right;       ///< the right hand side
   std::vector<std::uint32_t> node;  ///< of the graph that comes next; one past its last where there is no block
 
   explicit BlockLevel(const FineLevel& fine);

@@ -32,13 +32,15 @@ double BrickSolver::advance(float step) {
   in_waves(
       fine_,
       [&](std::size_t b) {
-        run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b), step, kWeight,
-                    &sums_[b]});
+        run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b),
+                    at(z_, b), step, kWeight, &sums_[b]});
       },
-      [&](std::size_t b) { run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)}); },
       [&](std::size_t b) {
-        run(BlackRestrict{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(z_, b), Around<float>(fine_, red_, b),
-                          coarse_.right(b)});
+        run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
+      },
+      [&](std::size_t b) {
+        run(BlackRestrict{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(z_, b),
+                          Around<float>(fine_, red_, b), coarse_.right(b)});
       });
   return total();
 }
@@ -48,11 +50,15 @@ double BrickSolver::correct() {
   coarse_.solve(fine_);
   in_waves(
       fine_,
-      [&](std::size_t b) { run(BlackProlong{fine_.faces[kBlack].data() + b * kBrickRows, coarse_.correction(b), at(z_, b)}); },
-      [&](std::size_t b) { run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)}); },
       [&](std::size_t b) {
-        run(BlackSmooth{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), Around<float>(fine_, red_, b), at(z_, b), kWeight,
-                        &sums_[b]});
+        run(BlackProlong{fine_.faces[kBlack].data() + b * kBrickRows, coarse_.correction(b), at(z_, b)});
+      },
+      [&](std::size_t b) {
+        run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
+      },
+      [&](std::size_t b) {
+        run(BlackSmooth{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), Around<float>(fine_, red_, b),
+                        at(z_, b), kWeight, &sums_[b]});
       });
   return total();
 }
@@ -60,10 +66,16 @@ double BrickSolver::correct() {
 // p = z + share p, q = S p. Returns p * q.
 double BrickSolver::turn(float share) {
   in_waves(
-      fine_, [&](std::size_t b) { run(Turn{at(z_, b), at(p_, b), share}); },
-      [&](std::size_t b) { run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, p_, b), at(red_, b)}); },
+      fine_,
       [&](std::size_t b) {
-        run(BlackApply{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), Around<float>(fine_, red_, b), at(q_, b), &sums_[b]});
+        run(Turn{at(z_, b), at(p_, b), share});
+      },
+      [&](std::size_t b) {
+        run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, p_, b), at(red_, b)});
+      },
+      [&](std::size_t b) {
+        run(BlackApply{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), Around<float>(fine_, red_, b),
+                       at(q_, b), &sums_[b]});
       });
   return total();
 }
@@ -105,8 +117,7 @@ void BrickSolver::apply(const HalfField<float>& in, HalfField<float>& out) {
 }
 
 std::size_t BrickSolver::memory_bytes() const {
-  return fine_.memory_bytes() + coarse_.memory_bytes() + bytes_of(sums_) +
-         6 * bytes_of(x_);
+  return fine_.memory_bytes() + coarse_.memory_bytes() + bytes_of(sums_) + 6 * bytes_of(x_);
 }
 
 }  // namespace vantage::detail

@@ -9,8 +9,9 @@
 
 namespace vantage::detail {
 
-/// Conjugate gradients in float on the black cells, the red ones solved for (Schur complement), with one multigrid cycle
-/// as preconditioner: a relaxation of the black cells before the correction of the coarser levels and one after it.
+/// Conjugate gradients in float on the black cells, the red ones solved for (Schur complement), with one multigrid
+/// cycle as preconditioner: a relaxation of the black cells before the correction of the coarser levels and one after
+/// it.
 class BrickSolver {
  public:
   explicit BrickSolver(FineLevel fine);
@@ -19,7 +20,8 @@ class BrickSolver {
   [[nodiscard]] std::size_t level_count() const { return 1 + coarse_.level_count(); }
   /// The right hand side, to be written before `solve`; overwritten by the residual.
   [[nodiscard]] HalfField<float>& right() { return r_; }
-  /// Starts from zero, until the residual has fallen by `reduction` or `most` iterations are done; returns their number.
+  /// Starts from zero, until the residual has fallen by `reduction` or `most` iterations are done; returns their
+  /// number.
   std::size_t solve(double reduction, std::size_t most);
   /// What `solve` found.
   [[nodiscard]] const HalfField<float>& solution() const { return x_; }

@@ -11,10 +11,10 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kSweeps = 2;               // before and after the correction of the next level
-constexpr int kCycles = 2;               // per visit: W
-constexpr std::size_t kDirect = 100;     // unknowns that are solved outright
-constexpr int kSweepsOfMany = 20;        // on the last level where it is larger than that
+constexpr int kSweeps = 2;            // before and after the correction of the next level
+constexpr int kCycles = 2;            // per visit: W
+constexpr std::size_t kDirect = 100;  // unknowns that are solved outright
+constexpr int kSweepsOfMany = 20;     // on the last level where it is larger than that
 
 }  // namespace
 

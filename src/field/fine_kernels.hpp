@@ -22,7 +22,8 @@ struct Around {
   const T* own;
   std::array<const T*, 6> side;
 
-  Around(const FineLevel& level, const HalfField<T>& field, std::size_t brick) : own(field.data() + brick * kHalfBrick) {
+  Around(const FineLevel& level, const HalfField<T>& field, std::size_t brick)
+      : own(field.data() + brick * kHalfBrick) {
     for (std::size_t face = 0; face < 6; ++face) {
       side[face] = field.data() + level.links[brick][face] * kHalfBrick;
     }
@@ -34,13 +35,11 @@ template <class T>
 struct SixNeighbours {
   std::array<Lanes<T>, 6> at;
 
-  [[nodiscard]] VANTAGE_INLINE Lanes<T> sum() const {
-    return ((at[0] + at[1]) + (at[2] + at[3])) + (at[4] + at[5]);
-  }
+  [[nodiscard]] VANTAGE_INLINE Lanes<T> sum() const { return ((at[0] + at[1]) + (at[2] + at[3])) + (at[4] + at[5]); }
 };
 
-/// Neighbours of the cells of `colour` in a row. They are of the other colour: along y and z they have the same place in
-/// their rows, along x one of the two has and the other lies one further up or down.
+/// Neighbours of the cells of `colour` in a row. They are of the other colour: along y and z they have the same place
+/// in their rows, along x one of the two has and the other lies one further up or down.
 template <std::size_t colour, class T>
 VANTAGE_INLINE SixNeighbours<T> neighbours(const Around<T>& other, std::size_t row) {
   const std::size_t y = row % 8;
@@ -55,8 +54,8 @@ VANTAGE_INLINE SixNeighbours<T> neighbours(const Around<T>& other, std::size_t r
   return {{level, beside, load(below_y), load(above_y), load(below_z), load(above_z)}};
 }
 
-/// Two layers of rows of a brick, and what lies around them: with the position of a row in them known to the compiler,
-/// all addresses are.
+/// Two layers of rows of a brick, and what lies around them: with the position of a row in them known to the
+/// compiler, all addresses are.
 template <class T>
 struct TwoLayers {
   const T* rows;                 // 16 rows
@@ -80,9 +79,8 @@ VANTAGE_INLINE SixNeighbours<T> neighbours(const TwoLayers<T>& other) {
   constexpr bool kStartsAtOne = ((i ^ i >> 3U ^ colour) & 1U) != 0;
   const Lanes<T> level = load(other.rows + i * 8);
   const Lanes<T> beside = kStartsAtOne ? shifted_down<T>(level, load(other.side[1] + i * 8))
-                                        : shifted_up<T>(level, load(other.side[0] + i * 8));
-  return {{level, beside,
-           load(kY > 0 ? other.rows + (i - 1) * 8 : other.side[2] + (i + 7) * 8),
+                                       : shifted_up<T>(level, load(other.side[0] + i * 8));
+  return {{level, beside, load(kY > 0 ? other.rows + (i - 1) * 8 : other.side[2] + (i + 7) * 8),
            load(kY < 7 ? other.rows + (i + 1) * 8 : other.side[3] + (i - 7) * 8),
            load(kLower ? other.below + i * 8 : other.rows + (i - 8) * 8),
            load(kLower ? other.rows + (i + 8) * 8 : other.above + (i - 8) * 8)}};
@@ -159,8 +157,9 @@ struct BlackRestrict {
       const TwoLayers<float> around(red, pair);
       unrolled(
           [&](auto line) VANTAGE_INLINE_LAMBDA {
-            store<float>(blocks + (pair * 4 + line) * 8, (residual<2 * line>(around, pair) + residual<2 * line + 1>(around, pair)) +
-                                                             (residual<2 * line + 8>(around, pair) + residual<2 * line + 9>(around, pair)));
+            store<float>(blocks + (pair * 4 + line) * 8,
+                         (residual<2 * line>(around, pair) + residual<2 * line + 1>(around, pair)) +
+                             (residual<2 * line + 8>(around, pair) + residual<2 * line + 9>(around, pair)));
           },
           EachLine{});
     }

@@ -24,7 +24,9 @@ std::uint64_t bytes_of_bits(std::uint32_t bits) {
 }
 
 // For each block of a pair of rows, how many of its two cells have their bit set: a byte per block.
-std::uint64_t pairs(std::uint32_t row) { return bytes_of_bits(every_other(row)) + bytes_of_bits(every_other(row >> 1U)); }
+std::uint64_t pairs(std::uint32_t row) {
+  return bytes_of_bits(every_other(row)) + bytes_of_bits(every_other(row >> 1U));
+}
 
 // The six masks of one row: bit x is set if the neighbour of cell x on that side is in `planes`.
 class Neighbourhood {
@@ -73,7 +75,8 @@ void write_degrees(FineLevel& level, std::size_t brick, std::size_t row, std::ui
     beside |= sinks[face];
   }
   for (const std::size_t colour : {kRed, kBlack}) {
-    const auto shift = static_cast<std::uint32_t>((row ^ row >> 3U ^ colour) & 1U);  // x of the first cell of the colour
+    const auto shift =
+        static_cast<std::uint32_t>((row ^ row >> 3U ^ colour) & 1U);  // x of the first cell of the colour
     const auto half = [&](std::uint32_t bits) { return every_other((bits & interior) >> shift); };
     level.faces[colour][brick * kBrickRows + row] =
         nibbles_of_bits(half(digit[0])) | nibbles_of_bits(half(digit[1])) << 1U |
@@ -81,8 +84,8 @@ void write_degrees(FineLevel& level, std::size_t brick, std::size_t row, std::ui
   }
 }
 
-// Adds what one row of cells contributes to its row of blocks: faces open between two unknowns of different blocks, per
-// side, and faces to sinks.
+// Adds what one row of cells contributes to its row of blocks: faces open between two unknowns of different blocks,
+// per side, and faces to sinks.
 void add_to_blocks(std::array<std::uint64_t, 7>& faces, std::size_t row, std::uint32_t interior,
                    const std::array<std::uint32_t, 6>& unknown, const std::array<std::uint32_t, 6>& sinks) {
   faces[0] += bytes_of_bits(every_other(interior & unknown[0]));

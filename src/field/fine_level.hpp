@@ -28,19 +28,20 @@ inline constexpr std::uint32_t kBesideSink = 8;
 [[nodiscard]] inline std::size_t half_offset(std::size_t row, std::size_t x) { return row * 8 + x / 2; }
 [[nodiscard]] inline std::size_t colour_of(std::size_t row, std::size_t x) { return (row ^ row >> 3U ^ x) & 1U; }
 
-/// The 7-point operator over the cells of a domain, sinks held at 0: A u = degree * u - the sum of the neighbours, where
-/// degree is the number of open faces and u is stored as 0 wherever there is no unknown.
+/// The 7-point operator over the cells of a domain, sinks held at 0: A u = degree * u - the sum of the neighbours,
+/// where degree is the number of open faces and u is stored as 0 wherever there is no unknown.
 ///
-/// Cells of a brick are stored by colour, x, then y, then z within one. Bricks are numbered from 1; brick 0 is empty and
-/// stands in for those that are not there.
+/// Cells of a brick are stored by colour, x, then y, then z within one. Bricks are numbered from 1; brick 0 is empty
+/// and stands in for those that are not there.
 struct FineLevel {
-  std::size_t brick_count = 0;  ///< the empty one included
+  std::size_t brick_count = 0;                      ///< the empty one included
   std::vector<VoxelIndex> address;                  ///< of each brick, in units of bricks
   std::vector<std::array<std::uint32_t, 6>> links;  ///< numbers of the neighbouring bricks
   std::vector<std::uint32_t> ready;                 ///< the highest among a brick's own number and its neighbours'
-  /// For each row by colour, four bits per cell: the number of open faces, 0 where there is no unknown, and kBesideSink.
+  /// For each row by colour, four bits per cell: the number of open faces, 0 where there is no unknown, and
+  /// kBesideSink.
   std::array<AlignedVector<std::uint32_t>, 2> faces;
-  AlignedVector<std::uint32_t> blocks;                 ///< the operator of the blocks, see BlockLevel
+  AlignedVector<std::uint32_t> blocks;  ///< the operator of the blocks, see BlockLevel
   std::size_t unknowns = 0;
 
   /// Open faces of a cell.

@@ -122,8 +122,8 @@ void GraphLevel::prolong(const std::vector<float>& correction) {
 }
 
 std::size_t GraphLevel::memory_bytes() const {
-  return bytes_of(at) + bytes_of(six) + bytes_of(first_more) + bytes_of(more) + bytes_of(diagonal) + bytes_of(leak) + bytes_of(inverse) + bytes_of(node) +
-         bytes_of(x) + bytes_of(right);
+  return bytes_of(at) + bytes_of(six) + bytes_of(first_more) + bytes_of(more) + bytes_of(diagonal) + bytes_of(leak) +
+         bytes_of(inverse) + bytes_of(node) + bytes_of(x) + bytes_of(right);
 }
 
 GraphLevel coarsen(GraphLevel& finer) {

@@ -11,8 +11,8 @@
 
 namespace vantage::detail {
 
-/// A coarse level without structure: nodes joined by conductances, each at the address of a cube of cells of which it is
-/// one connected piece. Nodes of even x + y + z come first, and only nodes of different parity are ever joined.
+/// A coarse level without structure: nodes joined by conductances, each at the address of a cube of cells of which it
+/// is one connected piece. Nodes of even x + y + z come first, and only nodes of different parity are ever joined.
 struct GraphLevel {
   struct Edge {
     std::uint32_t to;
@@ -28,17 +28,18 @@ struct GraphLevel {
   };
 
   std::size_t size = 0;
-  std::size_t even = 0;                  ///< how many nodes are of even parity
-  std::vector<VoxelIndex> at;            ///< address in units of the cubes of this level
-  std::vector<Six> six;                  ///< of each node
-  std::vector<std::uint32_t> first_more; ///< where in `more` the edges of a node beyond six start; one more than nodes
+  std::size_t even = 0;        ///< how many nodes are of even parity
+  std::vector<VoxelIndex> at;  ///< address in units of the cubes of this level
+  std::vector<Six> six;        ///< of each node
+  std::vector<std::uint32_t>
+      first_more;  ///< where in `more` the edges of a node beyond six start; one more than nodes
   std::vector<Edge> more;
-  std::vector<float> leak;               ///< to the sinks
-  std::vector<float> diagonal;           ///< the sum of all conductances
-  std::vector<float> inverse;            ///< of that
-  std::vector<std::uint32_t> node;       ///< of the next coarser level
-  std::vector<float> x;                  ///< the correction, and a 0
-  std::vector<float> right;              ///< the right hand side, and one that is not used
+  std::vector<float> leak;          ///< to the sinks
+  std::vector<float> diagonal;      ///< the sum of all conductances
+  std::vector<float> inverse;       ///< of that
+  std::vector<std::uint32_t> node;  ///< of the next coarser level
+  std::vector<float> x;             ///< the correction, and a 0
+  std::vector<float> right;         ///< the right hand side, and one that is not used
 
   /// Nodes by their addresses (even ones first) and leaks; several joins of one pair add up.
   GraphLevel(std::vector<VoxelIndex> addresses, std::vector<float> leaks, const std::vector<Join>& joins);
@@ -64,8 +65,8 @@ struct GraphLevel {
   [[nodiscard]] float inflow(std::size_t of) const;
 };
 
-/// How much larger the step of a coarse level is than what plain aggregation gives, inverted: its correction is too small
-/// because it has steps where the solution has slopes.
+/// How much larger the step of a coarse level is than what plain aggregation gives, inverted: its correction is too
+/// small because it has steps where the solution has slopes.
 inline constexpr float kOverCorrection = 0.5F;
 
 /// The next level: pieces of 2 x 2 x 2 cubes that hang together. Sets `finer.node`.

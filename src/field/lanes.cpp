@@ -9,9 +9,9 @@ InstructionSet instruction_set() {
     __builtin_cpu_init();
     const bool avx512 = __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
                         __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0;
-    return avx512                                     ? InstructionSet::Avx512
+    return avx512                                ? InstructionSet::Avx512
            : __builtin_cpu_supports("avx2") != 0 ? InstructionSet::Avx2
-                                                      : InstructionSet::Baseline;
+                                                 : InstructionSet::Baseline;
   }();
   return best;
 }

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-// Passing vectors wider than the baseline's registers has no stable calling convention; here they only ever pass through
-// functions that are inlined.
+// Passing vectors wider than the baseline's registers has no stable calling convention; here they only ever pass
+// through functions that are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage::detail {
@@ -47,7 +47,8 @@ VANTAGE_INLINE Lanes<T> widen(std::uint32_t packed, std::uint32_t mask) {
   const Lanes<std::uint32_t> lanes = all(packed) >> shift & mask;
   return __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(lanes), Lanes<T>);
 }
-/// Lane k of `own` one lane further: the first comes from the last lane of `below`, or the last from the first of `above`.
+/// Lane k of `own` one lane further: the first comes from the last lane of `below`, or the last from the first of
+/// `above`.
 template <class T>
 VANTAGE_INLINE Lanes<T> shifted_up(const Lanes<T>& own, const Lanes<T>& below) {
   return __builtin_shufflevector(own, below, 15, 0, 1, 2, 3, 4, 5, 6);
@@ -92,9 +93,12 @@ template <class Kernel>
 template <class Kernel>
 inline void run(const Kernel& kernel) {
   switch (instruction_set()) {
-    case InstructionSet::Avx512: return run_avx512(kernel);
-    case InstructionSet::Avx2: return run_avx2(kernel);
-    case InstructionSet::Baseline: return run_baseline(kernel);
+    case InstructionSet::Avx512:
+      return run_avx512(kernel);
+    case InstructionSet::Avx2:
+      return run_avx2(kernel);
+    case InstructionSet::Baseline:
+      return run_baseline(kernel);
   }
 }
 #else

@@ -41,7 +41,8 @@ class RunComponents {
 
   [[nodiscard]] std::size_t component_of(std::size_t brick, std::size_t row, std::uint16_t bit) {
     const auto below = static_cast<std::uint16_t>(bit - 1U);
-    return sets_.find(run_at(brick, row) + starts_in(bricks_[brick].cells[row], static_cast<std::uint16_t>(below | bit)) - 1);
+    return sets_.find(run_at(brick, row) +
+                      starts_in(bricks_[brick].cells[row], static_cast<std::uint16_t>(below | bit)) - 1);
   }
   [[nodiscard]] std::size_t count() const { return sets_.count(); }
   // The cells of a row that belong to `component`.
@@ -127,7 +128,9 @@ LaplaceDomain::LaplaceDomain(const LaplaceProblem& problem) {
   }
 }
 
-void LaplaceDomain::insert(const VoxelIndex& cell) { brick_at(brick_of_cell(cell)).cells[row_of(cell)] |= bit_of(cell); }
+void LaplaceDomain::insert(const VoxelIndex& cell) {
+  brick_at(brick_of_cell(cell)).cells[row_of(cell)] |= bit_of(cell);
+}
 
 void LaplaceDomain::insert_sink(const VoxelIndex& cell) {
   Brick& brick = brick_at(brick_of_cell(cell));
@@ -179,13 +182,14 @@ std::size_t LaplaceDomain::sink_count() const {
 
 std::size_t LaplaceDomain::memory_bytes() const {
   constexpr std::size_t kHashNode = sizeof(VoxelIndex) + sizeof(std::uint32_t) + 2 * sizeof(void*);
-  return bricks_.capacity() * sizeof(Brick) + positions_.size() * kHashNode + positions_.bucket_count() * sizeof(void*);
+  return bricks_.capacity() * sizeof(Brick) + positions_.size() * kHashNode +
+         positions_.bucket_count() * sizeof(void*);
 }
 
 LaplaceDomain::Dropped LaplaceDomain::keep_component(const VoxelIndex& cell) {
   if (!contains(cell)) {
-    throw std::invalid_argument("LaplaceDomain: cell (" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " +
-                                std::to_string(cell.z) + ") is not in the domain");
+    throw std::invalid_argument("LaplaceDomain: cell (" + std::to_string(cell.x) + ", " + std::to_string(cell.y) +
+                                ", " + std::to_string(cell.z) + ") is not in the domain");
   }
   Dropped dropped;
   RunComponents components(bricks_, neighbours());

@@ -24,9 +24,9 @@ struct Level {
   std::vector<VoxelIndex> at;
   std::vector<std::size_t> first_edge{0};
   std::vector<Edge> edges;
-  std::vector<double> leak;  // to sinks and source
-  std::vector<double> load;  // from the source, and the uniform one
-  std::vector<double> total; // leak and all conductances
+  std::vector<double> leak;       // to sinks and source
+  std::vector<double> load;       // from the source, and the uniform one
+  std::vector<double> total;      // leak and all conductances
   std::vector<Position> coarser;  // the node of the next level
 
   [[nodiscard]] std::size_t size() const { return at.size(); }
@@ -40,7 +40,9 @@ struct Level {
   }
 };
 
-std::int32_t along(const VoxelIndex& cell, std::uint32_t axis) { return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z; }
+std::int32_t along(const VoxelIndex& cell, std::uint32_t axis) {
+  return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
+}
 
 Level finest_level(const LaplaceProblem& problem, double uniform_source, const std::vector<Position>& number) {
   Level level;

@@ -52,11 +52,11 @@ struct LaplaceMultigrid::State {
   // By how much the residual has to fall for the tolerance, and for the proof if there is to be one.
   [[nodiscard]] double reduction_wanted(const detail::Defect& defect, const MultigridOptions& options) const {
     const double for_tolerance = options.tolerance / defect.norm;
-    return options.uniform_source > 0.0 ? std::min(for_tolerance, report.source_per_cell / defect.largest) : for_tolerance;
+    return options.uniform_source > 0.0 ? std::min(for_tolerance, report.source_per_cell / defect.largest)
+                                        : for_tolerance;
   }
   [[nodiscard]] bool good_enough(const detail::Defect& defect, const MultigridOptions& options) const {
-    return defect.norm <= options.tolerance && defect.checked &&
-           (defect.stuck == 0 || options.uniform_source == 0.0);
+    return defect.norm <= options.tolerance && defect.checked && (defect.stuck == 0 || options.uniform_source == 0.0);
   }
 };
 
@@ -125,10 +125,11 @@ detail::Defect LaplaceMultigrid::State::refine(detail::BrickSolver& solver, deta
     last = defect.norm;
     const double wanted = 0.5 * reduction_wanted(defect, options);
     refinement.residual(fine, 1.0 / defect.norm, solver.right());
-    report.iterations += solver.solve(std::clamp(wanted, kReduction, 0.1), options.max_iterations - report.iterations);
+    report.iterations +=
+        solver.solve(std::clamp(wanted, kReduction, 0.1), options.max_iterations - report.iterations);
     ++report.refinements;
-    // A solution that is not meant to be the last is not worth checking; if it is good enough after all, it is looked at
-    // again below.
+    // A solution that is not meant to be the last is not worth checking; if it is good enough after all, it is looked
+    // at again below.
     defect = refinement.update(fine, solver.solution(), last, wanted >= kReduction);
     if (!defect.checked && defect.norm <= options.tolerance) {
       defect = refinement.update(fine, solver.solution(), 0.0, true);

@@ -46,7 +46,8 @@ struct SpreadToRed {
   VANTAGE_INLINE void operator()() const {
     for (std::size_t row = 0; row < kBrickRows; ++row) {
       const Lanes<double> sum = __builtin_convertvector(neighbours<kRed>(black, row).sum(), Lanes<double>);
-      store<double>(red + row * 8, (load(right + row * 8) + sum) * inverse_of<double>(widen<double>(faces[row], kDegree)));
+      store<double>(red + row * 8,
+                    (load(right + row * 8) + sum) * inverse_of<double>(widen<double>(faces[row], kDegree)));
     }
   }
 };
@@ -88,7 +89,8 @@ void add(Field& a, double share, const Field& b) {
 }
 
 Field zeros(const FineLevel& fine) {
-  return {HalfField<double>(fine.brick_count * kHalfBrick, 0.0), HalfField<double>(fine.brick_count * kHalfBrick, 0.0)};
+  return {HalfField<double>(fine.brick_count * kHalfBrick, 0.0),
+          HalfField<double>(fine.brick_count * kHalfBrick, 0.0)};
 }
 
 bool is_open(const LaplaceDomain& domain, const VoxelIndex& cell) { return domain.contains(cell); }

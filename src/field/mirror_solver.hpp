@@ -11,15 +11,15 @@
 
 namespace vantage::detail {
 
-/// Shade & Newman's own scheme (2011, eq. 9): behind a closed face lies the value of the cell opposite. Its operator is
-/// not symmetric, so it is solved by BiCGSTAB (van der Vorst 1992) in double, preconditioned with the multigrid cycle of
-/// the symmetric operator, from which it differs only beside walls.
+/// Shade & Newman's own scheme (2011, eq. 9): behind a closed face lies the value of the cell opposite. Its operator
+/// is not symmetric, so it is solved by BiCGSTAB (van der Vorst 1992) in double, preconditioned with the multigrid
+/// cycle of the symmetric operator, from which it differs only beside walls.
 class MirrorSolver {
  public:
   MirrorSolver(const LaplaceDomain& domain, BrickSolver& preconditioner, const CellPlace& source, double uniform);
 
-  /// Goes on from where it is, until the residual is at most `norm`, or `most` iterations are done, or the residual does
-  /// not get any smaller; returns how many it did.
+  /// Goes on from where it is, until the residual is at most `norm`, or `most` iterations are done, or the residual
+  /// does not get any smaller; returns how many it did.
   std::size_t solve(double norm, std::size_t most);
   /// How good the solution is.
   [[nodiscard]] Defect defect();

@@ -11,11 +11,12 @@ namespace {
 // The right hand side: the same everywhere but in one cell, if that is in this half of a brick.
 struct Load {
   double uniform;
-  std::size_t source_row;   // none: past the last row
+  std::size_t source_row;  // none: past the last row
   std::size_t source_lane;
 
   Load(const CellPlace& source, std::size_t brick, std::size_t colour, double each)
-      : uniform(each), source_row(source.brick == brick && source.colour == colour ? source.offset / 8 : kBrickRows),
+      : uniform(each),
+        source_row(source.brick == brick && source.colour == colour ? source.offset / 8 : kBrickRows),
         source_lane(source.offset % 8) {}
   [[nodiscard]] VANTAGE_INLINE Lanes<double> at(std::size_t row) const {
     Lanes<double> lanes = all(uniform);
@@ -26,8 +27,8 @@ struct Load {
   }
 };
 
-// 1 for each cell that has no strictly lower neighbour once all values are divided by `at_source`, else 0. A value of 0 is
-// that of a sink, a lower neighbour that `faces` knows of, or stands behind a closed face.
+// 1 for each cell that has no strictly lower neighbour once all values are divided by `at_source`, else 0. A value of
+// 0 is that of a sink, a lower neighbour that `faces` knows of, or stands behind a closed face.
 VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours,
                                          std::uint32_t faces, double at_source) {
   const Lanes<double> none = all(std::numeric_limits<double>::max());
@@ -194,9 +195,8 @@ double Refinement::source_value(const FineLevel& fine) const {
     return values_.u[kBlack][source_.brick * kHalfBrick + source_.offset];
   }
   const std::size_t row = source_.offset / 8;
-  const Lanes<double> sum =
-      neighbours<kRed>(Around<double>(fine, values_.u[kBlack], source_.brick), row).sum() +
-      Load(source_, source_.brick, kRed, uniform_).at(row);
+  const Lanes<double> sum = neighbours<kRed>(Around<double>(fine, values_.u[kBlack], source_.brick), row).sum() +
+                            Load(source_, source_.brick, kRed, uniform_).at(row);
   return sum[source_.offset % 8] / fine.degree(kRed, source_.brick, source_.offset);
 }
 
@@ -210,9 +210,10 @@ void Refinement::pass(const FineLevel& fine) {
                                values_.at_source, &partial_[b].stuck});
       },
       [&](std::size_t b) {
-        run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
-                                 Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_),
-                                 values_.at_source, &partial_[b].square, &partial_[b].largest, &partial_[b].stuck});
+        run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows,
+                                 values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
+                                 Load(source_, b, kBlack, uniform_), values_.at_source, &partial_[b].square,
+                                 &partial_[b].largest, &partial_[b].stuck});
       });
 }
 

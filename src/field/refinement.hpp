@@ -14,7 +14,7 @@ namespace vantage::detail {
 
 /// Where a cell is stored.
 struct CellPlace {
-  std::size_t brick;   ///< number in the fine level
+  std::size_t brick;  ///< number in the fine level
   std::size_t colour;
   std::size_t offset;  ///< among the cells of its colour in the brick
 
@@ -39,10 +39,10 @@ struct CellValues {
 
 /// How far a solution is from solving its equations.
 struct Defect {
-  double norm = 0.0;         ///< Euclidean
-  double largest = 0.0;      ///< of the cells where the solution is too low
-  bool checked = true;       ///< whether these were looked for:
-  std::size_t stuck = 0;     ///< cells without a strictly lower neighbour
+  double norm = 0.0;      ///< Euclidean
+  double largest = 0.0;   ///< of the cells where the solution is too low
+  bool checked = true;    ///< whether these were looked for:
+  std::size_t stuck = 0;  ///< cells without a strictly lower neighbour
 };
 
 /// The solution in double, and its residual: the outer loop of mixed precision refinement.

@@ -37,8 +37,7 @@ class Flow {
     for (std::int32_t i = 0; i < 8; ++i) {
       const VoxelIndex step{i & 1, i >> 1 & 1, i >> 2 & 1};
       const double weight = (step.x == 1 ? share.x() : 1.0 - share.x()) *
-                            (step.y == 1 ? share.y() : 1.0 - share.y()) *
-                            (step.z == 1 ? share.z() : 1.0 - share.z());
+                            (step.y == 1 ? share.y() : 1.0 - share.y()) * (step.z == 1 ? share.z() : 1.0 - share.z());
       if (const auto position = problem_.position_of(corner + step); position && weight > 0.0) {
         sum -= weight * gradient_at(problem_, phi_, *position);
       }
@@ -58,7 +57,8 @@ class Flow {
 
 }  // namespace
 
-std::optional<Position> steepest_neighbour(const LaplaceProblem& problem, std::span<const double> phi, Position from) {
+std::optional<Position> steepest_neighbour(const LaplaceProblem& problem, std::span<const double> phi,
+                                           Position from) {
   Position lowest = from;
   for (const Position neighbour : problem.neighbours(from)) {
     if (neighbour != LaplaceProblem::kClosed && value_at(phi, neighbour) < value_at(phi, lowest)) {

@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-// Bits of a sub-brick (4 x 4 x 4, x fastest) with coordinate 0 along an axis; those with coordinate 3 lie `3 * stride`
-// bits higher.
+// Bits of a sub-brick (4 x 4 x 4, x fastest) with coordinate 0 along an axis; those with coordinate 3 lie `3 *
+// stride` bits higher.
 struct Axis {
   std::uint64_t first;   // cells at coordinate 0
   unsigned stride;       // bits between neighbours along the axis
@@ -87,8 +87,7 @@ BrickPlane frontier_plane_of(const OccupancyMap& map, const VoxelIndex& address,
     const BrickPlane below = unknown_plane(map, lower, map.find_brick(lower));
     const BrickPlane above = unknown_plane(map, upper, map.find_brick(upper));
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      beside_unknown[word] |=
-          from_below(unknown, below, kAxes[a], word) | from_above(unknown, above, kAxes[a], word);
+      beside_unknown[word] |= from_below(unknown, below, kAxes[a], word) | from_above(unknown, above, kAxes[a], word);
     }
   }
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -128,7 +127,8 @@ std::size_t count_frontier_cells(const OccupancyMap& map) {
   return count;
 }
 
-std::vector<std::vector<VoxelIndex>> frontier_clusters(const std::vector<VoxelIndex>& cells, Connectivity connectivity) {
+std::vector<std::vector<VoxelIndex>> frontier_clusters(const std::vector<VoxelIndex>& cells,
+                                                       Connectivity connectivity) {
   return voxel_clusters(cells, connectivity);
 }
 

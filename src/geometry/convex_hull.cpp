@@ -99,9 +99,8 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
 }
 
 bool ConvexHull::contains(const Eigen::Vector3d& point, double tolerance) const {
-  return !empty() && std::all_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
-    return plane.distance(point) <= tolerance;
-  });
+  return !empty() && std::all_of(planes_.begin(), planes_.end(),
+                                 [&](const Plane& plane) { return plane.distance(point) <= tolerance; });
 }
 
 }  // namespace vantage

@@ -20,9 +20,8 @@ class ScanInserter {
     if (!rays.empty()) {
       ScanMarks marks(rays.cells(), map_.frame_.cell_of(rays.origin()));
       mark_rays(rays, map_.frame_, policy, marks);
-      marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
-        update(address, passed, hit);
-      });
+      marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed,
+                                         const std::uint64_t* hit) { update(address, passed, hit); });
     }
     return report_;
   }
@@ -55,7 +54,8 @@ class ScanInserter {
       if (touched == 0) {
         continue;
       }
-      const std::uint64_t positive = update_word(&brick.log_odds[word * 64], marks.hit[word], marks.passed[word], model_);
+      const std::uint64_t positive =
+          update_word(&brick.log_odds[word * 64], marks.hit[word], marks.passed[word], model_);
       const std::uint64_t occupied = (brick.occupied[word] & ~touched) | (positive & touched);
       const std::uint64_t changed = (touched & ~brick.known[word]) | (occupied ^ brick.occupied[word]);
       brick.known[word] |= touched;
@@ -87,6 +87,8 @@ class ScanInserter {
   ScanReport report_;
 };
 
-ScanReport OccupancyMap::insert(const Scan& scan, RayPolicy policy) { return ScanInserter(*this).insert(scan, policy); }
+ScanReport OccupancyMap::insert(const Scan& scan, RayPolicy policy) {
+  return ScanInserter(*this).insert(scan, policy);
+}
 
 }  // namespace vantage

@@ -156,9 +156,8 @@ void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, 
   for_each_block(rays, [&](const RayBlock& block) { mark_hits(block, marks, [](std::size_t) {}); });
   // Of a depth image, first few rays: where they lie closer than the cells are wide, the others have nothing to add.
   if (rays.are_tiles()) {
-    for (const std::size_t stride : {4U}) {
-      BlockDrawer(rays, frame, stride, marks).draw(marker);
-    }
+    constexpr std::size_t kEveryFourth = 4;
+    BlockDrawer(rays, frame, kEveryFourth, marks).draw(marker);
   }
   BlockDrawer(rays, frame, 1, marks).draw(marker);
 }

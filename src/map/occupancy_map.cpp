@@ -24,7 +24,8 @@ void validate(const OccupancyMapOptions& options) {
                          "OccupancyMapOptions::log_odds_max", options.log_odds_max, "> 0");
   if (options.region) {
     const VoxelFrame frame{options.resolution_m};
-    if (options.region->empty() || !frame.addressable(options.region->min) || !frame.addressable(options.region->max)) {
+    if (options.region->empty() || !frame.addressable(options.region->min) ||
+        !frame.addressable(options.region->max)) {
       throw std::invalid_argument("OccupancyMapOptions::region must have min < max on every axis and be finite");
     }
   }
@@ -57,7 +58,8 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options) : options_(option
   const auto steps = [this](double log_odds) {
     const double rounded = std::round(log_odds / step_);
     // A constant below half a step must still count for something.
-    return static_cast<std::int8_t>(std::clamp(rounded == 0.0 ? std::copysign(1.0, log_odds) : rounded, -127.0, 127.0));
+    return static_cast<std::int8_t>(
+        std::clamp(rounded == 0.0 ? std::copysign(1.0, log_odds) : rounded, -127.0, 127.0));
   };
   hit_steps_ = steps(options.log_odds_hit);
   miss_steps_ = steps(options.log_odds_miss);
@@ -106,7 +108,8 @@ std::optional<double> OccupancyMap::log_odds(const VoxelIndex& coarse, int level
       });
     }
   };
-  const VoxelBox addresses{Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  const VoxelBox addresses{Brick::of_cell(cells.lo),
+                           Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   if (addresses.size() <= bricks_.size()) {
     for_each_cell(addresses, [&](const VoxelIndex& address) {
       if (const Brick* brick = find_brick(address)) {
@@ -123,7 +126,8 @@ std::optional<double> OccupancyMap::log_odds(const VoxelIndex& coarse, int level
   if (known == 0) {
     return std::nullopt;
   }
-  return policy == CoarseningPolicy::Max ? largest * step_ : static_cast<double>(sum) / static_cast<double>(known) * step_;
+  return policy == CoarseningPolicy::Max ? largest * step_
+                                         : static_cast<double>(sum) / static_cast<double>(known) * step_;
 }
 
 Occupancy OccupancyMap::at(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const {
@@ -150,7 +154,8 @@ VoxelBox OccupancyMap::bounds() const {
   VoxelBox bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   for_each_known([&](const VoxelIndex& cell, Occupancy) {
     bounds.lo = {std::min(bounds.lo.x, cell.x), std::min(bounds.lo.y, cell.y), std::min(bounds.lo.z, cell.z)};
-    bounds.hi = {std::max(bounds.hi.x, cell.x + 1), std::max(bounds.hi.y, cell.y + 1), std::max(bounds.hi.z, cell.z + 1)};
+    bounds.hi = {std::max(bounds.hi.x, cell.x + 1), std::max(bounds.hi.y, cell.y + 1),
+                 std::max(bounds.hi.z, cell.z + 1)};
   });
   return bounds.empty() ? VoxelBox{} : bounds;
 }
@@ -165,8 +170,8 @@ std::vector<VoxelIndex> OccupancyMap::changed_since(Revision revision) const {
                                 std::to_string(revision_));
   }
   std::vector<VoxelIndex> changed;
-  for (BrickDirectory::Number number = newest_;
-       number != BrickDirectory::kNone && bricks_[number].changed > revision; number = bricks_[number].older) {
+  for (BrickDirectory::Number number = newest_; number != BrickDirectory::kNone && bricks_[number].changed > revision;
+       number = bricks_[number].older) {
     changed.push_back(bricks_[number].address);
   }
   return changed;
@@ -270,7 +275,8 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
 }
 
 std::int8_t OccupancyMap::to_steps(double log_odds) const {
-  const auto steps = static_cast<std::int8_t>(std::clamp<double>(std::round(log_odds / step_), min_steps_, max_steps_));
+  const auto steps =
+      static_cast<std::int8_t>(std::clamp<double>(std::round(log_odds / step_), min_steps_, max_steps_));
   return log_odds < 0.0 ? std::min(steps, std::int8_t{-1}) : steps;  // rounding must not make a free cell occupied
 }
 

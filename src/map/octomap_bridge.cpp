@@ -49,8 +49,8 @@ void write_leaf(const OctomapLeaf& leaf, BeamModel model, OccupancyMap& map) {
                    log_odds_of(leaf, model, map.options()));
 }
 
-// Fills a new map from anything that has `for_each_leaf(visit)`: once to count, so that what is too large costs nothing,
-// and once to write.
+// Fills a new map from anything that has `for_each_leaf(visit)`: once to count, so that what is too large costs
+// nothing, and once to write.
 template <class ForEachLeaf>
 OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapImportOptions& options,
                             const std::string& what, const ForEachLeaf& for_each_leaf) {
@@ -225,7 +225,8 @@ std::size_t OctomapFollower::update() {
     const VoxelIndex cell = cell_of(entry->first);
     const Occupancy before = map_.at(cell);
     if (const octomap::OcTreeNode* node = tree_.search(entry->first)) {
-      write_leaf({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)}, beam_model_of(tree_, map_.options()), map_);
+      write_leaf({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)}, beam_model_of(tree_, map_.options()),
+                 map_);
     } else {
       map_.set(cell, Occupancy::Unknown);
     }

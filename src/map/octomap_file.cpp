@@ -65,7 +65,8 @@ class OctomapFile::Reader {
   // Two bits a child: 0 unknown, 1 free, 2 occupied, 3 has children.
   void read_states(const VoxelIndex& first, int level) {
     const char* bytes = take(2);
-    const unsigned children = static_cast<unsigned char>(bytes[0]) | unsigned{static_cast<unsigned char>(bytes[1])} << 8U;
+    const unsigned children = static_cast<unsigned char>(bytes[0]) | unsigned{static_cast<unsigned char>(bytes[1])}
+                                                                         << 8U;
     if (children == 0) {
       file_.fail("inner node " + std::to_string(nodes_) + " has no children");
     }

@@ -23,8 +23,8 @@ struct OctomapLeaf {
   [[nodiscard]] std::uint64_t cells() const { return std::uint64_t{1} << (3 * level); }
 };
 
-/// A `.bt` or `.ot` file in memory, read and checked without OctoMap: its own reader follows a damaged file wherever it
-/// leads, and prints.
+/// A `.bt` or `.ot` file in memory, read and checked without OctoMap: its own reader follows a damaged file wherever
+/// it leads, and prints.
 class OctomapFile {
  public:
   /// Throws std::runtime_error with the path if the file cannot be read or its header is not OctoMap's.
@@ -43,8 +43,8 @@ class OctomapFile {
 
   std::filesystem::path path_;
   std::string bytes_;
-  std::size_t data_ = 0;          // where the nodes begin
-  bool states_only_ = false;      // .bt
+  std::size_t data_ = 0;           // where the nodes begin
+  bool states_only_ = false;       // .bt
   std::size_t payload_bytes_ = 0;  // per node of an .ot, between the log-odds and the children
   std::uint64_t nodes_ = 0;
   double resolution_m_ = 0.0;

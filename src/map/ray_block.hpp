@@ -18,7 +18,7 @@ struct RayBlock {
   template <class T>
   using PerRay = std::array<T, kRays>;
 
-  alignas(64) std::array<float, 3 * kRays> point{};        ///< in: x, y, z of returns or directions, sensor frame
+  alignas(64) std::array<float, 3 * kRays> point{};  ///< in: x, y, z of returns or directions, sensor frame
   alignas(64) PerRay<std::int64_t> fate{};           ///< a RayFate
   alignas(64) std::array<PerRay<double>, 3> end{};   ///< metres; that of the origin for a ray that cannot be used
   alignas(64) std::array<PerRay<std::int32_t>, 3> cell{};  ///< of the end

@@ -10,7 +10,8 @@ namespace {
 
 class Walker {
  public:
-  Walker(const VoxelFrame& frame, const std::optional<VoxelBox>& region, const Eigen::Vector3d& origin, ScanCells& cells)
+  Walker(const VoxelFrame& frame, const std::optional<VoxelBox>& region, const Eigen::Vector3d& origin,
+         ScanCells& cells)
       : frame_(frame), region_(region), origin_(origin), cells_(cells) {}
 
   void hit(const Eigen::Vector3d& end) {
@@ -40,7 +41,8 @@ class Walker {
 
 }  // namespace
 
-ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy, const std::optional<VoxelBox>& region) {
+ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy,
+                     const std::optional<VoxelBox>& region) {
   detail::validate(scan);
   ScanCells cells;
   ScanReport& report = cells.report;
@@ -60,7 +62,8 @@ ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy
       return;
     }
     const bool ends_here = is_return && range_m <= scan.max_range_m;
-    const Eigen::Vector3d reach = ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (scan.max_range_m / range_m));
+    const Eigen::Vector3d reach =
+        ends_here ? point_sensor : Eigen::Vector3d(point_sensor * (scan.max_range_m / range_m));
     const Eigen::Vector3d end(sensor.world(0, reach.x(), reach.y(), reach.z()),
                               sensor.world(1, reach.x(), reach.y(), reach.z()),
                               sensor.world(2, reach.x(), reach.y(), reach.z()));

@@ -9,11 +9,15 @@ namespace vantage {
 namespace {
 
 // Bits that hold the numbers below `count`.
-unsigned bits_for(std::int32_t count) { return static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(count - 1))); }
+unsigned bits_for(std::int32_t count) {
+  return static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(count - 1)));
+}
 
-// The bits that stand for coordinates from `first` to `last` among those of the four of a word, `stride` bits for each.
+// The bits that stand for coordinates from `first` to `last` among those of the four of a word, `stride` bits for
+// each.
 std::uint64_t bits_within(std::int32_t first, std::int32_t last, std::int32_t stride) {
-  const std::uint64_t below_end = last >= 3 && stride == 16 ? 0 : std::uint64_t{1} << (std::min(last, 3) + 1) * stride;
+  const std::uint64_t below_end =
+      last >= 3 && stride == 16 ? 0 : std::uint64_t{1} << (std::min(last, 3) + 1) * stride;
   return below_end - (std::uint64_t{1} << std::max(first, 0) * stride);
 }
 
@@ -70,7 +74,8 @@ bool ScanMarks::all_marked(const VoxelBox& cells) const {
       const std::uint64_t in_yz = in_z & (bits_within(first.y - y, last.y - y, 4) & 0xFFFFU) * 0x0001000100010001ULL;
       const std::uint64_t part_yz = part(1, window_.lo.y + y) | part_z;
       for (std::int32_t x = first.x & ~3; x <= last.x; x += 4) {
-        const std::uint64_t in_word = in_yz & (bits_within(first.x - x, last.x - x, 1) & 0xFU) * 0x1111111111111111ULL;
+        const std::uint64_t in_word =
+            in_yz & (bits_within(first.x - x, last.x - x, 1) & 0xFU) * 0x1111111111111111ULL;
         const std::uint64_t word = (part(0, window_.lo.x + x) | part_yz) >> 6U;
         if ((in_word & ~(passed_[word] | hit_[word])) != 0) {
           return false;

@@ -21,11 +21,12 @@ struct BrickMarks {
 /// The cells that a scan touches, as bit planes in the layout of bricks: a dense window around the scan, and a sparse
 /// directory for what a few far rays touch outside of it.
 ///
-/// The position of a cell of the window, word * 64 + bit, is the sum of one part for each axis, and the parts have no bits
-/// in common: rows and columns of bricks are padded to powers of two.
+/// The position of a cell of the window, word * 64 + bit, is the sum of one part for each axis, and the parts have no
+/// bits in common: rows and columns of bricks are padded to powers of two.
 class ScanMarks {
  public:
-  /// The largest window, in cells: one plane of it takes 128 MiB of address space, of which only what is touched counts.
+  /// The largest window, in cells: one plane of it takes 128 MiB of address space, of which only what is touched
+  /// counts.
   static constexpr std::size_t kMaxWindow = std::size_t{1} << 30U;
 
   /// A window over `cells`, or as much of it around `origin` as may be.
@@ -44,7 +45,8 @@ class ScanMarks {
   }
   /// The bits of a position that belong to an axis.
   [[nodiscard]] std::uint64_t mask(std::size_t axis) const {
-    const std::uint64_t bricks = axis == 2 ? ~std::uint64_t{0} : (std::uint64_t{1} << (shift_[axis + 1] - shift_[axis])) - 1;
+    const std::uint64_t bricks =
+        axis == 2 ? ~std::uint64_t{0} : (std::uint64_t{1} << (shift_[axis + 1] - shift_[axis])) - 1;
     return std::uint64_t{3} << 2U * axis | std::uint64_t{1} << (6U + axis) | bricks << shift_[axis];
   }
   [[nodiscard]] std::uint64_t position_of(const VoxelIndex& cell) const {
@@ -62,7 +64,8 @@ class ScanMarks {
   /// Whether the mark is new.
   bool mark_hit(const VoxelIndex& cell) { return mark(cell, hit_.get(), &BrickMarks::hit); }
 
-  /// Calls `visit(brick address, passed words, hit words)` for each brick that holds a mark, always in the same order.
+  /// Calls `visit(brick address, passed words, hit words)` for each brick that holds a mark, always in the same
+  /// order.
   template <class Visit>
   void for_each_marked_brick(Visit&& visit) const {
     for_each_cell(bricks_, [&](const VoxelIndex& brick) {
@@ -94,7 +97,8 @@ class ScanMarks {
 
   static Plane zeros(std::size_t words);
   BrickMarks& far_brick(const VoxelIndex& brick);
-  bool mark(const VoxelIndex& cell, std::uint64_t* plane, std::array<std::uint64_t, Brick::kWords> BrickMarks::*far_plane) {
+  bool mark(const VoxelIndex& cell, std::uint64_t* plane,
+            std::array<std::uint64_t, Brick::kWords> BrickMarks::*far_plane) {
     const bool near = in_window(cell);
     const std::uint64_t position = near ? position_of(cell) : Brick::offset_of(cell);
     std::uint64_t& word = near ? plane[position >> 6U] : (far_brick(Brick::of_cell(cell)).*far_plane)[position >> 6U];

@@ -32,9 +32,10 @@ inline constexpr std::array<std::uint64_t, 256> kBytesOfBits = bytes_of_bits();
 
 }  // namespace detail
 
-/// Adds one measurement to the 64 log-odds at `log_odds`, clamped: `beam.hit` where `hit` has a bit, `beam.miss` where
-/// `passed` has one (no cell may have both). Returns the plane of the log-odds that are now >= 0.
-inline std::uint64_t update_word(std::int8_t* log_odds, std::uint64_t hit, std::uint64_t passed, const BeamSteps& beam) {
+/// Adds one measurement to the 64 log-odds at `log_odds`, clamped: `beam.hit` where `hit` has a bit, `beam.miss`
+/// where `passed` has one (no cell may have both). Returns the plane of the log-odds that are now >= 0.
+inline std::uint64_t update_word(std::int8_t* log_odds, std::uint64_t hit, std::uint64_t passed,
+                                 const BeamSteps& beam) {
   constexpr std::uint64_t kOnes = 0x0101010101010101ULL;
   const std::uint64_t hits = kOnes * static_cast<std::uint8_t>(beam.hit);
   const std::uint64_t misses = kOnes * static_cast<std::uint8_t>(beam.miss);

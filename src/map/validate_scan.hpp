@@ -12,7 +12,8 @@ namespace vantage::detail {
 /// that insertion and its definition share.
 inline void validate(const Scan& scan) {
   if (!is_rigid(scan.world_from_sensor)) {
-    throw std::invalid_argument("Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");
+    throw std::invalid_argument(
+        "Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");
   }
   require_option(scan.max_range_m > 0.0, "Scan::max_range_m", scan.max_range_m, "> 0");
 }

@@ -31,7 +31,10 @@ FrontierSurvey checked_survey(const OccupancyMap& map, const Pose& current, cons
 
 FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
                              const FrontierSurveyOptions& options, FailedViews& failed)
-    : map_(map), current_(current), setup_(setup), failed_(failed),
+    : map_(map),
+      current_(current),
+      setup_(setup),
+      failed_(failed),
       survey_(checked_survey(map, current, setup, options, failed)) {
   plan_.leftover = survey_.leftover;
   plan_.statistics.frontier_cells = survey_.frontier_cells;

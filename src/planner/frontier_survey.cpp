@@ -42,7 +42,12 @@ class ViewpointSearch {
  public:
   ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                   const ReachableSpace& reachable, const FailedViews& failed, std::size_t direction_count)
-      : frame_(map.frame()), platform_(platform), sensor_(sensor), reachable_(reachable), failed_(failed), clear_(clear_cells(map)),
+      : frame_(map.frame()),
+        platform_(platform),
+        sensor_(sensor),
+        reachable_(reachable),
+        failed_(failed),
+        clear_(clear_cells(map)),
         directions_(spread_directions(direction_count)) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
@@ -90,7 +95,8 @@ class ViewpointSearch {
   std::optional<VoxelIndex> along(const VoxelIndex& unknown, const Eigen::Vector3d& direction) {
     const Eigen::Vector3d centre = frame_.centre_of(unknown);
     // No further than the known part of the map can reach: a sensor's range may be without bound.
-    const double furthest_m = std::min(sensor_.max_range_m, frame_.box_of(clear_.box()).extent().norm() + frame_.size_m);
+    const double furthest_m =
+        std::min(sensor_.max_range_m, frame_.box_of(clear_.box()).extent().norm() + frame_.size_m);
     for (const VoxelIndex& cell : VoxelRay(frame_, centre, centre + furthest_m * direction)) {
       if (cell == unknown) {
         continue;
@@ -139,7 +145,8 @@ class ViewpointSearch {
   std::uint64_t operations_ = 0;
 };
 
-std::vector<VoxelIndex> unknown_neighbours(const OccupancyMap& map, const VoxelIndex& cell, const FailedViews& failed) {
+std::vector<VoxelIndex> unknown_neighbours(const OccupancyMap& map, const VoxelIndex& cell,
+                                           const FailedViews& failed) {
   std::vector<VoxelIndex> unknown;
   for (const VoxelIndex& step : kFaceNeighbours) {
     const VoxelIndex neighbour = cell + step;
@@ -194,7 +201,8 @@ bool body_comes_near(const OccupancyMap& map, const Platform& platform, const Re
 }  // namespace
 
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                                const Pose& current, const FrontierSurveyOptions& options, const FailedViews& failed) {
+                                const Pose& current, const FrontierSurveyOptions& options,
+                                const FailedViews& failed) {
   FrontierSurvey survey{.reachable = ReachableSpace(map, platform, current)};
   std::vector<VoxelIndex> frontier = frontier_cells(map);
   survey.frontier_cells = frontier.size();

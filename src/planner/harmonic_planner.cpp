@@ -22,8 +22,7 @@ using Position = LaplaceProblem::Position;
 RelaxationOptions relaxation_options(const HarmonicOptions& options) {
   RelaxationOptions relaxation;
   relaxation.neumann = options.neumann;
-  relaxation.order =
-      options.solver == FieldSolver::GaussSeidel ? SweepOrder::Lexicographic : SweepOrder::RedBlack;
+  relaxation.order = options.solver == FieldSolver::GaussSeidel ? SweepOrder::Lexicographic : SweepOrder::RedBlack;
   relaxation.tolerance = options.tolerance;
   relaxation.max_sweeps = options.max_sweeps;
   relaxation.over_relaxation = options.over_relaxation;
@@ -57,8 +56,9 @@ const FrontierTarget* target_seen_from(const FrontierSurvey& survey, const Voxel
 }
 
 // The streamline as poses that look along the flow, one per cell or so, if every motion between them is admitted.
-std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const Platform& platform, const Pose& current,
-                                                const std::vector<Eigen::Vector3d>& curve, const Pose& goal) {
+std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const Platform& platform,
+                                                const Pose& current, const std::vector<Eigen::Vector3d>& curve,
+                                                const Pose& goal) {
   std::vector<Pose> poses{current};
   for (std::size_t i = 2; i < curve.size(); i += 2) {
     poses.push_back(platform.facing(curve[i], curve[i] - curve[i - 2]));

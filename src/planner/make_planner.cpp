@@ -45,7 +45,8 @@ class SettingReader {
     return *this;
   }
   template <class Enum>
-  SettingReader& choice(std::string_view name, Enum& field, const std::vector<std::pair<std::string_view, Enum>>& values) {
+  SettingReader& choice(std::string_view name, Enum& field,
+                        const std::vector<std::pair<std::string_view, Enum>>& values) {
     if (const std::string* text = find(name)) {
       std::vector<std::string_view> names;
       for (const auto& [value_name, value] : values) {
@@ -148,7 +149,8 @@ std::unique_ptr<ExplorationPlanner> make_planner(std::string_view name, const Pl
       return make(setup, read);
     }
   }
-  throw std::invalid_argument("there is no planner '" + std::string(name) + "'; there are: " + listing(planner_names()));
+  throw std::invalid_argument("there is no planner '" + std::string(name) +
+                              "'; there are: " + listing(planner_names()));
 }
 
 const std::vector<std::string_view>& planner_names() {

@@ -27,9 +27,8 @@ Plan NearestFrontierPlanner::plan(const OccupancyMap& map, const Pose& current) 
     viewpoints.push_back(target.viewpoint);
   }
   const std::vector<VoxelIndex> way = GridPaths(survey.reachable).to_nearest(viewpoints);
-  const auto nearest = std::find_if(survey.targets.begin(), survey.targets.end(), [&](const FrontierTarget& target) {
-    return target.viewpoint == way.back();
-  });
+  const auto nearest = std::find_if(survey.targets.begin(), survey.targets.end(),
+                                    [&](const FrontierTarget& target) { return target.viewpoint == way.back(); });
   std::uint64_t& operations = cycle.plan().statistics.ray_operations;
   return cycle.go(view_of_target(map, *setup_.platform, setup_.sensor, survey, *nearest, operations), way);
 }

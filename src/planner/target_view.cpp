@@ -17,8 +17,7 @@ double counted_range_m(const OccupancyMap& map, const RangeSensor& sensor) {
 
 // The targets in plain sight of a position and no further than `furthest_m`, whichever way the sensor looks.
 std::vector<Sighting> sightings_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
-                                     const Eigen::Vector3d& position, double furthest_m,
-                                     std::uint64_t& operations) {
+                                     const Eigen::Vector3d& position, double furthest_m, std::uint64_t& operations) {
   std::vector<Sighting> sightings;
   for (const FrontierTarget& target : survey.targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
@@ -65,7 +64,8 @@ TargetView view_of_target(const OccupancyMap& map, const Platform& platform, con
   const double furthest_m = std::max(counted_range_m(map, sensor), line.norm());
   const std::vector<Sighting> sightings = sightings_from(map, sensor, survey, position, furthest_m, operations);
   TargetView best = keep_in_view(sensor, platform.facing(position, line), sightings);
-  // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the wanted.
+  // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the
+  // wanted.
   constexpr std::size_t kTried = 32;
   const std::size_t stride = sightings.size() / kTried + 1;
   for (std::size_t i = 0; i < sightings.size(); i += stride) {

@@ -84,7 +84,8 @@ void validate_spherical(const RangeSensor& sensor) {
 }
 
 std::size_t rays_needed(double needed, std::size_t has) {
-  return needed >= static_cast<double>(has) ? has : std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(needed)));
+  return needed >= static_cast<double>(has) ? has
+                                            : std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(needed)));
 }
 
 }  // namespace

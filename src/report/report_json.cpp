@@ -62,28 +62,29 @@ ordered_json cycle_json(const ViewRecord& view) {
 }
 
 ordered_json summary_json(const RunRecord& record) {
-  return {{"vantage", VANTAGE_VERSION_STRING},
-          {"command", record.command},
-          {"world", record.world},
-          {"planner", record.planner},
-          {"seed", record.seed},
-          {"threads", record.threads},
-          {"resolution_m", record.resolution_m},
-          {"outcome", to_string(record.outcome)},
-          {"reason", record.reason},
-          {"views", record.views.size()},
-          {"path_length_m", record.path_length_m()},
-          {"coverage", or_null(record.coverage)},
-          {"observable_cells", record.coverage ? ordered_json(record.observable_cells) : ordered_json(nullptr)},
-          {"surface_coverage", or_null(record.surface_coverage)},
-          {"leftover",
-           {{"unreachable", record.leftover.unreachable},
-            {"unobservable", record.leftover.unobservable},
-            {"too_small", record.leftover.too_small}}},
-          {"collisions", record.collisions},
-          {"ray_operations", {{"integration", record.integration_operations}, {"planning", record.planning_operations}}},
-          {"time_ms", times_json(record)},
-          {"peak_memory_mb", record.peak_memory_mb}};
+  return {
+      {"vantage", VANTAGE_VERSION_STRING},
+      {"command", record.command},
+      {"world", record.world},
+      {"planner", record.planner},
+      {"seed", record.seed},
+      {"threads", record.threads},
+      {"resolution_m", record.resolution_m},
+      {"outcome", to_string(record.outcome)},
+      {"reason", record.reason},
+      {"views", record.views.size()},
+      {"path_length_m", record.path_length_m()},
+      {"coverage", or_null(record.coverage)},
+      {"observable_cells", record.coverage ? ordered_json(record.observable_cells) : ordered_json(nullptr)},
+      {"surface_coverage", or_null(record.surface_coverage)},
+      {"leftover",
+       {{"unreachable", record.leftover.unreachable},
+        {"unobservable", record.leftover.unobservable},
+        {"too_small", record.leftover.too_small}}},
+      {"collisions", record.collisions},
+      {"ray_operations", {{"integration", record.integration_operations}, {"planning", record.planning_operations}}},
+      {"time_ms", times_json(record)},
+      {"peak_memory_mb", record.peak_memory_mb}};
 }
 
 // A world's file name may be any bytes: what is not UTF-8 is replaced, never thrown at the end of a long run.

@@ -16,11 +16,20 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 14> kFields{
-    "projection",         "width",              "height",           "fx",
-    "fy",                 "cx",                 "cy",               "horizontal_fov_rad",
-    "horizontal_fov_deg", "vertical_fov_rad",   "vertical_fov_deg", "min_range_m",
-    "max_range_m",        "reports_no_return"};
+constexpr std::array<std::string_view, 14> kFields{"projection",
+                                                   "width",
+                                                   "height",
+                                                   "fx",
+                                                   "fy",
+                                                   "cx",
+                                                   "cy",
+                                                   "horizontal_fov_rad",
+                                                   "horizontal_fov_deg",
+                                                   "vertical_fov_rad",
+                                                   "vertical_fov_deg",
+                                                   "min_range_m",
+                                                   "max_range_m",
+                                                   "reports_no_return"};
 
 /// Reads fields of one object; every error names the field.
 class Fields {

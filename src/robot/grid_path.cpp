@@ -121,7 +121,8 @@ std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals)
   if (!any) {
     return {};
   }
-  return search(space_, [&](std::uint32_t number) { return is_goal[number]; }, [](const VoxelIndex&) { return 0U; });
+  return search(
+      space_, [&](std::uint32_t number) { return is_goal[number]; }, [](const VoxelIndex&) { return 0U; });
 }
 
 std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) const {
@@ -129,8 +130,9 @@ std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) const {
   if (wanted == ReachableSpace::kOutside) {
     return {};
   }
-  return search(space_, [&](std::uint32_t number) { return number == wanted; },
-                [&](const VoxelIndex& cell) { return bound(cell, goal); });
+  return search(
+      space_, [&](std::uint32_t number) { return number == wanted; },
+      [&](const VoxelIndex& cell) { return bound(cell, goal); });
 }
 
 std::optional<std::vector<Pose>> poses_along(const OccupancyMap& map, const Platform& platform, const Pose& from,

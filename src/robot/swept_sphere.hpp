@@ -10,7 +10,8 @@ namespace vantage::detail {
 
 /// Distance between a segment and a box, metres. The squared distance along the segment is convex and piecewise
 /// quadratic, so its slope is monotone: bisection finds the nearest point.
-[[nodiscard]] inline double distance_to_segment(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+[[nodiscard]] inline double distance_to_segment(const Box& box, const Eigen::Vector3d& from,
+                                                const Eigen::Vector3d& to) {
   const Eigen::Vector3d step = to - from;
   const auto outside = [&](double t) -> Eigen::Vector3d {
     const Eigen::Vector3d point = from + t * step;
@@ -32,8 +33,8 @@ namespace vantage::detail {
   return outside(0.5 * (below + above)).norm();
 }
 
-/// How near the surface of a cell must come to be touched by a sphere: one that only grazes a cell does not touch it, but
-/// even a centre without extent passes the cells it passes.
+/// How near the surface of a cell must come to be touched by a sphere: one that only grazes a cell does not touch it,
+/// but even a centre without extent passes the cells it passes.
 [[nodiscard]] inline double touching_distance_m(const VoxelFrame& frame, double radius_m) {
   const double graze_m = 1e-9 * frame.size_m;
   return std::max(radius_m - graze_m, graze_m);
@@ -42,11 +43,12 @@ namespace vantage::detail {
 /// Whether a sphere at rest touches a cell.
 [[nodiscard]] inline bool sphere_touches(const VoxelFrame& frame, const Eigen::Vector3d& centre, double radius_m,
                                          const VoxelIndex& cell) {
-  return frame.cell_of(centre) == cell || frame.box_of(cell).distance_to(centre) < touching_distance_m(frame, radius_m);
+  return frame.cell_of(centre) == cell ||
+         frame.box_of(cell).distance_to(centre) < touching_distance_m(frame, radius_m);
 }
 
-/// The box around what a sphere can touch of one slab of cells while its centre goes from `from` to `to`: `slab` is the
-/// slab's address along `axis`.
+/// The box around what a sphere can touch of one slab of cells while its centre goes from `from` to `to`: `slab` is
+/// the slab's address along `axis`.
 [[nodiscard]] inline VoxelBox swept_cells_in_slab(const VoxelFrame& frame, const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to, double radius_m, Eigen::Index axis,
                                                   std::int32_t slab) {
@@ -72,8 +74,8 @@ namespace vantage::detail {
 /// Whether `clear(cell)` holds for every cell that a sphere touches while its centre goes from `from` to `to`. The
 /// cells that hold the two ends are always touched.
 template <class Clear>
-[[nodiscard]] bool swept_sphere_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                                         double radius_m, Clear&& clear) {
+[[nodiscard]] bool swept_sphere_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& to, double radius_m, Clear&& clear) {
   if (!clear(frame.cell_of(from)) || !clear(frame.cell_of(to))) {
     return false;
   }

@@ -151,18 +151,23 @@ SolidCells maze_cells(const WorldOptions& options) {
     carve(solid, {x * kPitch + 1, y * kPitch + 1, 1}, {(x + 1) * kPitch, (y + 1) * kPitch, kHeight - 1});
   };
   const auto open = [&](std::int32_t x, std::int32_t y, bool along_x) {
-    const VoxelIndex lo = along_x ? VoxelIndex{(x + 1) * kPitch, y * kPitch + 1, 1} : VoxelIndex{x * kPitch + 1, (y + 1) * kPitch, 1};
-    carve(solid, lo, lo + (along_x ? VoxelIndex{1, kPitch - 1, kHeight - 2} : VoxelIndex{kPitch - 1, 1, kHeight - 2}));
+    const VoxelIndex lo =
+        along_x ? VoxelIndex{(x + 1) * kPitch, y * kPitch + 1, 1} : VoxelIndex{x * kPitch + 1, (y + 1) * kPitch, 1};
+    carve(solid, lo,
+          lo + (along_x ? VoxelIndex{1, kPitch - 1, kHeight - 2} : VoxelIndex{kPitch - 1, 1, kHeight - 2}));
   };
   std::vector<std::uint8_t> visited(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
-  const auto place = [&](std::int32_t x, std::int32_t y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x); };
+  const auto place = [&](std::int32_t x, std::int32_t y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+  };
   std::vector<std::pair<std::int32_t, std::int32_t>> trail{{0, 0}};
   visited[0] = 1;
   hollow(0, 0);
   while (!trail.empty()) {
     const auto [x, y] = trail.back();
     std::vector<std::pair<std::int32_t, std::int32_t>> next;
-    for (const auto& [dx, dy] : std::array<std::pair<std::int32_t, std::int32_t>, 4>{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}}) {
+    for (const auto& [dx, dy] :
+         std::array<std::pair<std::int32_t, std::int32_t>, 4>{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}}) {
       const bool inside = x + dx >= 0 && x + dx < columns && y + dy >= 0 && y + dy < rows;
       if (inside && visited[place(x + dx, y + dy)] == 0) {
         next.emplace_back(x + dx, y + dy);

@@ -68,8 +68,8 @@ struct ExplorationRun::Progress {
   RunRecord record;
 };
 
-ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor, std::shared_ptr<const Platform> platform,
-                               const ExplorationRunOptions& options)
+ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
+                               std::shared_ptr<const Platform> platform, const ExplorationRunOptions& options)
     : world_(world),
       sensor_(sensor),
       platform_(given(std::move(platform))),
@@ -172,13 +172,12 @@ bool ExplorationRun::still_admitted(const Pose& pose, const std::vector<Pose>& p
 }
 
 bool ExplorationRun::still_sought(const std::vector<VoxelIndex>& cells) const {
-  return cells.empty() || std::any_of(cells.begin(), cells.end(), [&](const VoxelIndex& cell) {
-           return map_.at(cell) == Occupancy::Unknown;
-         });
+  return cells.empty() || std::any_of(cells.begin(), cells.end(),
+                                      [&](const VoxelIndex& cell) { return map_.at(cell) == Occupancy::Unknown; });
 }
 
-// To the goal, or to where a scan on the way has closed it, made it needless or spent the budget. The last scan is left
-// to be reported with the plan that comes of it.
+// To the goal, or to where a scan on the way has closed it, made it needless or spent the budget. The last scan is
+// left to be reported with the plan that comes of it.
 void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
   for (std::size_t next = 1; next < plan.path.size(); ++next) {
     const Pose from = progress.pose;
@@ -207,8 +206,7 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
   map_ = OccupancyMap(options_.map);
   Progress progress{SimulatedSensor(scene_, sensor_, options_.noise, options_.seed), start, 0.0, 0.0, 0.0, {}, {}};
   progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
-  progress.body_radius_m =
-      options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
+  progress.body_radius_m = options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
   RunRecord& record = progress.record;
   record.command = "explore";
   record.world = world_.name;

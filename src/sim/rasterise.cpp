@@ -9,12 +9,14 @@
 namespace vantage {
 namespace {
 
-// Akenine-Moeller 2001: a triangle misses a box exactly if one of 13 axes separates them. `half` is half the box's edge.
+// Akenine-Moeller 2001: a triangle misses a box exactly if one of 13 axes separates them. `half` is half the box's
+// edge.
 class TriangleCellTest {
  public:
   explicit TriangleCellTest(const std::array<Eigen::Vector3d, 3>& corners) : corners_(corners) {
     std::size_t count = 0;
-    const std::array<Eigen::Vector3d, 3> edges{corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+    const std::array<Eigen::Vector3d, 3> edges{corners[1] - corners[0], corners[2] - corners[1],
+                                               corners[0] - corners[2]};
     axes_[count++] = edges[0].cross(edges[1]);
     for (int axis = 0; axis < 3; ++axis) {
       axes_[count++] = Eigen::Vector3d::Unit(axis);
@@ -69,9 +71,9 @@ void rasterise(const TriangleMesh& mesh, const VoxelFrame& frame, double grazed_
     }
     const VoxelIndex last = frame.cell_of(bounds.max);
     const VoxelIndex lo = frame.cell_of(bounds.min);
-    const VoxelBox box{{std::max(lo.x, limits.lo.x), std::max(lo.y, limits.lo.y), std::max(lo.z, limits.lo.z)},
-                       {std::min(last.x + 1, limits.hi.x), std::min(last.y + 1, limits.hi.y),
-                        std::min(last.z + 1, limits.hi.z)}};
+    const VoxelBox box{
+        {std::max(lo.x, limits.lo.x), std::max(lo.y, limits.lo.y), std::max(lo.z, limits.lo.z)},
+        {std::min(last.x + 1, limits.hi.x), std::min(last.y + 1, limits.hi.y), std::min(last.z + 1, limits.hi.z)}};
     const TriangleCellTest test(corners);
     for_each_cell(box, [&](const VoxelIndex& cell) {
       CellTruth& truth = cells[cell];

@@ -11,8 +11,8 @@
 namespace vantage {
 namespace {
 
-// Only cells joined to a pose through free cells, and the surfaces that bound them, can be seen at all: a walk along a
-// line of sight goes from face to face.
+// Only cells joined to a pose through free cells, and the surfaces that bound them, can be seen at all: a walk along
+// a line of sight goes from face to face.
 std::vector<VoxelIndex> candidates(const Sight& sight, const VoxelBox& region, const std::vector<VoxelIndex>& poses) {
   VoxelGrid<std::uint8_t> reached(region, 0);
   std::vector<VoxelIndex> queue;
@@ -44,7 +44,8 @@ std::vector<VoxelIndex> candidates(const Sight& sight, const VoxelBox& region, c
   return found;
 }
 
-// The poses in blocks of space, so that those near a cell are asked first: nearly every cell is seen from one of them.
+// The poses in blocks of space, so that those near a cell are asked first: nearly every cell is seen from one of
+// them.
 class PoseBlocks {
  public:
   PoseBlocks(const VoxelBox& region, const std::vector<VoxelIndex>& poses)
@@ -135,7 +136,8 @@ std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region, c
                                    int threads) {
   const std::vector<VoxelIndex> cells = candidates(sight, region, poses);
   const PoseBlocks blocks(region, poses);
-  const auto furthest = static_cast<std::int32_t>(std::min(1e6, sight.sensor().max_range_m / sight.frame().size_m)) + 1;
+  const auto furthest =
+      static_cast<std::int32_t>(std::min(1e6, sight.sensor().max_range_m / sight.frame().size_m)) + 1;
   std::vector<std::uint8_t> seen(cells.size(), 0);
   constexpr std::size_t kChunk = 1024;
   std::atomic<std::size_t> next{0};

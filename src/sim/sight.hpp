@@ -15,7 +15,9 @@ class Sight {
       : cells_(cells), frame_(frame), sensor_(sensor), can_tilt_(can_tilt) {}
 
   [[nodiscard]] bool sees(const VoxelIndex& pose, const VoxelIndex& cell) const;
-  [[nodiscard]] bool is_free(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free) == CellTruth::Free; }
+  [[nodiscard]] bool is_free(const VoxelIndex& cell) const {
+    return cells_.value_or(cell, CellTruth::Free) == CellTruth::Free;
+  }
   [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
   [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
 

@@ -9,8 +9,8 @@ VoxelIndex unit(int axis, std::int32_t sign) {
 }
 
 // One face of a solid cell. Along each of its four edges the surface either goes on flat, turns away at a convex edge
-// (the face ends early by the inset) or turns towards the empty side at a concave one (it runs on by the inset): so the
-// inset surface is closed.
+// (the face ends early by the inset) or turns towards the empty side at a concave one (it runs on by the inset): so
+// the inset surface is closed.
 class FaceBuilder {
  public:
   FaceBuilder(const VoxelGrid<std::uint8_t>& solid, const VoxelFrame& frame, double inset_m, bool outside_solid)
@@ -35,9 +35,7 @@ class FaceBuilder {
     mesh.add_quad(at(0, 0), at(1, 0), at(1, 1), at(0, 1));
   }
 
-  bool is_solid(const VoxelIndex& cell) const {
-    return solid_.contains(cell) ? solid_[cell] != 0 : outside_solid_;
-  }
+  bool is_solid(const VoxelIndex& cell) const { return solid_.contains(cell) ? solid_[cell] != 0 : outside_solid_; }
 
  private:
   double run_on(const VoxelIndex& cell, const VoxelIndex& outward, const VoxelIndex& tangent) const {

@@ -74,7 +74,9 @@ struct NearestQuery {
 bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
   auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
   const auto& triangle = query.mesh->triangles[arguments->primID];
-  const auto corner = [&](std::size_t i) { return Eigen::Vector3d(query.mesh->vertices[triangle[i]].cast<double>()); };
+  const auto corner = [&](std::size_t i) {
+    return Eigen::Vector3d(query.mesh->vertices[triangle[i]].cast<double>());
+  };
   const double distance_m = (nearest_on_triangle(query.point, corner(0), corner(1), corner(2)) - query.point).norm();
   if (distance_m < query.nearest_m) {
     query.nearest_m = distance_m;

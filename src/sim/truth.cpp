@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kGrazedShare = 0.02;
 constexpr double kLatticeM = 0.4;
-constexpr double kBeyondM = 25.0;  // further than any preset ranges: surfaces beyond cannot end a ray through the region
+constexpr double kBeyondM =
+    25.0;  // further than any preset ranges: surfaces beyond cannot end a ray through the region
 
 OccupancyMapOptions map_options(double resolution_m, const Box& region) {
   detail::require_option(std::isfinite(resolution_m) && resolution_m > 0.0, "Truth: resolution_m", resolution_m,
@@ -89,7 +90,8 @@ std::optional<Pose> Truth::draw_start(const Platform& platform, std::uint64_t se
 }
 
 std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& start) const {
-  const auto pitch = std::max<std::int32_t>(1, static_cast<std::int32_t>(std::lround(kLatticeM / map_.resolution_m())));
+  const auto pitch =
+      std::max<std::int32_t>(1, static_cast<std::int32_t>(std::lround(kLatticeM / map_.resolution_m())));
   const ReachableSpace space(map_, platform, start);
   std::vector<VoxelIndex> lattice;
   for (const VoxelIndex& cell : space.cells()) {

@@ -142,18 +142,22 @@ double Canvas::text_width(const std::string& words, double size, bool bold) {
 }
 
 void Canvas::text(cv::Point2d at, const std::string& words, double size, Colour colour, Align align, bool bold) {
-  const double shift = align == Align::Left ? 0.0 : text_width(words, size, bold) * (align == Align::Centre ? 0.5 : 1.0);
+  const double shift =
+      align == Align::Left ? 0.0 : text_width(words, size, bold) * (align == Align::Centre ? 0.5 : 1.0);
   const cv::Point origin(static_cast<int>(std::lround((at.x - shift) * kFine)),
                          static_cast<int>(std::lround(at.y * kFine)));
-  cv::putText(sheet_, printable(words), origin, kFont, font_scale(size), scalar(colour), stroke(size, bold), cv::LINE_AA);
+  cv::putText(sheet_, printable(words), origin, kFont, font_scale(size), scalar(colour), stroke(size, bold),
+              cv::LINE_AA);
 }
 
 void Canvas::label(cv::Point2d at, const std::string& words, double size, Colour colour, Align align) {
-  const double shift = align == Align::Left ? 0.0 : text_width(words, size, true) * (align == Align::Centre ? 0.5 : 1.0);
+  const double shift =
+      align == Align::Left ? 0.0 : text_width(words, size, true) * (align == Align::Centre ? 0.5 : 1.0);
   const cv::Point origin(static_cast<int>(std::lround((at.x - shift) * kFine)),
                          static_cast<int>(std::lround(at.y * kFine)));
   const std::string shown = printable(words);
-  cv::putText(sheet_, shown, origin, kFont, font_scale(size), scalar(kPaper), stroke(size, true) + fine(4.0), cv::LINE_AA);
+  cv::putText(sheet_, shown, origin, kFont, font_scale(size), scalar(kPaper), stroke(size, true) + fine(4.0),
+              cv::LINE_AA);
   cv::putText(sheet_, shown, origin, kFont, font_scale(size), scalar(colour), stroke(size, true), cv::LINE_AA);
 }
 

@@ -49,7 +49,8 @@ Slice slice_of(const FieldContent& content, const VoxelBox& layer) {
 }
 
 void paint(cv::Mat& image, const VoxelBox& layer, const VoxelIndex& cell, Colour colour) {
-  image.at<cv::Vec3b>(layer.hi.y - 1 - cell.y, cell.x - layer.lo.x) = cv::Vec3b(colour.red, colour.green, colour.blue);
+  image.at<cv::Vec3b>(layer.hi.y - 1 - cell.y, cell.x - layer.lo.x) =
+      cv::Vec3b(colour.red, colour.green, colour.blue);
 }
 
 cv::Mat image_of(const OccupancyMap& map, const FieldContent& content, const Slice& slice) {
@@ -59,10 +60,10 @@ cv::Mat image_of(const OccupancyMap& map, const FieldContent& content, const Sli
     const double phi = slice.phi[cell];
     const Occupancy state = map.at(cell);
     paint(image, layer, cell,
-          !std::isnan(phi)                ? drawing::level_colour(slice.rank(phi))
-          : state == Occupancy::Occupied  ? drawing::kOccupiedSpace
-          : state == Occupancy::Free      ? drawing::kFreeSpace
-                                          : drawing::kUnknownSpace);
+          !std::isnan(phi)               ? drawing::level_colour(slice.rank(phi))
+          : state == Occupancy::Occupied ? drawing::kOccupiedSpace
+          : state == Occupancy::Free     ? drawing::kFreeSpace
+                                         : drawing::kUnknownSpace);
   });
   for (const VoxelIndex& cell : content.frontier) {
     if (layer.contains(cell)) {
@@ -130,8 +131,11 @@ void draw_legend(MapSheet& sheet, const FieldContent& content, const Slice& slic
   sheet.legend_scale(drawing::level_colour, "potential phi (by rank)", low, high);
   sheet.legend([](Canvas& canvas, cv::Point2d at) { draw_sensor(canvas, at); }, "sensor: phi = 1");
   sheet.legend_swatch(kFrontier, "frontier: phi = 0");
-  sheet.legend([](Canvas& canvas, cv::Point2d at) { canvas.arrow(at, {1.0, 0.0}, 19.0, drawing::kInk, 1.2); },
-               "downhill");
+  sheet.legend(
+      [](Canvas& canvas, cv::Point2d at) {
+        canvas.arrow(at, {1.0, 0.0}, 19.0, drawing::kInk, 1.2);
+      },
+      "downhill");
   if (content.streamline.size() > 1) {
     sheet.legend(
         [](Canvas& canvas, cv::Point2d at) {
@@ -158,7 +162,8 @@ Picture draw_field(const OccupancyMap& map, const FieldContent& content) {
   layer.hi.z = layer.lo.z + 1;
   const Slice slice = slice_of(content, layer);
   MapSheet sheet(map.frame().box_of(layer), content.title,
-                 "horizontal slice at z = " + drawing::write_number(z_m, 0.01) + " m: the sensor runs downhill from itself to the frontier");
+                 "horizontal slice at z = " + drawing::write_number(z_m, 0.01) +
+                     " m: the sensor runs downhill from itself to the frontier");
   sheet.canvas().image(image_of(map, content, slice), sheet.area());
   draw_arrows(sheet, slice, map.frame());
   sheet.draw_axes();

@@ -22,12 +22,13 @@ VoxelBox slice_of(VoxelBox cells, const VoxelFrame& frame, double slice_z_m) {
 }
 
 std::string subtitle_of(const OccupancyMap& map, const FloorPlanContent& content, const Box& shown) {
-  const std::string cells = " in cells of " + write_number(map.resolution_m(), 0.001 * std::ceil(1000.0 * map.resolution_m())) + " m";
+  const std::string cells =
+      " in cells of " + write_number(map.resolution_m(), 0.001 * std::ceil(1000.0 * map.resolution_m())) + " m";
   if (content.slice_z_m) {
     return "horizontal slice at z = " + write_number(*content.slice_z_m, 0.01) + " m," + cells;
   }
-  return "seen from above, heights z = " + write_number(shown.min.z(), 0.1) + " to " + write_number(shown.max.z(), 0.1) +
-         " m," + cells;
+  return "seen from above, heights z = " + write_number(shown.min.z(), 0.1) + " to " +
+         write_number(shown.max.z(), 0.1) + " m," + cells;
 }
 
 void draw_path(MapSheet& sheet, const std::vector<Eigen::Vector3d>& travelled) {
@@ -59,7 +60,8 @@ void draw_views(MapSheet& sheet, const FloorPlanContent& content) {
   for (std::size_t i = 0; i < content.views.size(); ++i) {
     const Eigen::Vector3d axis = optical_axis(content.views[i]);
     const cv::Point2d direction = content.show_directions ? cv::Point2d(axis.x(), -axis.y()) : cv::Point2d(0.0, 0.0);
-    const double share = content.views.size() > 1 ? static_cast<double>(i) / static_cast<double>(content.views.size() - 1) : 0.0;
+    const double share =
+        content.views.size() > 1 ? static_cast<double>(i) / static_cast<double>(content.views.size() - 1) : 0.0;
     draw_view(sheet.canvas(), sheet.at(content.views[i].translation()), direction, journey_colour(share));
   }
 }

@@ -70,7 +70,8 @@ cv::Mat map_from_above(const OccupancyMap& map, const VoxelBox& cells) {
     }
     const std::int32_t x = (cell.x - cells.lo.x) / bin;
     const std::int32_t y = (cell.y - cells.lo.y) / bin;
-    Column& column = columns[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    Column& column =
+        columns[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
     ++(state == Occupancy::Occupied ? column.occupied : column.free);
   });
   const std::uint32_t slabs = extent.z > 1 ? usual_slabs(columns) : 0;
@@ -80,7 +81,8 @@ cv::Mat map_from_above(const OccupancyMap& map, const VoxelBox& cells) {
       // The last bins may be cut off by the edge.
       const double cells_in_bin = static_cast<double>(std::min(bin, extent.x - x * bin)) *
                                   static_cast<double>(std::min(bin, extent.y - y * bin)) * extent.z;
-      const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const std::size_t at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       const Colour colour = column_colour(columns[at], cells_in_bin, slabs);
       image.at<cv::Vec3b>(height - 1 - y, x) = cv::Vec3b(colour.red, colour.green, colour.blue);
     }

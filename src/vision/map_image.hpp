@@ -7,8 +7,8 @@
 
 namespace vantage::drawing {
 
-/// The cells a picture of `map` shows: those centred in `extent`, or all that are known. Throws std::invalid_argument if
-/// there are none.
+/// The cells a picture of `map` shows: those centred in `extent`, or all that are known. Throws std::invalid_argument
+/// if there are none.
 [[nodiscard]] VoxelBox cells_to_show(const OccupancyMap& map, const std::optional<Box>& extent);
 
 /// The map from above, RGB, the first row at the largest y: each column of `cells` mixes the colours of free, unknown

@@ -10,7 +10,7 @@
 namespace vantage::drawing {
 namespace {
 
-constexpr double kMapSide = 880.0;  // pixels of the longer side of the map
+constexpr double kMapSide = 880.0;    // pixels of the longer side of the map
 constexpr double kShortSide = 330.0;  // at least this much for the shorter one, or the legend would hang below
 constexpr double kLeft = 72.0;
 constexpr double kTop = 84.0;
@@ -76,7 +76,8 @@ void MapSheet::draw_scale_bar() {
   canvas_.frame(plate, kGridLine, 1.0);
   canvas_.rectangle({left.x, left.y - 4.0, 0.5 * length, 6.0}, kInk);
   canvas_.frame({left.x, left.y - 4.0, length, 6.0}, kInk, 1.0);
-  canvas_.text({left.x + 0.5 * length, left.y - 10.0}, write_number(metres, metres) + " m", kText, kInk, Align::Centre);
+  canvas_.text({left.x + 0.5 * length, left.y - 10.0}, write_number(metres, metres) + " m", kText, kInk,
+               Align::Centre);
 }
 
 void MapSheet::legend(const std::function<void(Canvas&, cv::Point2d)>& symbol, const std::string& words) {

@@ -11,7 +11,8 @@ namespace vantage {
 void write_png(const Picture& picture, const std::filesystem::path& file) {
   if (picture.width == 0 || picture.height == 0 || picture.rgb.size() != 3 * picture.width * picture.height) {
     throw std::invalid_argument("Picture::rgb has " + std::to_string(picture.rgb.size()) + " bytes, must be 3 * " +
-                                std::to_string(picture.width) + " * " + std::to_string(picture.height) + " and not 0");
+                                std::to_string(picture.width) + " * " + std::to_string(picture.height) +
+                                " and not 0");
   }
   cv::Mat bgr(static_cast<int>(picture.height), static_cast<int>(picture.width), CV_8UC3);
   for (std::size_t pixel = 0; pixel < picture.width * picture.height; ++pixel) {

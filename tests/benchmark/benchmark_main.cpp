@@ -46,8 +46,8 @@ class RatioReporter : public benchmark::ConsoleReporter {
     std::string_view ours;
     std::vector<std::string_view> theirs;
   };
-  static inline const std::vector<Peers> kPeers{
-      {"/vantage", {"/octomap"}}, {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}}};
+  static inline const std::vector<Peers> kPeers{{"/vantage", {"/octomap"}},
+                                                {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}}};
 
   void add(const std::string& name, double time) {
     const auto [entry, is_new] = least_times_.try_emplace(name, time);

@@ -39,7 +39,8 @@ struct Scene {
     return nearest;
   }
 
-  static std::pair<double, double> slab(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+  static std::pair<double, double> slab(const Box& box, const Eigen::Vector3d& from,
+                                        const Eigen::Vector3d& direction) {
     const Eigen::Array3d a = (box.min - from).array() / direction.array();
     const Eigen::Array3d b = (box.max - from).array() / direction.array();
     return {a.min(b).maxCoeff(), a.max(b).minCoeff()};
@@ -78,7 +79,8 @@ Scene hall(std::mt19937& engine) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   while (scene.boxes.size() < 50) {
     const Eigen::Vector3d corner(-17 + 33 * unit(engine), -8.5 + 16 * unit(engine), 0);
-    const Box crate{corner, corner + Eigen::Vector3d(0.4 + unit(engine), 0.4 + unit(engine), 0.4 + 1.6 * unit(engine))};
+    const Box crate{corner,
+                    corner + Eigen::Vector3d(0.4 + unit(engine), 0.4 + unit(engine), 0.4 + 1.6 * unit(engine))};
     if (crate.distance_to({0, 0, 1}) > 1.0) {
       scene.boxes.push_back(crate);
     }

@@ -88,12 +88,12 @@ int BoomerAmg::solve(double tolerance) {
   HYPRE_PCGSetTwoNorm(gradients, 1);
   HYPRE_Solver amg = nullptr;
   HYPRE_BoomerAMGCreate(&amg);
-  HYPRE_BoomerAMGSetCoarsenType(amg, 10);      // HMIS
-  HYPRE_BoomerAMGSetInterpType(amg, 6);        // extended + i
+  HYPRE_BoomerAMGSetCoarsenType(amg, 10);  // HMIS
+  HYPRE_BoomerAMGSetInterpType(amg, 6);    // extended + i
   HYPRE_BoomerAMGSetPMaxElmts(amg, 4);
   HYPRE_BoomerAMGSetStrongThreshold(amg, 0.5);  // three dimensions
   HYPRE_BoomerAMGSetAggNumLevels(amg, 1);
-  HYPRE_BoomerAMGSetRelaxType(amg, 8);         // symmetric Gauss-Seidel
+  HYPRE_BoomerAMGSetRelaxType(amg, 8);  // symmetric Gauss-Seidel
   HYPRE_BoomerAMGSetMaxIter(amg, 1);
   HYPRE_BoomerAMGSetTol(amg, 0.0);
   HYPRE_ParCSRPCGSetPrecond(gradients, HYPRE_BoomerAMGSolve, HYPRE_BoomerAMGSetup, amg);

@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// HYPRE's BoomerAMG as preconditioner of its conjugate gradients, with the settings its manual advises for problems in
-/// three dimensions.
+/// HYPRE's BoomerAMG as preconditioner of its conjugate gradients, with the settings its manual advises for problems
+/// in three dimensions.
 class BoomerAmg {
  public:
   explicit BoomerAmg(const LaplaceMatrix& system);

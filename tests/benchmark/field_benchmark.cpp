@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// field/<solver>/<scene>: one field of a partly explored building, from the cells to the certified potential. The peers
-// get their matrix for nothing: only what they make of it is timed.
+// field/<solver>/<scene>: one field of a partly explored building, from the cells to the certified potential. The
+// peers get their matrix for nothing: only what they make of it is timed.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/SparseCore>
@@ -38,7 +38,12 @@ RoomsOptions options_of(const std::string& scene) {
   if (scene == "floor") {
     return {.extent = {400, 400, 60}, .room_cells = 60, .door_cells = 12, .doors = 1.0, .unexplored = 0.1, .seed = 4};
   }
-  return {.extent = {128, 128, 128}, .room_cells = 8, .door_cells = 4, .doors = 0.45, .unexplored = 0.3, .seed = 5};  // maze
+  return {.extent = {128, 128, 128},
+          .room_cells = 8,
+          .door_cells = 4,
+          .doors = 0.45,
+          .unexplored = 0.3,
+          .seed = 5};  // maze
 }
 
 struct Scene {
@@ -62,8 +67,9 @@ const Scene& scene_of(const std::string& name) {
 void count(benchmark::State& state, const Scene& scene, double iterations) {
   state.counters["unknowns"] = static_cast<double>(scene.unknowns);
   state.counters["iterations"] = iterations;
-  state.counters["per_cell"] = benchmark::Counter(static_cast<double>(scene.unknowns),
-                                                  benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_cell"] =
+      benchmark::Counter(static_cast<double>(scene.unknowns),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void multigrid(benchmark::State& state, const std::string& name) {

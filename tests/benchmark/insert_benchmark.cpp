@@ -41,7 +41,8 @@ void insert_vantage(benchmark::State& state, const Case& c) {
   state.counters["bytes_per_cell"] = bytes / known;
 }
 
-// The fastest way OctoMap has: lazy, its inner nodes left for later, which is not counted. An infinite range is -1 there.
+// The fastest way OctoMap has: lazy, its inner nodes left for later, which is not counted. An infinite range is -1
+// there.
 void insert_octomap(benchmark::State& state, const Case& c) {
   octomap::Pointcloud cloud;
   const Eigen::Isometry3d& pose = c.scan.world_from_sensor;
@@ -107,10 +108,8 @@ std::optional<Scan> recorded_lidar_scan() {
 }
 
 void add_pair(const std::string& name, const Case& c) {
-  benchmark::RegisterBenchmark(("insert/vantage/" + name).c_str(), insert_vantage, c)
-      ->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark(("insert/octomap/" + name).c_str(), insert_octomap, c)
-      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(("insert/vantage/" + name).c_str(), insert_vantage, c)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark(("insert/octomap/" + name).c_str(), insert_octomap, c)->Unit(benchmark::kMillisecond);
 }
 
 const bool kRegistered = [] {

@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// The system that LaplaceMultigrid solves, as a matrix for general solvers: the negative Laplacian over the cells of the
-/// source's component that are no sinks, and a unit source.
+/// The system that LaplaceMultigrid solves, as a matrix for general solvers: the negative Laplacian over the cells of
+/// the source's component that are no sinks, and a unit source.
 struct LaplaceMatrix {
   Eigen::SparseMatrix<double> matrix;
   Eigen::VectorXd right;

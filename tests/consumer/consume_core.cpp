@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps the inside of a box from one scan and plans in it: with no opening there is nothing left to see, with one there is.
+// Maps the inside of a box from one scan and plans in it: with no opening there is nothing left to see, with one
+// there is.
 #include <algorithm>
 #include <cmath>
 #include <iostream>

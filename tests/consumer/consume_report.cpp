@@ -18,8 +18,8 @@ int main() {
   const std::string json = vantage::report_json(record);
   std::cout << json;
   const auto says = [&json](const std::string& text) { return json.find(text) != std::string::npos; };
-  return sensor.width == 64 && says("\"vantage\": \"" VANTAGE_VERSION_STRING "\"") && says("\"planner\": \"of my own\"") &&
-                 says("\"outcome\": \"explored\"")
+  return sensor.width == 64 && says("\"vantage\": \"" VANTAGE_VERSION_STRING "\"") &&
+                 says("\"planner\": \"of my own\"") && says("\"outcome\": \"explored\"")
              ? 0
              : 1;
 }

@@ -19,7 +19,8 @@ int main() {
   std::cout << to_string(record.outcome) << " after " << record.views.size() << " views, " << record.path_length_m()
             << " m: " << 100.0 * record.coverage.value_or(0.0) << " % of " << record.observable_cells << " cells, "
             << record.collisions << " collisions\n";
-  return record.outcome == vantage::RunOutcome::Explored && record.coverage.value_or(0.0) > 0.95 && record.collisions == 0
+  return record.outcome == vantage::RunOutcome::Explored && record.coverage.value_or(0.0) > 0.95 &&
+                 record.collisions == 0
              ? 0
              : 1;
 }

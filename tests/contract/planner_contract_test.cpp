@@ -10,11 +10,11 @@
 #include <numbers>
 #include <ostream>
 #include <string>
-#include <vector>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/reachable_space.hpp>
+#include <vector>
 
 #include "contract/cell_world.hpp"
 
@@ -48,8 +48,8 @@ bool same(const Plan& a, const Plan& b) {
                     [](const Pose& p, const Pose& q) { return same(p, q); });
 }
 
-/// By trying every reachable cell against every unknown neighbour of every frontier cell. Contested cells hold a piece of
-/// a surface: sight does not pass them.
+/// By trying every reachable cell against every unknown neighbour of every frontier cell. Contested cells hold a
+/// piece of a surface: sight does not pass them.
 bool anything_observable(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                          const Pose& current) {
   const ReachableSpace space(map, platform, current);
@@ -65,7 +65,8 @@ bool anything_observable(const OccupancyMap& map, const Platform& platform, cons
           continue;
         }
         bool in_sight = true;
-        for (const VoxelIndex& cell : VoxelRay(map.frame(), map.frame().centre_of(from), map.frame().centre_of(unknown))) {
+        for (const VoxelIndex& cell :
+             VoxelRay(map.frame(), map.frame().centre_of(from), map.frame().centre_of(unknown))) {
           in_sight = in_sight && (cell == unknown || (map.at(cell) == Occupancy::Free && !map.contested(cell)));
         }
         if (in_sight) {
@@ -93,7 +94,8 @@ const PlannerSettings kEveryCell{{"min_contested_cluster_cells", "1"}};
 class Robot {
  public:
   Robot(const Setting& setting, Furniture furniture, std::uint32_t seed)
-      : world_(testing::make_cell_world(furniture, seed)), sensor_(setting.narrow ? camera() : all_round()),
+      : world_(testing::make_cell_world(furniture, seed)),
+        sensor_(setting.narrow ? camera() : all_round()),
         platform_(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1})),
         map_({.resolution_m = world_.frame.size_m, .region = world_.frame.box_of(world_.solid.box())}),
         pose_(pose_looking(world_.frame.centre_of(world_.start), 0.3)) {
@@ -122,7 +124,8 @@ class Robot {
 
 class PlannerContract : public ::testing::TestWithParam<Setting> {
  protected:
-  /// Runs to the end in each world, `check(robot, planner, plan)` after every plan, and says how many plans there were.
+  /// Runs to the end in each world, `check(robot, planner, plan)` after every plan, and says how many plans there
+  /// were.
   template <class Check>
   std::size_t in_every_world(Check&& check) {
     std::size_t plans = 0;
@@ -161,8 +164,8 @@ TEST_P(PlannerContract, ThePathLeadsFromHereToTheGoalThroughAdmittedPoses) {
     for (std::size_t i = 1; i < plan.path.size(); ++i) {
       for (int s = 0; s <= 20; ++s) {
         Pose between = plan.path[i];
-        between.translation() = plan.path[i - 1].translation() +
-                                s / 20.0 * (plan.path[i].translation() - plan.path[i - 1].translation());
+        between.translation() =
+            plan.path[i - 1].translation() + s / 20.0 * (plan.path[i].translation() - plan.path[i - 1].translation());
         ASSERT_TRUE(robot.platform().admits(robot.map(), between));
         ++poses;
       }
@@ -185,7 +188,8 @@ TEST_P(PlannerContract, ItSaysExploredExactlyWhenNothingObservableIsLeft) {
 
 TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedTheMap) {
   const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan& plan) {
-    EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup(), kEveryCell)->plan(robot.map(), robot.pose())));
+    EXPECT_TRUE(
+        same(plan, make_planner(GetParam().planner, robot.setup(), kEveryCell)->plan(robot.map(), robot.pose())));
   });
   EXPECT_GE(plans, 9U * 2U);
 }
@@ -194,7 +198,8 @@ TEST_P(PlannerContract, PlanningTwiceAndOnMoreThreadsChangesNothing) {
   const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner& planner, const Plan& plan) {
     EXPECT_TRUE(same(plan, planner.plan(robot.map(), robot.pose())));
     const OccupancyMap::Revision before = robot.map().revision();
-    EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup(2), kEveryCell)->plan(robot.map(), robot.pose())));
+    EXPECT_TRUE(
+        same(plan, make_planner(GetParam().planner, robot.setup(2), kEveryCell)->plan(robot.map(), robot.pose())));
     EXPECT_EQ(robot.map().revision(), before);
   });
   EXPECT_GE(plans, 9U * 2U);
@@ -234,7 +239,8 @@ std::vector<Setting> settings() {
 
 INSTANTIATE_TEST_SUITE_P(Every, PlannerContract, ::testing::ValuesIn(settings()),
                          [](const ::testing::TestParamInfo<Setting>& setting) {
-                           std::string name = setting.param.planner + (setting.param.narrow ? "_camera" : "_all_round");
+                           std::string name =
+                               setting.param.planner + (setting.param.narrow ? "_camera" : "_all_round");
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

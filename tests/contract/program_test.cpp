@@ -47,7 +47,8 @@ class Program : public testing::Test {
   [[nodiscard]] Ran run(const std::string& arguments) const {
     const fs::path out = folder_ / "stdout.txt";
     const fs::path err = folder_ / "stderr.txt";
-    const std::string command = "'" VANTAGE_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+    const std::string command =
+        "'" VANTAGE_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
   }
@@ -71,7 +72,8 @@ class Program : public testing::Test {
 
 constexpr const char* kTable = "--world table --sensor kinect --resolution 0.2 --planner nearest-frontier ";
 
-std::string ply(const std::string& vertices, std::size_t vertex_count, const std::string& faces, std::size_t face_count) {
+std::string ply(const std::string& vertices, std::size_t vertex_count, const std::string& faces,
+                std::size_t face_count) {
   return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
          "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(face_count) +
          "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
@@ -143,7 +145,8 @@ TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
   expect_refused("--world " + cut + tail, cut);
   const std::string json = file("sensor.json", "{\"width\": 64,\n \"height\": }");
   expect_refused("--world table --sensor " + json, json);
-  const std::string range = file("range.json", R"({"width": 64, "height": 48, "fx": 60, "fy": 60, "max_range_m": -4})");
+  const std::string range =
+      file("range.json", R"({"width": 64, "height": 48, "fx": 60, "fy": 60, "max_range_m": -4})");
   expect_refused("--world table --sensor " + range, "max_range_m is -4");
   expect_refused("--world table --sensor /nowhere/sensor.json", "/nowhere/sensor.json");
   EXPECT_EQ(refused_, 10);
@@ -185,7 +188,8 @@ TEST_F(Program, HelpsAndLists) {
 }
 
 TEST_F(Program, ExploresAndReports) {
-  const Ran ran = run("explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --out '" + out() + "' --json -");
+  const Ran ran = run("explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --out '" + out() +
+                      "' --json -");
   EXPECT_EQ(ran.code, 0) << ran.err;
   const nlohmann::json report = nlohmann::json::parse(ran.out);  // stdout is nothing but JSON
   EXPECT_EQ(report["command"], "explore");

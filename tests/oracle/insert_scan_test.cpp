@@ -63,7 +63,8 @@ octomap::OcTreeKey key_of(const VoxelIndex& cell) {
 
 class SideBySide {
  public:
-  SideBySide(double resolution_m, RayPolicy policy) : map_({.resolution_m = resolution_m}), tree_(resolution_m), policy_(policy) {
+  SideBySide(double resolution_m, RayPolicy policy)
+      : map_({.resolution_m = resolution_m}), tree_(resolution_m), policy_(policy) {
     tree_.setProbHit(octomap::probability(0.85));
     tree_.setProbMiss(octomap::probability(-0.4));
     tree_.setClampingThresMin(octomap::probability(-2.0));
@@ -71,7 +72,8 @@ class SideBySide {
   }
 
   void insert(Scan scan) {
-    // With one ray to the centre of each end cell, a return on a face turns the whole ray: such returns go to neither.
+    // With one ray to the centre of each end cell, a return on a face turns the whole ray: such returns go to
+    // neither.
     const auto on_face = [&](const Eigen::Vector3f& point) {
       const Eigen::Vector3d world = scan.world_from_sensor * point.cast<double>() / map_.resolution_m();
       return ((world.array() - world.array().round()).abs() * map_.resolution_m() < 2e-5).any();
@@ -117,8 +119,8 @@ class SideBySide {
   }
 
  private:
-  // A disagreement is excused where a ray only grazes the cell, or ends on a face of it (OctoMap then stops before the
-  // cell): the ray, or its end, meets the cell grown, but not the cell shrunk.
+  // A disagreement is excused where a ray only grazes the cell, or ends on a face of it (OctoMap then stops before
+  // the cell): the ray, or its end, meets the cell grown, but not the cell shrunk.
   void judge(const VoxelIndex& cell, Agreement& agreement) const {
     const Box box = map_.frame().box_of(cell);
     const auto grazes = [&](const Ray& ray) { return meets(ray, box, kEdge_m) && !meets(ray, box, -kEdge_m); };
@@ -129,8 +131,8 @@ class SideBySide {
     if (!excused && agreement.first_unexcused.empty()) {
       std::ostringstream text;
       const octomap::OcTreeNode* node = tree_.search(key_of(cell));
-      text << "cell (" << cell.x << ", " << cell.y << ", " << cell.z << "): ours " << map_.log_odds(cell).value_or(NAN)
-           << ", OctoMap " << (node == nullptr ? NAN : node->getLogOdds());
+      text << "cell (" << cell.x << ", " << cell.y << ", " << cell.z << "): ours "
+           << map_.log_odds(cell).value_or(NAN) << ", OctoMap " << (node == nullptr ? NAN : node->getLogOdds());
       agreement.first_unexcused = text.str();
     }
   }

@@ -16,8 +16,9 @@ namespace {
 
 using Position = LaplaceProblem::Position;
 
-// One row per cell, straight from the definitions: identity at sinks and source; else, per axis, the second difference
-// with the value behind a closed face left out (FiniteVolume) or taken from the opposite side (Mirror, eq. 9).
+// One row per cell, straight from the definitions: identity at sinks and source; else, per axis, the second
+// difference with the value behind a closed face left out (FiniteVolume) or taken from the opposite side (Mirror, eq.
+// 9).
 Eigen::MatrixXd dense_operator(const LaplaceProblem& problem, NeumannScheme scheme) {
   const auto n = static_cast<Eigen::Index>(problem.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);

@@ -27,7 +27,9 @@ TEST(MapCommand, CountsTheCellsOfARealBuilding) {
   EXPECT_GT(summary.at("memory_mb"), 0.0);
   const nlohmann::json& bounds = summary.at("bounds_m");
   ASSERT_EQ(bounds.size(), 6U);
-  const auto extent = [&](std::size_t axis) { return bounds.at(axis + 3).get<double>() - bounds.at(axis).get<double>(); };
+  const auto extent = [&](std::size_t axis) {
+    return bounds.at(axis + 3).get<double>() - bounds.at(axis).get<double>();
+  };
   EXPECT_NEAR(extent(0), 39.0, 0.5);
   EXPECT_NEAR(extent(1), 15.0, 0.5);
   EXPECT_NEAR(extent(2), 3.1, 0.1);

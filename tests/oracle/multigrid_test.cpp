@@ -83,8 +83,12 @@ TEST(MultigridOracle, EqualsDenseLuOnTinyWorlds) {
 TEST(MultigridOracle, EqualsTheRelaxation) {
   std::size_t cells = 0;
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-    const RandomRooms rooms({.extent = {20, 17, 23}, .room_cells = seed % 2 == 0 ? 9 : 6, .door_cells = 2, .doors = 0.8,
-                             .clutter = 0.001, .seed = seed});
+    const RandomRooms rooms({.extent = {20, 17, 23},
+                             .room_cells = seed % 2 == 0 ? 9 : 6,
+                             .door_cells = 2,
+                             .doors = 0.8,
+                             .clutter = 0.001,
+                             .seed = seed});
     const LaplaceProblem problem = rooms.problem();
     if (problem.sink_count() == 0) {
       continue;
@@ -94,7 +98,8 @@ TEST(MultigridOracle, EqualsTheRelaxation) {
       const LaplaceSolution expected =
           relax_laplace(problem, {.neumann = scheme, .tolerance = 1e-12, .over_relaxation = 1.8});
       ASSERT_EQ(field.report().stop, MultigridStop::Converged) << "seed " << seed << " " << field.report().residual;
-      ASSERT_EQ(expected.report.stop, LaplaceStop::Converged) << "seed " << seed << " " << (scheme == NeumannScheme::Mirror);
+      ASSERT_EQ(expected.report.stop, LaplaceStop::Converged)
+          << "seed " << seed << " " << (scheme == NeumannScheme::Mirror);
       const std::vector<double> phi = field.values(problem);
       for (std::size_t i = 0; i < problem.size(); ++i) {
         ASSERT_NEAR(phi[i], expected.phi[i], 1e-9) << "seed " << seed;
@@ -116,7 +121,8 @@ std::vector<Worlds> kinds_of_worlds() {
       {"small rooms", {.extent = {40, 56, 33}, .room_cells = 11, .door_cells = 3}},
       {"thin walls, doors of a cell", {.extent = {37, 37, 37}, .room_cells = 6, .door_cells = 1, .doors = 0.5}},
       {"maze of corridors", {.extent = {41, 41, 41}, .room_cells = 4, .door_cells = 2, .doors = 0.45}},
-      {"maze one cell wide", {.extent = {35, 35, 35}, .room_cells = 2, .door_cells = 1, .doors = 0.5, .unexplored = 0.5}},
+      {"maze one cell wide",
+       {.extent = {35, 35, 35}, .room_cells = 2, .door_cells = 1, .doors = 0.5, .unexplored = 0.5}},
       {"crowded", {.extent = {45, 45, 45}, .room_cells = 60, .wall_cells = 0, .clutter = 0.03, .unexplored = 0.2}},
       {"hardly explored", {.extent = {51, 51, 51}, .room_cells = 17, .unexplored = 0.7}},
       {"slab", {.extent = {90, 70, 3}, .room_cells = 12, .door_cells = 2, .wall_cells = 1, .doors = 1.0}},
@@ -152,8 +158,8 @@ TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
       if (problem.sink_count() == 0) {
         continue;
       }
-      const LaplaceMultigrid field(
-          problem, {.neumann = seed % 3 == 0 ? NeumannScheme::Mirror : NeumannScheme::FiniteVolume});
+      const LaplaceMultigrid field(problem,
+                                   {.neumann = seed % 3 == 0 ? NeumannScheme::Mirror : NeumannScheme::FiniteVolume});
       ASSERT_EQ(field.report().stop, MultigridStop::Converged) << kind.name << " " << seed;
       ASSERT_TRUE(field.report().certified) << kind.name << " " << seed;
       ASSERT_LT(field.report().largest_residual, field.report().source_per_cell) << kind.name << " " << seed;
@@ -161,7 +167,8 @@ TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
       ASSERT_EQ(count_stuck_cells(problem, phi), 0U) << kind.name << " " << seed;
       ASSERT_EQ(walks_that_fail(problem, phi), 0U) << kind.name << " " << seed;
       ASSERT_TRUE(descend(problem, phi, problem.source()).reaches_sink);
-      const auto [low, high] = std::minmax_element(phi.begin(), phi.end());  // the maximum principle, but for the source
+      const auto [low, high] =
+          std::minmax_element(phi.begin(), phi.end());  // the maximum principle, but for the source
       ASSERT_GE(*low, 0.0);
       ASSERT_LE(*high, 1.0 + 1e-3) << kind.name << " " << seed;
       ++worlds;
@@ -194,7 +201,8 @@ TEST(MultigridOracle, FluxIsTheSameThroughEveryCutBetweenSourceAndSinks) {
       double flux = 0.0;
       for (std::size_t i = 0; i < problem.size(); ++i) {
         for (const Position neighbour : problem.neighbours(static_cast<Position>(i))) {
-          if (neighbour != LaplaceProblem::kClosed && phi[i] > level && phi[static_cast<std::size_t>(neighbour)] <= level) {
+          if (neighbour != LaplaceProblem::kClosed && phi[i] > level &&
+              phi[static_cast<std::size_t>(neighbour)] <= level) {
             flux += phi[i] - phi[static_cast<std::size_t>(neighbour)];
           }
         }
@@ -229,7 +237,9 @@ TEST(MultigridOracle, OperatorAndPreconditionerAreSymmetricAndPositive) {
     const auto random_field = [&] {
       detail::HalfField<float> field(solver.right().size(), 0.0F);
       for (std::size_t i = 0; i < field.size(); ++i) {
-        field[i] = solver.fine().degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0 ? normal(engine) : 0.0F;
+        field[i] = solver.fine().degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0
+                       ? normal(engine)
+                       : 0.0F;
       }
       return field;
     };
@@ -266,7 +276,8 @@ TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
   std::normal_distribution<float> normal;
   detail::HalfField<float> black(fine.brick_count * detail::kHalfBrick, 0.0F);
   for (std::size_t i = 0; i < black.size(); ++i) {
-    black[i] = fine.degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0 ? normal(engine) : 0.0F;
+    black[i] =
+        fine.degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0 ? normal(engine) : 0.0F;
   }
   std::size_t bricks = 0;
   for (std::size_t b = 1; b < fine.brick_count; ++b, ++bricks) {

@@ -11,7 +11,8 @@ namespace vantage::test {
 inline Scan random_scan(std::mt19937& engine, std::size_t rays, double max_range_m = 4.0) {
   std::uniform_real_distribution<double> metre(-3.0, 3.0);
   Scan scan;
-  scan.world_from_sensor = pose_looking({metre(engine), metre(engine), metre(engine)}, metre(engine), 0.3 * metre(engine));
+  scan.world_from_sensor =
+      pose_looking({metre(engine), metre(engine), metre(engine)}, metre(engine), 0.3 * metre(engine));
   scan.max_range_m = max_range_m;
   for (std::size_t i = 0; i < rays; ++i) {
     const Eigen::Vector3d point(metre(engine), metre(engine), metre(engine));

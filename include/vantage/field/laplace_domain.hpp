@@ -18,7 +18,8 @@ namespace vantage {
 ///     LaplaceDomain domain = known_free_domain(map);
 ///     LaplaceMultigrid field(std::move(domain), sensor_cell);
 ///
-/// Memory and time follow the bricks that hold a cell, never their bounding box: a quarter of a byte per cell of those.
+/// Memory and time follow the bricks that hold a cell, never their bounding box: a quarter of a byte per cell of
+/// those.
 class LaplaceDomain {
  public:
   static constexpr VoxelIndex kBrickSides{16, 8, 8};  ///< cells of a brick along x, y, z
@@ -26,7 +27,7 @@ class LaplaceDomain {
 
   /// A brick; bit x of a row is the cell at x, row z * 8 + y.
   struct Brick {
-    VoxelIndex address;                          ///< in units of bricks
+    VoxelIndex address;                        ///< in units of bricks
     std::array<std::uint16_t, kRows> cells{};  ///< what belongs to the domain
     std::array<std::uint16_t, kRows> sinks{};  ///< a subset of `cells`
   };

@@ -37,10 +37,14 @@ enum class MultigridStop : std::uint8_t {
 
 [[nodiscard]] constexpr std::string_view to_string(MultigridStop stop) {
   switch (stop) {
-    case MultigridStop::Converged: return "converged";
-    case MultigridStop::NoSinks: return "no sinks";
-    case MultigridStop::IterationLimit: return "iteration limit";
-    case MultigridStop::Stalled: return "stalled";
+    case MultigridStop::Converged:
+      return "converged";
+    case MultigridStop::NoSinks:
+      return "no sinks";
+    case MultigridStop::IterationLimit:
+      return "iteration limit";
+    case MultigridStop::Stalled:
+      return "stalled";
   }
   return "";
 }
@@ -48,21 +52,22 @@ enum class MultigridStop : std::uint8_t {
 /// What LaplaceMultigrid did.
 struct MultigridReport {
   MultigridStop stop = MultigridStop::IterationLimit;  ///< why it ended
-  bool certified = false;         ///< every cell but the sinks has a strictly lower neighbour
-  std::size_t stuck_cells = 0;    ///< cells that have none
-  std::size_t unknowns = 0;       ///< cells of the sensor's component without its sinks
-  std::size_t sinks = 0;          ///< frontier cells of that component
-  std::size_t dropped_cells = 0;  ///< cells of other components
-  std::size_t dropped_components = 0;  ///< how many of those there are
-  std::size_t levels = 0;         ///< of the multigrid hierarchy
-  std::size_t iterations = 0;     ///< of the Krylov method
-  std::size_t refinements = 0;    ///< times the residual was taken in double
-  double residual = 0.0;          ///< as a share of the source, in the Euclidean norm
-  double largest_residual = 0.0;  ///< the largest of all cells where the field is too low, the sensor's source being 1
-  double source_per_cell = 0.0;   ///< the uniform source of one cell, in the same unit: more than that is certain
-  std::size_t memory_bytes = 0;   ///< held by the solver, the field included
-  double setup_seconds = 0.0;     ///< wall time from the domain to the hierarchy
-  double solve_seconds = 0.0;     ///< wall time of the solution, certificate included
+  bool certified = false;                              ///< every cell but the sinks has a strictly lower neighbour
+  std::size_t stuck_cells = 0;                         ///< cells that have none
+  std::size_t unknowns = 0;                            ///< cells of the sensor's component without its sinks
+  std::size_t sinks = 0;                               ///< frontier cells of that component
+  std::size_t dropped_cells = 0;                       ///< cells of other components
+  std::size_t dropped_components = 0;                  ///< how many of those there are
+  std::size_t levels = 0;                              ///< of the multigrid hierarchy
+  std::size_t iterations = 0;                          ///< of the Krylov method
+  std::size_t refinements = 0;                         ///< times the residual was taken in double
+  double residual = 0.0;                               ///< as a share of the source, in the Euclidean norm
+  double largest_residual =
+      0.0;                       ///< the largest of all cells where the field is too low, the sensor's source being 1
+  double source_per_cell = 0.0;  ///< the uniform source of one cell, in the same unit: more than that is certain
+  std::size_t memory_bytes = 0;  ///< held by the solver, the field included
+  double setup_seconds = 0.0;    ///< wall time from the domain to the hierarchy
+  double solve_seconds = 0.0;    ///< wall time of the solution, certificate included
 };
 
 /// Solves the problem of Shade & Newman 2011, IV (see LaplaceProblem), by conjugate gradients preconditioned with
@@ -72,16 +77,17 @@ struct MultigridReport {
 ///     const LaplaceMultigrid field(known_free_domain(map), sensor_cell);
 ///     if (field.report().certified) ... field.phi(cell) ...
 ///
-/// It solves A u = e_s + eps, A the negative Laplacian with u = 0 at the sinks, e_s a unit source in the sensor's cell
-/// and eps the small uniform one, and gives phi = u / u_s: 1 at the sensor, 0 at the sinks, and elsewhere, but for eps,
-/// harmonic. As eps > 0, a residual below it proves that every cell has a strictly lower neighbour; the values given are
-/// compared to make sure (docs/harmonic.md). Behind the sensor, seen from the sinks, phi rises above 1 by as little.
+/// It solves A u = e_s + eps, A the negative Laplacian with u = 0 at the sinks, e_s a unit source in the sensor's
+/// cell and eps the small uniform one, and gives phi = u / u_s: 1 at the sensor, 0 at the sinks, and elsewhere, but
+/// for eps, harmonic. As eps > 0, a residual below it proves that every cell has a strictly lower neighbour; the
+/// values given are compared to make sure (docs/harmonic.md). Behind the sensor, seen from the sinks, phi rises above
+/// 1 by as little.
 ///
 /// The same input gives the same bits on every processor.
 class LaplaceMultigrid {
  public:
-  /// Solves on the component of `source`, which must be in the domain and no sink. Throws std::invalid_argument naming
-  /// what does not fit.
+  /// Solves on the component of `source`, which must be in the domain and no sink. Throws std::invalid_argument
+  /// naming what does not fit.
   LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source, const MultigridOptions& options = {});
   /// The same problem, given as a list.
   explicit LaplaceMultigrid(const LaplaceProblem& problem, const MultigridOptions& options = {});

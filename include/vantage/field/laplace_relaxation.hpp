@@ -27,7 +27,7 @@ enum class SweepOrder : std::uint8_t {
 /// Options of LaplaceRelaxation; the defaults are the paper's method.
 struct RelaxationOptions {
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
-  SweepOrder order = SweepOrder::Lexicographic;  ///< in which order the cells are visited
+  SweepOrder order = SweepOrder::Lexicographic;         ///< in which order the cells are visited
   double tolerance = 1e-4;          ///< stop when the largest relative change of a sweep is below it (eq. 10), > 0
   std::size_t max_sweeps = 100000;  ///< give up after so many, > 0
   double over_relaxation = 1.0;     ///< in (0, 2); 1 is Gauss-Seidel, more goes further (SOR)
@@ -49,23 +49,24 @@ enum class LaplaceStop : std::uint8_t { Converged, SweepLimit };
 /// What a solver did.
 struct LaplaceReport {
   LaplaceStop stop = LaplaceStop::SweepLimit;  ///< why it ended
-  std::size_t sweeps = 0;  ///< passes over all cells
-  double last_change = 0.0;         ///< largest relative change in the last sweep (eq. 10)
-  std::uint64_t cell_updates = 0;  ///< cells computed anew, over all sweeps
-  double seconds = 0.0;  ///< wall time
+  std::size_t sweeps = 0;                      ///< passes over all cells
+  double last_change = 0.0;                    ///< largest relative change in the last sweep (eq. 10)
+  std::uint64_t cell_updates = 0;              ///< cells computed anew, over all sweeps
+  double seconds = 0.0;                        ///< wall time
 };
 
 /// The field and how it was found.
 struct LaplaceSolution {
   std::vector<double> phi;  ///< by position in the problem
-  LaplaceReport report;  ///< how the solution came about
+  LaplaceReport report;     ///< how the solution came about
 };
 
 /// The finite difference relaxation of Shade & Newman 2011, IV-C: each interior cell in turn takes the mean of its
 /// neighbours (eq. 8), the latest values used as soon as they are there (Gauss-Seidel).
 ///
-/// The stop rule of the paper (eq. 10) bounds the change of a sweep, not the error, and it leaves cells without a lower
-/// neighbour: check what you follow (streamline.hpp). Starting from zero or from the same guess gives the same bits.
+/// The stop rule of the paper (eq. 10) bounds the change of a sweep, not the error, and it leaves cells without a
+/// lower neighbour: check what you follow (streamline.hpp). Starting from zero or from the same guess gives the same
+/// bits.
 class LaplaceRelaxation {
  public:
   /// Keeps a reference to `problem`. Throws std::invalid_argument naming the option at fault.

@@ -16,8 +16,8 @@ namespace vantage {
                                                                          std::span<const double> phi,
                                                                          LaplaceProblem::Position from);
 
-/// Cells other than sinks that have no strictly lower neighbour. A field with none is certified: steepest descent from
-/// every cell ends at a sink. A small tolerance does not give that, for phi is level in dead ends.
+/// Cells other than sinks that have no strictly lower neighbour. A field with none is certified: steepest descent
+/// from every cell ends at a sink. A small tolerance does not give that, for phi is level in dead ends.
 [[nodiscard]] std::size_t count_stuck_cells(const LaplaceProblem& problem, std::span<const double> phi);
 
 /// Steepest descent from cell to cell. Phi falls strictly along it, so it always ends.
@@ -28,10 +28,10 @@ struct Descent {
 [[nodiscard]] Descent descend(const LaplaceProblem& problem, std::span<const double> phi,
                               LaplaceProblem::Position from);
 
-/// The streamline of steepest descent from `from_m` (Shade & Newman 2011, IV-D): a curve through the negative gradient,
-/// differences at the cell centres interpolated linearly between them, in steps of half a cell. Ends in a sink's cell;
-/// every point lies in a cell of the problem. None if it leaves them or comes to rest before that, which a discrete
-/// field allows: descend() is then the way that is certain. `from_m` must lie in a cell of the problem.
+/// The streamline of steepest descent from `from_m` (Shade & Newman 2011, IV-D): a curve through the negative
+/// gradient, differences at the cell centres interpolated linearly between them, in steps of half a cell. Ends in a
+/// sink's cell; every point lies in a cell of the problem. None if it leaves them or comes to rest before that, which
+/// a discrete field allows: descend() is then the way that is certain. `from_m` must lie in a cell of the problem.
 [[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> streamline(const LaplaceProblem& problem,
                                                                      std::span<const double> phi,
                                                                      const VoxelFrame& frame,

@@ -9,8 +9,8 @@
 
 namespace vantage {
 
-/// The partition of 0 .. size - 1 into sets that only ever merge (Tarjan 1975): union by size, paths halved on the way,
-/// so a call costs next to nothing however many came before.
+/// The partition of 0 .. size - 1 into sets that only ever merge (Tarjan 1975): union by size, paths halved on the
+/// way, so a call costs next to nothing however many came before.
 class DisjointSets {
  public:
   /// Every element alone.

@@ -8,16 +8,16 @@ namespace vantage {
 /// A rigid transform, named `a_from_b`: it takes coordinates in frame b to coordinates in frame a, in metres.
 ///
 /// The frames of this library: **world** has +z up; **sensor** has +z forward along the optical axis, +x right and
-/// +y down in the image (Vasquez-Gomez et al. 2013, V-B, and every camera driver). A planner speaks of the pose of the
-/// sensor, `world_from_sensor`; a host with another body frame multiplies by its own mounting transform.
+/// +y down in the image (Vasquez-Gomez et al. 2013, V-B, and every camera driver). A planner speaks of the pose of
+/// the sensor, `world_from_sensor`; a host with another body frame multiplies by its own mounting transform.
 using Pose = Eigen::Isometry3d;
 
 /// The sensor at `position_m`, looking level along `yaw_rad` (0 = world +x, counter-clockwise seen from above), then
 /// tilted up by `pitch_rad` (positive looks up). No roll: the image's x axis stays horizontal.
 [[nodiscard]] Pose pose_looking(const Eigen::Vector3d& position_m, double yaw_rad, double pitch_rad = 0.0);
 
-/// The sensor at `position_m` with its optical axis along `direction` (any non-zero length), without roll. Straight up
-/// or down, where "without roll" has no meaning, the image's x axis is world -y.
+/// The sensor at `position_m` with its optical axis along `direction` (any non-zero length), without roll. Straight
+/// up or down, where "without roll" has no meaning, the image's x axis is world -y.
 [[nodiscard]] Pose pose_looking_along(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction);
 
 /// Whether every entry is finite and the linear part is a rotation (orthonormal, determinant +1) within `tolerance`.

@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// A dense array over a box of cells, x running fastest: the slow, obvious counterpart of every sparse structure here,
-/// and the work space of algorithms whose domain is small.
+/// A dense array over a box of cells, x running fastest: the slow, obvious counterpart of every sparse structure
+/// here, and the work space of algorithms whose domain is small.
 template <class T>
 class VoxelGrid {
  public:
@@ -38,7 +38,8 @@ class VoxelGrid {
     const VoxelIndex extent = box_.extent();
     const auto row = static_cast<std::size_t>(extent.x);
     const auto plane = row * static_cast<std::size_t>(extent.y);
-    return box_.lo + VoxelIndex{static_cast<std::int32_t>(offset % row), static_cast<std::int32_t>(offset % plane / row),
+    return box_.lo + VoxelIndex{static_cast<std::int32_t>(offset % row),
+                                static_cast<std::int32_t>(offset % plane / row),
                                 static_cast<std::int32_t>(offset / plane)};
   }
 

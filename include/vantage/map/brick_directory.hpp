@@ -12,7 +12,8 @@
 namespace vantage {
 
 /// Where the brick of an address is stored: a sparse array of brick numbers that grows with the map and has no preset
-/// bounds. Tiles of 8 x 8 x 8 numbers hang in a hash table, so that walking from brick to brick mostly stays in a tile.
+/// bounds. Tiles of 8 x 8 x 8 numbers hang in a hash table, so that walking from brick to brick mostly stays in a
+/// tile.
 class BrickDirectory {
  public:
   /// Where a brick is stored.

@@ -17,18 +17,18 @@ namespace vantage {
 
 /// The beam model of Shade & Newman 2011, eq. 11-13, with OctoMap's clamping.
 struct OccupancyMapOptions {
-  double resolution_m = 0.1;         ///< edge of a cell, > 0
-  double log_odds_hit = 0.85;        ///< added where a ray ends, > 0 (S&N VI: l_occ)
-  double log_odds_miss = -0.4;       ///< added where a ray passes, < 0 (S&N VI: l_free)
-  double log_odds_min = -2.0;        ///< lower clamp, < 0
-  double log_odds_max = 3.5;         ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
+  double resolution_m = 0.1;                 ///< edge of a cell, > 0
+  double log_odds_hit = 0.85;                ///< added where a ray ends, > 0 (S&N VI: l_occ)
+  double log_odds_miss = -0.4;               ///< added where a ray passes, < 0 (S&N VI: l_free)
+  double log_odds_min = -2.0;                ///< lower clamp, < 0
+  double log_odds_max = 3.5;                 ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
   std::optional<Box> region = std::nullopt;  ///< only cells whose centre lies in it are ever known; none: no limit
 };
 
 /// How rays are drawn from the returns of a scan.
 enum class RayPolicy : std::uint8_t {
-  EveryReturn,    ///< one ray to every return
-  EachEndCell,    ///< one ray to the centre of every cell that holds a return (OctoMap's `discretize`): faster
+  EveryReturn,  ///< one ray to every return
+  EachEndCell,  ///< one ray to the centre of every cell that holds a return (OctoMap's `discretize`): faster
 };
 
 /// How a coarser cell speaks for the known finest cells in it (unknown ones have no say), as OctoMap's inner nodes.
@@ -40,18 +40,19 @@ enum class CoarseningPolicy : std::uint8_t { Max, Mean };
 ///     map.insert(scan);
 ///     if (map.at(map.frame().cell_of(point)) == Occupancy::Free) ...
 ///
-/// Storage is sparse bricks of 8 x 8 x 8 cells (brick.hpp), so memory follows the volume seen, never its bounding box.
-/// Cells are aligned as OctoMap aligns them, which makes conversion exact both ways (octomap_bridge.hpp).
+/// Storage is sparse bricks of 8 x 8 x 8 cells (brick.hpp), so memory follows the volume seen, never its bounding
+/// box. Cells are aligned as OctoMap aligns them, which makes conversion exact both ways (octomap_bridge.hpp).
 ///
-/// Every call that changes the map makes one new revision; `changed_since` tells any number of readers, each at its own
-/// pace, which bricks hold a cell whose *state* has changed. Reading from several threads is safe while nobody writes.
+/// Every call that changes the map makes one new revision; `changed_since` tells any number of readers, each at its
+/// own pace, which bricks hold a cell whose *state* has changed. Reading from several threads is safe while nobody
+/// writes.
 class OccupancyMap {
  public:
   /// Number of a state of the map.
   using Revision = std::uint64_t;
   /// Known cells by state.
   struct Counts {
-    std::size_t free = 0;  ///< cells known to be free
+    std::size_t free = 0;      ///< cells known to be free
     std::size_t occupied = 0;  ///< cells known to be occupied
   };
 
@@ -59,7 +60,8 @@ class OccupancyMap {
   /// Throws std::invalid_argument naming the option at fault.
   explicit OccupancyMap(const OccupancyMapOptions& options);
 
-  // --- reading -------------------------------------------------------------------------------------------------------
+  // --- reading
+  // -------------------------------------------------------------------------------------------------------
   /// The options it was made with.
   [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
   /// Where cells lie in the world.
@@ -77,9 +79,10 @@ class OccupancyMap {
     return brick == nullptr ? Occupancy::Unknown : brick->at(Brick::offset_of(cell));
   }
   /// Whether a cell is free although rays have ended in it since it was last free for sure (at the lower clamp): its
-  /// log-odds are none that misses alone could make. Such a cell holds a piece of a surface that rays at a grazing angle
-  /// have worn away, and neither it nor what lies behind it should be counted upon. Hits that add up to a whole number of
-  /// misses go unnoticed: seven of eight pass by the default constants, none does where a hit is a multiple of a miss.
+  /// log-odds are none that misses alone could make. Such a cell holds a piece of a surface that rays at a grazing
+  /// angle have worn away, and neither it nor what lies behind it should be counted upon. Hits that add up to a whole
+  /// number of misses go unnoticed: seven of eight pass by the default constants, none does where a hit is a multiple
+  /// of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
   /// Log-odds of a cell; none where it is unknown.
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const;
@@ -122,22 +125,25 @@ class OccupancyMap {
     });
   }
 
-  // --- what changed --------------------------------------------------------------------------------------------------
-  /// Grows by one with every call that writes to the map, a scan that confirms what is known included; 0 for a new map.
+  // --- what changed
+  // --------------------------------------------------------------------------------------------------
+  /// Grows by one with every call that writes to the map, a scan that confirms what is known included; 0 for a new
+  /// map.
   [[nodiscard]] Revision revision() const { return revision_; }
   /// Addresses of the bricks in which a cell changed its state after `revision`, the latest first. Costs what it
   /// returns. Throws std::invalid_argument if `revision` is still to come.
   [[nodiscard]] std::vector<VoxelIndex> changed_since(Revision revision) const;
 
-  // --- writing -------------------------------------------------------------------------------------------------------
+  // --- writing
+  // -------------------------------------------------------------------------------------------------------
   /// Integrates one scan: each cell gets at most one update, a hit beats a miss (the semantics of
   /// octomap::OcTree::insertPointCloud). The sensor's own cell counts as passed. Throws std::invalid_argument if the
   /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted.
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Sets the state of a cell outright, at the clamping limit; Unknown forgets it. Outside the region: no effect.
   void set(const VoxelIndex& cell, Occupancy occupancy);
-  /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free. Outside
-  /// the region: no effect. Throws std::invalid_argument for NaN.
+  /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free.
+  /// Outside the region: no effect. Throws std::invalid_argument for NaN.
   void set_log_odds(const VoxelIndex& cell, double log_odds) {
     set_log_odds(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}, log_odds);
   }
@@ -150,7 +156,7 @@ class OccupancyMap {
   struct Stored {
     Brick cells;
     VoxelIndex address;
-    Revision changed = 0;  // the last revision in which a cell changed its state
+    Revision changed = 0;                                  // the last revision in which a cell changed its state
     BrickDirectory::Number newer = BrickDirectory::kNone;  // neighbours in the order of `changed`
     BrickDirectory::Number older = BrickDirectory::kNone;
   };

@@ -16,8 +16,8 @@ namespace vantage {
 /// that ray in `no_return`; such a ray clears cells up to `max_range_m`.
 struct Scan {
   Pose world_from_sensor = Pose::Identity();  ///< where the sensor was
-  /// Returns in the sensor frame, metres. If `width * height == points.size()` they are a depth image, row by row, and
-  /// the map may use the neighbourhood of pixels; the result is the same either way.
+  /// Returns in the sensor frame, metres. If `width * height == points.size()` they are a depth image, row by row,
+  /// and the map may use the neighbourhood of pixels; the result is the same either way.
   std::vector<Eigen::Vector3f> points;
   /// Directions in the sensor frame (any non-zero length) along which nothing was met within `max_range_m`.
   std::vector<Eigen::Vector3f> no_return;
@@ -34,15 +34,15 @@ struct Scan {
 
 /// What became of the rays of a scan: every one of them is counted exactly once among the first six.
 struct ScanReport {
-  std::size_t hits = 0;            ///< returns that ended in a cell
-  std::size_t beyond_range = 0;    ///< returns beyond the range, which only cleared
-  std::size_t no_return = 0;       ///< rays without a return, which cleared up to the range
-  std::size_t not_finite = 0;      ///< NaN or infinite points and directions, skipped
-  std::size_t zero_length = 0;     ///< points at the sensor's origin and zero directions, skipped
-  std::size_t not_addressable = 0; ///< rays that leave the addressable volume, skipped
-  std::size_t cells_hit = 0;       ///< cells updated as occupied
-  std::size_t cells_cleared = 0;   ///< cells updated as free
-  std::size_t cells_changed = 0;   ///< cells whose state (unknown, free, occupied) changed
+  std::size_t hits = 0;             ///< returns that ended in a cell
+  std::size_t beyond_range = 0;     ///< returns beyond the range, which only cleared
+  std::size_t no_return = 0;        ///< rays without a return, which cleared up to the range
+  std::size_t not_finite = 0;       ///< NaN or infinite points and directions, skipped
+  std::size_t zero_length = 0;      ///< points at the sensor's origin and zero directions, skipped
+  std::size_t not_addressable = 0;  ///< rays that leave the addressable volume, skipped
+  std::size_t cells_hit = 0;        ///< cells updated as occupied
+  std::size_t cells_cleared = 0;    ///< cells updated as free
+  std::size_t cells_changed = 0;    ///< cells whose state (unknown, free, occupied) changed
 };
 
 }  // namespace vantage

@@ -48,39 +48,40 @@ struct View {
 
 /// Counts and times of one cycle. Times are for reports only; nothing depends on them.
 struct PlanStatistics {
-  std::size_t frontier_cells = 0;       ///< inside the region, reachable or not
-  std::size_t observable_cells = 0;     ///< of those, the ones some reachable pose can resolve
-  std::size_t reachable_cells = 0;      ///< cells the platform can bring the sensor to
-  std::size_t void_cells = 0;           ///< planners that look for voids
-  std::size_t views_scored = 0;         ///< candidate views evaluated
-  std::uint64_t ray_operations = 0;     ///< cells visited along rays, plus cell updates of a field
-  std::size_t solver_sweeps = 0;        ///< planners that solve a field
-  double survey_ms = 0.0;               ///< frontiers, reachability, observability
-  double choose_ms = 0.0;               ///< the strategy itself
-  double path_ms = 0.0;                 ///< the way there
+  std::size_t frontier_cells = 0;    ///< inside the region, reachable or not
+  std::size_t observable_cells = 0;  ///< of those, the ones some reachable pose can resolve
+  std::size_t reachable_cells = 0;   ///< cells the platform can bring the sensor to
+  std::size_t void_cells = 0;        ///< planners that look for voids
+  std::size_t views_scored = 0;      ///< candidate views evaluated
+  std::uint64_t ray_operations = 0;  ///< cells visited along rays, plus cell updates of a field
+  std::size_t solver_sweeps = 0;     ///< planners that solve a field
+  double survey_ms = 0.0;            ///< frontiers, reachability, observability
+  double choose_ms = 0.0;            ///< the strategy itself
+  double path_ms = 0.0;              ///< the way there
 };
 
 /// The answer to "where should the sensor look next?".
 struct Plan {
   Outcome outcome = Outcome::Blocked;  ///< what to do now
-  View goal;  ///< the view to take; meaningful if outcome is Move
+  View goal;                           ///< the view to take; meaningful if outcome is Move
   std::vector<Pose> path;  ///< from the current pose to goal.pose, both included; empty unless outcome is Move
-  /// The unknown cells that the view is to resolve, once for every frontier cell beside them. Once scans on the way have made all of them known, the rest of the
-  /// way is not worth following: plan again. Empty if the planner cannot say.
+  /// The unknown cells that the view is to resolve, once for every frontier cell beside them. Once scans on the way
+  /// have made all of them known, the rest of the way is not worth following: plan again. Empty if the planner cannot
+  /// say.
   std::vector<VoxelIndex> sought;
-  Leftover leftover;  ///< what was given up
+  Leftover leftover;                             ///< what was given up
   std::string reason = "plan() was not called";  ///< one sentence, for a person
-  PlanStatistics statistics;  ///< what it took
+  PlanStatistics statistics;                     ///< what it took
 };
 
 /// Answers once per cycle where to look next. A host's whole loop: `map.insert(scan)`, `planner->plan(map, pose)`,
 /// follow the path, repeat.
 ///
-/// Every planner keeps this contract, and one test suite holds all of them to it: the path starts at `current`, ends at
-/// `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored exactly when nothing
-/// observable is left but what the options leave as too small; the same map, pose and seed give the same plan for any number of threads; planning twice without
-/// a new scan changes nothing; and but for the memory of failed goals a planner holds nothing that the map cannot
-/// rebuild.
+/// Every planner keeps this contract, and one test suite holds all of them to it: the path starts at `current`, ends
+/// at `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored exactly when
+/// nothing observable is left but what the options leave as too small; the same map, pose and seed give the same plan
+/// for any number of threads; planning twice without a new scan changes nothing; and but for the memory of failed
+/// goals, which belongs to one map, a planner holds nothing that the map cannot rebuild.
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;

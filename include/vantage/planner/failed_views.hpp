@@ -10,12 +10,12 @@
 namespace vantage {
 
 /// Remembers what the sensor has looked at without resolving it, so that no planner stares forever at what its sensor
-/// cannot measure: a surface without texture, the open sky, the inside of a wall that rays at a grazing angle have worn
-/// away in the map. A planner's only memory beside the map; without it a resumed planner merely tries once more.
+/// cannot measure: a surface without texture, the open sky, the inside of a wall that rays at a grazing angle have
+/// worn away in the map. A planner's only memory beside the map; without it a resumed planner merely tries once more.
 ///
-/// An unknown cell is given up after views from `patience` different cells that were meant for it; a cell from which a
-/// view of it has failed is no viewpoint for it again. The memory decays: when one more of the cell's face neighbours becomes known, it gets another
-/// chance.
+/// An unknown cell is given up after views from `patience` different cells that were meant for it; a cell from which
+/// a view of it has failed is no viewpoint for it again. The memory decays: when one more of the unknown cell's face
+/// neighbours becomes known, it gets another chance.
 class FailedViews {
  public:
   /// Throws std::invalid_argument unless `patience` > 0.
@@ -23,8 +23,9 @@ class FailedViews {
 
   /// Announces that a view from `goal` is meant to resolve these cells.
   void expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought);
-  /// Looks at the map now. If it has changed since `expect` and `current` is the goal, to within a cell and ten degrees,
-  /// every cell sought that is still unknown counts a failure. A second call without a change of the map does nothing.
+  /// Looks at the map now. If it has changed since `expect` and `current` is the goal, to within a cell and ten
+  /// degrees, every cell sought that is still unknown counts a failure. A second call without a change of the map
+  /// does nothing.
   void review(const OccupancyMap& map, const Pose& current);
   /// Whether a view from this cell has failed to resolve `unknown`.
   [[nodiscard]] bool failed_from(const VoxelIndex& unknown, const VoxelIndex& viewpoint) const;

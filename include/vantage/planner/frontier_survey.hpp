@@ -16,38 +16,39 @@ namespace vantage {
 
 /// A frontier cell that the sensor can resolve, and one place to do it from.
 struct FrontierTarget {
-  VoxelIndex frontier;   ///< the free cell
-  VoxelIndex unknown;    ///< its unknown face neighbour that is to be seen
-  VoxelIndex viewpoint;  ///< a reachable cell from whose centre the centre of `unknown` is in plain sight and in range
+  VoxelIndex frontier;  ///< the free cell
+  VoxelIndex unknown;   ///< its unknown face neighbour that is to be seen
+  /// A reachable cell from whose centre the centre of `unknown` is in plain sight and in range.
+  VoxelIndex viewpoint;
 };
 
 /// What counts as worth a view, for every planner alike.
 struct FrontierSurveyOptions {
   /// Smaller 26-connected clusters of observable frontier cells are left as `too_small`, >= 1.
   std::size_t min_cluster_cells = 1;
-  /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear surfaces
-  /// away, false frontiers of a few cells open without end.
+  /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear
+  /// surfaces away, false frontiers of a few cells open without end.
   std::size_t min_contested_cluster_cells = 32;
   int patience = 2;  ///< places from which a view of a cell may fail before it is given up (FailedViews), >= 1
-  std::size_t sight_directions = 512; ///< directions in which an unknown cell looks back for a viewpoint, >= 6
-  /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are tried
-  /// one by one before the map may be called explored: all of them, or this many, and the plan says so.
+  std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
+  /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are
+  /// tried one by one before the map may be called explored: all of them, or this many, and the plan says so.
   std::size_t exhaustive_pairs = 3'000'000;
 };
 
 /// Where the platform can go, which frontier cells are left and which of them some reachable pose can resolve: the
 /// definitions of "reachable", "observable" and "leftover" that all planners share.
 ///
-/// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one of
-/// its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest and longest range, and falls
-/// into its field of view in an orientation that the platform can take there.
+/// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one
+/// of its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest
+/// and longest range, and falls into its field of view in an orientation that the platform can take there.
 struct FrontierSurvey {
-  ReachableSpace reachable;  ///< cells the platform can bring the sensor to
+  ReachableSpace reachable;                  ///< cells the platform can bring the sensor to
   std::vector<FrontierTarget> targets = {};  ///< the observable frontier cells, in raster order of `frontier`
-  std::size_t frontier_cells = 0;       ///< all of them, inside the region
-  bool exhausted = true;  ///< false: FrontierSurveyOptions::exhaustive_pairs ran out before every pair was tried
+  std::size_t frontier_cells = 0;            ///< all of them, inside the region
+  bool exhausted = true;   ///< false: FrontierSurveyOptions::exhaustive_pairs ran out before every pair was tried
   Leftover leftover = {};  ///< frontier cells given up, by cause
-  std::uint64_t ray_operations = 0;     ///< cells visited while looking for lines of sight
+  std::uint64_t ray_operations = 0;  ///< cells visited while looking for lines of sight
 };
 
 /// Surveys the map from `current`. Targets that `failed` has given up count as unobservable.
@@ -62,7 +63,7 @@ struct FrontierSurvey {
                                   std::uint64_t& operations);
 
 /// Whether a sensor at `pose` should resolve `unknown`: in range, in the field of view and in plain sight.
-[[nodiscard]] bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,
-                        std::uint64_t& operations);
+[[nodiscard]] bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose,
+                        const VoxelIndex& unknown, std::uint64_t& operations);
 
 }  // namespace vantage

@@ -20,35 +20,36 @@ namespace vantage {
 enum class FieldSolver : std::uint8_t {
   Multigrid,     ///< to a small residual, with a certificate that the way down from every cell ends at a sink
   CoarseToFine,  ///< a first guess from coarse to fine, then a few sweeps of the relaxation
-  GaussSeidel,   ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
+  GaussSeidel,  ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
 };
 
 /// Options of HarmonicPlanner.
 struct HarmonicOptions {
-  FieldSolver solver = FieldSolver::Multigrid;  ///< how the field is solved
+  FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
-  double tolerance = 1e-4;             ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
-  std::size_t smoothing_sweeps = 20;   ///< CoarseToFine: sweeps after the guess
-  std::size_t max_sweeps = 50000;      ///< of the relaxation; no plan takes more, > 0
-  double over_relaxation = 1.0;        ///< in (0, 2); 1 is Gauss-Seidel
-  double uniform_source = 1e-4;        ///< see RelaxationOptions; 0 is the field of the paper
-  FrontierSurveyOptions survey = {};   ///< what counts as observable
+  double tolerance = 1e-4;            ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
+  std::size_t smoothing_sweeps = 20;  ///< CoarseToFine: sweeps after the guess
+  std::size_t max_sweeps = 50000;     ///< of the relaxation; no plan takes more, > 0
+  double over_relaxation = 1.0;       ///< in (0, 2); 1 is Gauss-Seidel
+  double uniform_source = 1e-4;       ///< see RelaxationOptions; 0 is the field of the paper
+  FrontierSurveyOptions survey = {};  ///< what counts as observable
 };
 
 /// The field behind a plan, for pictures and for those who want to look.
 struct HarmonicField {
-  LaplaceProblem problem;  ///< what was solved
-  std::vector<double> phi;                   ///< by position in the problem
-  std::vector<Eigen::Vector3d> streamline;   ///< from the sensor to the sink that was chosen
-  LaplaceReport report;  ///< how the solver ended
-  std::size_t stuck_cells = 0;  ///< cells without a strictly lower neighbour; 0: descent from every cell ends in a sink
-  /// False: the field is not certified (Multigrid), or descent from the source gets stuck (the others), and the plan takes
-  /// the shortest way instead.
+  LaplaceProblem problem;                   ///< what was solved
+  std::vector<double> phi;                  ///< by position in the problem
+  std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the sink that was chosen
+  LaplaceReport report;                     ///< how the solver ended
+  std::size_t stuck_cells =
+      0;  ///< cells without a strictly lower neighbour; 0: descent from every cell ends in a sink
+  /// False: the field is not certified (Multigrid), or descent from the source gets stuck (the others), and the plan
+  /// takes the shortest way instead.
   bool followed = true;
 };
 
-/// Harmonic exploration, Shade & Newman 2011: solve Laplace's equation over the space the platform can reach, 1 at the
-/// sensor, 0 at the boundaries to explore, no flow through the rest, and follow the steepest streamline down.
+/// Harmonic exploration, Shade & Newman 2011: solve Laplace's equation over the space the platform can reach, 1 at
+/// the sensor, 0 at the boundaries to explore, no flow through the rest, and follow the steepest streamline down.
 ///
 /// The paper's sensor is a point; here the domain is the platform's reachable space, and a frontier cell that lies
 /// outside it is represented by the reachable cell from which its unknown neighbour is seen (FrontierSurvey). Only a

@@ -15,10 +15,10 @@ namespace vantage {
 
 /// What every planner needs to know of the robot.
 struct PlannerSetup {
-  RangeSensor sensor;  ///< what it sees
+  RangeSensor sensor;                        ///< what it sees
   std::shared_ptr<const Platform> platform;  ///< what carries it; never null
-  std::uint64_t seed = 1;  ///< of everything random
-  int threads = 1;  ///< > 0; never changes the plan
+  std::uint64_t seed = 1;                    ///< of everything random
+  int threads = 1;                           ///< > 0; never changes the plan
 };
 
 /// Options by name, as `--set key=value` gives them.

@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// Goes for the frontier with the shortest way to a place that sees it (after Yamauchi 1998): the plainest baseline.
+/// Goes for the frontier with the shortest way to a place that sees it (after Yamauchi 1997): the plainest baseline.
 /// There it turns so that most other frontier cells come into view beside the one it came for.
 class NearestFrontierPlanner final : public ExplorationPlanner {
  public:

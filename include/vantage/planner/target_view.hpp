@@ -9,15 +9,17 @@ namespace vantage {
 
 /// A view and what it is meant to resolve.
 struct TargetView {
-  View view;                        ///< utility: the number of frontier targets seen
+  View view;                             ///< utility: the number of frontier targets seen
   std::vector<VoxelIndex> unknown = {};  ///< their unknown cells, in the order of the survey's targets
 };
 
-/// What a given pose sees of the survey's targets.
+/// What a given pose sees of the survey's targets, no further off than the sensor resolves cells of the map
+/// (RangeSensor::resolving_range_m).
 [[nodiscard]] TargetView targets_seen_from(const OccupancyMap& map, const RangeSensor& sensor,
                                            const FrontierSurvey& survey, const Pose& pose, std::uint64_t& operations);
 
-/// The pose at the viewpoint of `wanted` that sees `wanted` and, of the orientations tried, most other targets too.
+/// The pose at the viewpoint of `wanted` that sees `wanted` and, of the orientations tried, most other targets too
+/// that are near enough to be resolved.
 [[nodiscard]] TargetView view_of_target(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                                         const FrontierSurvey& survey, const FrontierTarget& wanted,
                                         std::uint64_t& operations);

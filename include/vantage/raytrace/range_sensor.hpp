@@ -19,17 +19,17 @@ struct RangeSensor {
   };
 
   Projection projection = Projection::Pinhole;  ///< which of the fields below apply
-  std::size_t width = 640;           ///< columns, > 0
-  std::size_t height = 480;          ///< rows, > 0
-  double fx = 525.0;                 ///< focal lengths and principal point in pixels; Pinhole only
+  std::size_t width = 640;                      ///< columns, > 0
+  std::size_t height = 480;                     ///< rows, > 0
+  double fx = 525.0;                            ///< focal lengths and principal point in pixels; Pinhole only
   /// Pinhole only.
   double fy = 525.0;
-  double cx = 319.5;  ///< principal point, pixels; Pinhole only
-  double cy = 239.5;  ///< principal point, pixels; Pinhole only
-  double horizontal_fov_rad = 0.0;   ///< Spherical only, in (0, 2 pi]
-  double vertical_fov_rad = 0.0;     ///< Spherical only, in (0, pi], centred on the horizon
-  double min_range_m = 0.0;          ///< nearer surfaces give no return, >= 0
-  double max_range_m = 4.0;          ///< further surfaces give no return, > min_range_m
+  double cx = 319.5;                ///< principal point, pixels; Pinhole only
+  double cy = 239.5;                ///< principal point, pixels; Pinhole only
+  double horizontal_fov_rad = 0.0;  ///< Spherical only, in (0, 2 pi]
+  double vertical_fov_rad = 0.0;    ///< Spherical only, in (0, pi], centred on the horizon
+  double min_range_m = 0.0;         ///< nearer surfaces give no return, >= 0
+  double max_range_m = 4.0;         ///< further surfaces give no return, > min_range_m
   /// Whether a ray that meets nothing within range is *known* to be clear (time of flight, lidar). Stereo and
   /// structured light cannot tell "nothing there" from "could not see": leave it false for them.
   bool reports_no_return = false;
@@ -59,11 +59,11 @@ struct RangeSensor {
   [[nodiscard]] double horizontal_angle_rad() const;
   /// Full vertical angle of view, radians.
   [[nodiscard]] double vertical_angle_rad() const;
-  /// How far from the sensor neighbouring rays are at most `cell_m` apart, metres: nearer than that hardly a cell of this
-  /// size slips between them (only one turned against the rows of pixels). Not limited by the range.
+  /// How far from the sensor neighbouring rays are at most `cell_m` apart, metres: nearer than that hardly a cell of
+  /// this size slips between them (only one turned against the rows of pixels). Not limited by the range.
   [[nodiscard]] double resolving_range_m(double cell_m) const;
-  /// The same sensor with just enough columns and rows that neighbouring rays are at most `cell_m` apart at the maximum
-  /// range (Vasquez-Gomez et al. 2013, eq. 6); never more than it has.
+  /// The same sensor with just enough columns and rows that neighbouring rays are at most `cell_m` apart at the
+  /// maximum range (Vasquez-Gomez et al. 2013, eq. 6); never more than it has.
   [[nodiscard]] RangeSensor rays_for(double cell_m) const;
 };
 

@@ -28,38 +28,38 @@ enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget };
 
 /// One integrated scan of a run and what was known after it.
 struct ViewRecord {
-  std::size_t view = 0;              ///< 1 for the first scan
-  Pose pose = Pose::Identity();      ///< world_from_sensor of the scan
-  std::optional<double> coverage;    ///< after this scan, where the true world is known
-  double path_length_m = 0.0;        ///< travelled so far
-  double insert_ms = 0.0;  ///< time to integrate the scan
-  double plan_ms = 0.0;              ///< 0 where the plan before was still being followed
-  double utility = 0.0;              ///< of the goal chosen after this scan
-  std::size_t frontier_cells = 0;    ///< after this scan; as last counted where no plan was made
-  std::size_t void_cells = 0;  ///< after this scan; planners that look for voids
-  Outcome outcome = Outcome::Move;   ///< of the plan made after this scan
+  std::size_t view = 0;             ///< 1 for the first scan
+  Pose pose = Pose::Identity();     ///< world_from_sensor of the scan
+  std::optional<double> coverage;   ///< after this scan, where the true world is known
+  double path_length_m = 0.0;       ///< travelled so far
+  double insert_ms = 0.0;           ///< time to integrate the scan
+  double plan_ms = 0.0;             ///< 0 where the plan before was still being followed
+  double utility = 0.0;             ///< of the goal chosen after this scan
+  std::size_t frontier_cells = 0;   ///< after this scan; as last counted where no plan was made
+  std::size_t void_cells = 0;       ///< after this scan; planners that look for voids
+  Outcome outcome = Outcome::Move;  ///< of the plan made after this scan
 };
 
 /// The record of a run, by whatever host: enough for the report, the pictures and the tables.
 struct RunRecord {
-  std::string command;  ///< "explore", "reconstruct", "search", "replay"
-  std::string world;  ///< name or file
-  std::string planner;  ///< by its NAME
-  std::uint64_t seed = 1;  ///< of everything random in the run
-  int threads = 1;  ///< the planner was given
-  double resolution_m = 0.0;  ///< edge of a cell of the map
-  RunOutcome outcome = RunOutcome::Budget;  ///< how the run ended
-  std::string reason;  ///< one sentence, for a person
-  std::optional<double> coverage;  ///< at the end, where the true world is known
-  std::size_t observable_cells = 0;  ///< cells the sensor could ever see there, by the truth
-  std::optional<double> surface_coverage;  ///< at the end, where an object was to be seen
-  Leftover leftover;  ///< frontier or void cells given up
-  std::size_t collisions = 0;  ///< of the body with the true world
+  std::string command;                       ///< "explore", "reconstruct", "search", "replay"
+  std::string world;                         ///< name or file
+  std::string planner;                       ///< by its NAME
+  std::uint64_t seed = 1;                    ///< of everything random in the run
+  int threads = 1;                           ///< the planner was given
+  double resolution_m = 0.0;                 ///< edge of a cell of the map
+  RunOutcome outcome = RunOutcome::Budget;   ///< how the run ended
+  std::string reason;                        ///< one sentence, for a person
+  std::optional<double> coverage;            ///< at the end, where the true world is known
+  std::size_t observable_cells = 0;          ///< cells the sensor could ever see there, by the truth
+  std::optional<double> surface_coverage;    ///< at the end, where an object was to be seen
+  Leftover leftover;                         ///< frontier or void cells given up
+  std::size_t collisions = 0;                ///< of the body with the true world
   std::uint64_t integration_operations = 0;  ///< cell updates by scans
   std::uint64_t planning_operations = 0;     ///< PlanStatistics::ray_operations, summed
-  double peak_memory_mb = 0.0;  ///< of the whole process
-  std::vector<ViewRecord> views;  ///< one entry per scan
-  std::vector<Eigen::Vector3d> travelled;  ///< successive sensor positions, the start first
+  double peak_memory_mb = 0.0;               ///< of the whole process
+  std::vector<ViewRecord> views;             ///< one entry per scan
+  std::vector<Eigen::Vector3d> travelled;    ///< successive sensor positions, the start first
 
   /// Travelled in all, metres.
   [[nodiscard]] double path_length_m() const { return views.empty() ? 0.0 : views.back().path_length_m; }

@@ -9,8 +9,9 @@
 
 namespace vantage {
 
-/// Shortest ways over the cells of a ReachableSpace. A step goes to one of the 26 neighbours and cuts no corner: every
-/// cell of the block it crosses must be reachable. Ties are settled by cell number, so the way never depends on chance.
+/// Shortest ways over the cells of a ReachableSpace. A step goes to one of the 26 neighbours and cuts no corner:
+/// every cell of the block it crosses must be reachable. Ties are settled by cell number, so the way never depends on
+/// chance.
 class GridPaths {
  public:
   /// Ways from the start of `space`, which must outlive it.
@@ -26,9 +27,9 @@ class GridPaths {
   const ReachableSpace& space_;
 };
 
-/// Turns a way over cells into poses that the platform can follow: from `from`, through cell centres, to `to`, leaving
-/// out every corner that a straight admitted motion makes needless; between the ends the sensor looks along its way.
-/// None if one of the joining motions is not admitted.
+/// Turns a way over cells into poses that the platform can follow: from `from`, through cell centres, to `to`,
+/// leaving out every corner that a straight admitted motion makes needless; between the ends the sensor looks along
+/// its way. None if one of the joining motions is not admitted.
 [[nodiscard]] std::optional<std::vector<Pose>> poses_along(const OccupancyMap& map, const Platform& platform,
                                                            const Pose& from, std::span<const VoxelIndex> cells,
                                                            const Pose& to);

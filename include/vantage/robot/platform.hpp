@@ -11,8 +11,8 @@
 
 namespace vantage {
 
-/// What carries the sensor: which poses it admits in the map as known now, how far apart two are, and how it gets from
-/// one to the other. All poses are of the sensor, `world_from_sensor`. Unknown space is never admitted.
+/// What carries the sensor: which poses it admits in the map as known now, how far apart two are, and how it gets
+/// from one to the other. All poses are of the sensor, `world_from_sensor`. Unknown space is never admitted.
 class Platform {
  public:
   virtual ~Platform() = default;
@@ -21,11 +21,11 @@ class Platform {
   [[nodiscard]] virtual bool admits(const OccupancyMap& map, const Pose& pose) const = 0;
   /// Whether the sensor may be at the centre of this cell, in at least one orientation.
   [[nodiscard]] virtual bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const = 0;
-  /// Every cell of `box` that the platform admits, as 1: the same answer as `admits_cell` cell by cell, which a platform
-  /// may know how to give faster for all of them at once.
+  /// Every cell of `box` that the platform admits, as 1: the same answer as `admits_cell` cell by cell, which a
+  /// platform may know how to give faster for all of them at once.
   [[nodiscard]] virtual VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const;
-  /// Whether the platform may move the sensor straight from one pose to the other: every cell that the body touches on
-  /// the way is known free, or touched already at `from` (so that a platform may leave a place found too tight).
+  /// Whether the platform may move the sensor straight from one pose to the other: every cell that the body touches
+  /// on the way is known free, or touched already at `from` (so that a platform may leave a place found too tight).
   [[nodiscard]] virtual bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const = 0;
   /// The pose at `position_m` whose optical axis comes nearest to `direction` among the orientations the platform can
   /// take (a yaw-only platform keeps level).

@@ -10,8 +10,9 @@
 
 namespace vantage {
 
-/// The cells to whose centres a platform can bring the sensor from where it is now: admitted cells joined face to face
-/// with the cell it starts from. Ground for every planner's decision: a robot plans in this space and in no other.
+/// The cells to whose centres a platform can bring the sensor from where it is now: admitted cells joined face to
+/// face with the cell it starts from. Ground for every planner's decision: a robot plans in this space and in no
+/// other.
 class ReachableSpace {
  public:
   /// Floods from the cell of `current`. If the platform does not admit that cell (a new scan may find a place too

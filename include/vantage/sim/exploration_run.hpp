@@ -21,22 +21,23 @@ namespace vantage {
 
 /// How a simulated exploration goes.
 struct ExplorationRunOptions {
-  OccupancyMapOptions map = {};                    ///< without a region: the world's own
+  OccupancyMapOptions map = {};  ///< without a region: the world's own
   /// How the map draws the rays of a scan.
   RayPolicy ray_policy = RayPolicy::EveryReturn;
-  std::size_t max_views = 500;                     ///< the budget, > 0
-  double scan_spacing_m = 0.5;                     ///< a scan every so far along the way, >= 0; 0: at goals only
-  std::uint64_t seed = 1;                          ///< of the sensor's noise
-  SensorNoise noise = {};  ///< of the simulated sensor
+  std::size_t max_views = 500;  ///< the budget, > 0
+  double scan_spacing_m = 0.5;  ///< a scan every so far along the way, >= 0; 0: at goals only
+  std::uint64_t seed = 1;       ///< of the sensor's noise
+  SensorNoise noise = {};       ///< of the simulated sensor
   /// Of the sphere whose touching a true surface is a collision, >= 0; none: half the least extent of
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;
-  int threads = 1;                                 ///< for the observable cells, > 0
+  int threads = 1;  ///< for the observable cells, > 0
 };
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
 /// sensor scans every `scan_spacing_m`; when a scan shows that the rest of the way is no longer admitted, or has
-/// resolved all that the plan sought, the run plans again. The same world, planner and options give the same record, but for its times and memory.
+/// resolved all that the plan sought, the run plans again. The same world, planner and options give the same record,
+/// but for its times and memory.
 class ExplorationRun {
  public:
   /// Called after every scan, with what was recorded and the map then.

@@ -15,10 +15,10 @@ struct MeshFileOptions {
   double scale = 1.0;  ///< metres per unit of the file, > 0
 };
 
-/// The triangles of a mesh file in any format that Assimp reads (PLY, OBJ, STL, glTF, COLLADA ...), with the transforms
-/// of its nodes applied. Points, lines and degenerate polygons are left out. Throws std::runtime_error, naming the path,
-/// if the file is missing or cannot be read, holds no triangle, or has a vertex that is not finite; and
-/// std::invalid_argument for a scale that is not positive.
+/// The triangles of a mesh file in any format that Assimp reads (PLY, OBJ, STL, glTF, COLLADA ...), with the
+/// transforms of its nodes applied. Points, lines and degenerate polygons are left out. Throws std::runtime_error,
+/// naming the path, if the file is missing or cannot be read, holds no triangle, or has a vertex that is not finite;
+/// and std::invalid_argument for a scale that is not positive.
 [[nodiscard]] TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
 
 }  // namespace vantage

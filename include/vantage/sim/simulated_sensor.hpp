@@ -13,8 +13,8 @@ namespace vantage {
 
 /// How measurements differ from the truth. The default is a perfect sensor.
 struct SensorNoise {
-  /// Standard deviation of the depth z as a multiple of a Kinect's, 0.0012 + 0.0019 (z - 0.4)^2 metres (Nguyen, Izadi &
-  /// Lovell 2012, eq. 5), >= 0. A spherical sensor's depth is its range.
+  /// Standard deviation of the depth z as a multiple of a Kinect's, 0.0012 + 0.0019 (z - 0.4)^2 metres (Nguyen, Izadi
+  /// & Lovell 2012, eq. 5), >= 0. A spherical sensor's depth is its range.
   double axial = 0.0;
   double dropped_share = 0.0;  ///< of all returns, lost at random, in [0, 1]
 };
@@ -26,11 +26,11 @@ class SimulatedSensor {
   SimulatedSensor(const TriangleScene& scene, const RangeSensor& sensor, const SensorNoise& noise = {},
                   std::uint64_t seed = 1);
 
-  /// What the sensor measures at this pose, each ray of the sensor once, row by row: as a point, NaN where the nearest
-  /// surface is out of range or the return was dropped, or, if it meets no surface within range and the sensor reports
-  /// that, in `Scan::no_return`. The scan is a depth image if every ray is a point. The noise is drawn from the seed and
-  /// the number of scans before this one, so the same sequence of poses gives the same scans. Throws
-  /// std::invalid_argument for a pose that is not rigid.
+  /// What the sensor measures at this pose, each ray of the sensor once, row by row: as a point, NaN where the
+  /// nearest surface is out of range or the return was dropped, or, if it meets no surface within range and the
+  /// sensor reports that, in `Scan::no_return`. The scan is a depth image if every ray is a point. The noise is drawn
+  /// from the seed and the number of scans before this one, so the same sequence of poses gives the same scans.
+  /// Throws std::invalid_argument for a pose that is not rigid.
   [[nodiscard]] Scan scan(const Pose& world_from_sensor);
 
   /// The sensor simulated.

@@ -16,9 +16,9 @@ namespace vantage {
 
 /// What a cell of the true world holds.
 enum class CellTruth : std::uint8_t {
-  Free,      ///< no surface
-  Grazed,    ///< surfaces only within 2 % of the cell's edge from its faces: rounding and a few rays decide what a map
-             ///< makes of it, so either state is right; to a body and to sight it is occupied
+  Free,    ///< no surface
+  Grazed,  ///< surfaces only within 2 % of the cell's edge from its faces: rounding and a few rays decide what a map
+           ///< makes of it, so either state is right; to a body and to sight it is occupied
   Occupied,  ///< a surface passes
 };
 
@@ -41,10 +41,10 @@ class Truth {
   /// The observable cells: cells of the region, free or not, that the sensor sees from at least one of the poses that
   /// the platform admits, taken on a lattice of 0.4 m (the nearest whole number of cells, at least one) in the space
   /// reachable from `start`, `start`'s own cell included. A pose sees a cell when the straight line between their
-  /// centres passes free cells only, the distance is within the sensor's range (its lower end for surfaces only), and,
-  /// for a free cell and a sensor that does not report rays without a return, the line goes on to a surface within
-  /// range: nothing else would clear the cell. Orientation is free, but for a platform that cannot tilt the cell must be
-  /// in view of the level sensor turned towards it. In raster order; the same for any number of threads.
+  /// centres passes free cells only, the distance is within the sensor's range (its lower end for surfaces only),
+  /// and, for a free cell and a sensor that does not report rays without a return, the line goes on to a surface
+  /// within range: nothing else would clear the cell. Orientation is free, but for a platform that cannot tilt the
+  /// cell must be in view of the level sensor turned towards it. In raster order; the same for any number of threads.
   [[nodiscard]] std::vector<VoxelIndex> observable(const Platform& platform, const RangeSensor& sensor,
                                                    const Pose& start, int threads = 1) const;
 

@@ -25,10 +25,11 @@ struct World {
   /// NAME or file.
   std::string name;
   TriangleMesh mesh;  ///< all surfaces, metres, z up
-  Box region;  ///< metres; a closed world's walls are inside
+  Box region;         ///< metres; a closed world's walls are inside
 
   /// A world by NAME:
-  /// - `rooms`: the test of Shade & Newman 2011: a closed cube of 10.2 m, 51 x 51 x 51 cells of 0.2 m, with horizontal
+  /// - `rooms`: the test of Shade & Newman 2011: a closed cube of 10.2 m, 51 x 51 x 51 cells of 0.2 m, with
+  /// horizontal
   ///   and vertical walls one cell thick and openings in them; it does not vary with the seed;
   /// - `office`: a corridor with furnished rooms on both sides, 20 x 14 x 3 m unless told;
   /// - `maze`: passages 1.4 m wide and 2 m high with a few loops, 13 x 10 m unless told;
@@ -43,8 +44,8 @@ struct World {
 
   /// A mesh file as world, its region the mesh's bounds. Errors as `read_mesh_file`.
   [[nodiscard]] static World from_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
-  /// A map as ground truth: its free cells are the free space, and whatever bounds them is solid, occupied or not known:
-  /// a truth with holes would have no end to explore. Throws std::invalid_argument if no cell is free.
+  /// A map as ground truth: its free cells are the free space, and whatever bounds them is solid, occupied or not
+  /// known: a truth with holes would have no end to explore. Throws std::invalid_argument if no cell is free.
   [[nodiscard]] static World from_map(std::string name, const OccupancyMap& map);
   /// By what the file is: .bt and .ot are OctoMaps (`options` has no say), everything else a mesh. Throws
   /// std::runtime_error naming the path.

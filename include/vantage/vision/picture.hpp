@@ -10,8 +10,8 @@ namespace vantage {
 
 /// A colour picture: rows from the top, pixels from the left, three bytes each (red, green, blue).
 struct Picture {
-  std::size_t width = 0;  ///< columns
-  std::size_t height = 0;  ///< rows
+  std::size_t width = 0;          ///< columns
+  std::size_t height = 0;         ///< rows
   std::vector<std::uint8_t> rgb;  ///< 3 * width * height bytes
 };
 

@@ -37,7 +37,10 @@ TEST(LaplaceMultigrid, RefusesASourceThatDoesNotFit) {
   LaplaceDomain domain;
   domain.insert({0, 0, 0});
   domain.insert_sink({1, 0, 0});
-  EXPECT_NE(error_of([&] { LaplaceMultigrid(domain, {5, 0, 0}); }).find("(5, 0, 0) is not in the domain"), std::string::npos);
+  EXPECT_NE(error_of([&] {
+              LaplaceMultigrid(domain, {5, 0, 0});
+            }).find("(5, 0, 0) is not in the domain"),
+            std::string::npos);
   EXPECT_NE(error_of([&] { LaplaceMultigrid(domain, {1, 0, 0}); }).find("(1, 0, 0) is a sink"), std::string::npos);
 }
 

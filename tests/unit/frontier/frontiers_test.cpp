@@ -17,7 +17,8 @@ OccupancyMap random_map(std::mt19937& engine, bool with_region) {
   OccupancyMapOptions options{.resolution_m = 0.1};
   std::uniform_int_distribution<std::int32_t> coordinate(-14, 14);
   if (with_region) {
-    const Eigen::Vector3d lo(0.1 * coordinate(engine) - 0.6, 0.1 * coordinate(engine) - 0.6, 0.1 * coordinate(engine) - 0.6);
+    const Eigen::Vector3d lo(0.1 * coordinate(engine) - 0.6, 0.1 * coordinate(engine) - 0.6,
+                             0.1 * coordinate(engine) - 0.6);
     options.region = Box{lo, lo + Eigen::Vector3d(1.3, 1.7, 2.1)};
   }
   OccupancyMap map(options);

@@ -37,7 +37,9 @@ bool in_some_tetrahedron(const std::vector<Eigen::Vector3d>& points, const Eigen
 TEST(ConvexHull, HoldsWhatSomeTetrahedronOfItsPointsHolds) {
   std::mt19937 engine(21);
   std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  const auto random_point = [&] { return Eigen::Vector3d(coordinate(engine), coordinate(engine), coordinate(engine)); };
+  const auto random_point = [&] {
+    return Eigen::Vector3d(coordinate(engine), coordinate(engine), coordinate(engine));
+  };
   std::size_t inside = 0;
   std::size_t compared = 0;
   for (int cloud = 0; cloud < 60; ++cloud) {

@@ -16,7 +16,8 @@ namespace {
 Scan random_scan(std::mt19937& engine, std::size_t rays) {
   std::uniform_real_distribution<double> metre(-3.0, 3.0);
   Scan scan;
-  scan.world_from_sensor = pose_looking({metre(engine), metre(engine), metre(engine)}, metre(engine), 0.3 * metre(engine));
+  scan.world_from_sensor =
+      pose_looking({metre(engine), metre(engine), metre(engine)}, metre(engine), 0.3 * metre(engine));
   scan.max_range_m = 4.0;
   for (std::size_t i = 0; i < rays; ++i) {
     const Eigen::Vector3d point(metre(engine), metre(engine), metre(engine));
@@ -33,8 +34,8 @@ TEST(OccupancyMap, KnowsNothingAtFirst) {
   EXPECT_TRUE(map.bounds().empty());
 }
 
-// Against the history of the cell: a free cell is contested exactly when a ray has ended in it since it last was unknown
-// or at the lower clamp. (So few updates cannot add up to a whole number of misses.)
+// Against the history of the cell: a free cell is contested exactly when a ray has ended in it since it last was
+// unknown or at the lower clamp. (So few updates cannot add up to a whole number of misses.)
 TEST(OccupancyMap, AFreeCellThatWasHitIsContestedUntilItIsFreeForSure) {
   std::mt19937 engine(7);
   const OccupancyMapOptions options;
@@ -102,7 +103,8 @@ Scan random_depth_image(std::mt19937& engine) {
   Scan scan;
   scan.width = 32;
   scan.height = 24;
-  scan.world_from_sensor = pose_looking({2 * unit(engine), 2 * unit(engine), unit(engine)}, 3 * unit(engine), unit(engine));
+  scan.world_from_sensor =
+      pose_looking({2 * unit(engine), 2 * unit(engine), unit(engine)}, 3 * unit(engine), unit(engine));
   std::array<Eigen::Vector3d, 3> planes;  // n with n . p = 1
   for (Eigen::Vector3d& plane : planes) {
     plane = {0.3 * unit(engine), 0.3 * unit(engine), 0.5 + 0.3 * unit(engine)};
@@ -147,7 +149,8 @@ TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCellsOfADepthImage) {
         cells_compared += test::compare_with_definition(scan, {.resolution_m = resolution_m}, policy);
         // A region that holds the sensor in about half of the worlds.
         const Box region{{-3.0, -1.5, -0.5}, {0.1, 2.0, 1.7}};
-        cells_compared += test::compare_with_definition(scan, {.resolution_m = resolution_m, .region = region}, policy);
+        cells_compared +=
+            test::compare_with_definition(scan, {.resolution_m = resolution_m, .region = region}, policy);
       }
     }
   }

@@ -195,7 +195,7 @@ TEST(OctomapBridge, AnEmptyMapIsAMapToo) {
 TEST(OctomapBridge, ATreesOwnThresholdDecidesWhatIsOccupied) {
   octomap::OcTree tree(0.1);
   tree.setOccupancyThres(0.7);
-  tree.setNodeValue(key_of({1, 2, 3}), 0.4F);    // below the threshold: free
+  tree.setNodeValue(key_of({1, 2, 3}), 0.4F);  // below the threshold: free
   tree.setNodeValue(key_of({1, 2, 4}), -0.001F);
   tree.setNodeValue(key_of({1, 2, 5}), 1.0F);
   const OctomapImport import = from_octree(tree);
@@ -222,10 +222,10 @@ TEST(OctomapBridge, FreeCellsOfAnotherBeamModelAreNotContested) {
   std::size_t free = 0;
   import.map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
     free += occupancy == Occupancy::Free ? 1U : 0U;
-    EXPECT_FALSE(import.map.contested(cell));
-  });
-  EXPECT_GT(free, 100U);
-}
+  EXPECT_FALSE(import.map.contested(cell));
+});
+EXPECT_GT(free, 100U);
+}  // namespace
 
 TEST(OctomapBridge, ImportsOnlyTheRegion) {
   std::mt19937 engine(16);
@@ -362,7 +362,9 @@ TEST(OctomapFollower, KeepsTheStatesOfALiveTree) {
       const std::size_t reported = follower.update();
       expect_same_states(follower.map(), tree, compared);
       std::size_t differing = 0;
-      const auto count = [&](const VoxelIndex& cell) { differing += before.at(cell) != follower.map().at(cell) ? 1U : 0U; };
+      const auto count = [&](const VoxelIndex& cell) {
+        differing += before.at(cell) != follower.map().at(cell) ? 1U : 0U;
+      };
       follower.map().for_each_known([&](const VoxelIndex& cell, Occupancy) { count(cell); });
       before.for_each_known([&](const VoxelIndex& cell, Occupancy) {
         differing += follower.map().at(cell) == Occupancy::Unknown ? 1U : 0U;
@@ -405,5 +407,5 @@ TEST(OctomapFollower, ResyncSeesWhatChangeDetectionMissesAndAnotherResolutionIsR
   EXPECT_THROW(follower.update(), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace vantage
 }  // namespace vantage

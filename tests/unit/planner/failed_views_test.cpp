@@ -50,7 +50,7 @@ TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {
   EXPECT_FALSE(failed.gave_up(kUnknown)) << "the map is what it was: no view was taken";
   map.set_log_odds(VoxelIndex{0, 0, 0}, -1.0);
   failed.review(map, pose_looking({0.75, 1.1, 1.1}, 0.0));  // more than a cell away
-  failed.review(map, pose_looking({0.5, 1.1, 1.1}, 0.3));    // more than ten degrees off
+  failed.review(map, pose_looking({0.5, 1.1, 1.1}, 0.3));   // more than ten degrees off
   EXPECT_FALSE(failed.gave_up(kUnknown)) << "the sensor is elsewhere";
   map.set_log_odds(VoxelIndex{0, 0, 0}, -1.2);
   failed.review(map, pose_looking({0.55, 1.1, 1.05}, 0.1));

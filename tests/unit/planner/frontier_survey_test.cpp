@@ -9,7 +9,9 @@
 namespace vantage {
 namespace {
 
-RangeSensor all_around() { return RangeSensor::spherical(120, 60, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0); }
+RangeSensor all_around() {
+  return RangeSensor::spherical(120, 60, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0);
+}
 
 // A closed room of 12 x 12 x 12 free cells; what lies behind its walls is unknown.
 OccupancyMap closed_room() {
@@ -21,8 +23,8 @@ OccupancyMap closed_room() {
 }
 
 FrontierSurvey survey_of(const OccupancyMap& map, const FrontierSurveyOptions& options = {}) {
-  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), all_around(), pose_looking({1.1, 1.1, 1.1}, 0.0), options,
-                          FailedViews());
+  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), all_around(), pose_looking({1.1, 1.1, 1.1}, 0.0),
+                          options, FailedViews());
 }
 
 constexpr VoxelBox kOpening{{12, 4, 4}, {13, 6, 6}};  // four cells of the wall at x = 12

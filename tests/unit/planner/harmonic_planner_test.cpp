@@ -99,8 +99,8 @@ TEST(HarmonicPlanner, SameMapSamePlanAndPlanningTwiceChangesNothing) {
 TEST(HarmonicPlanner, APlatformThatKeepsItsHeightSolvesInThePlane) {
   const OccupancyMap map = box_with_opening();
   const Pose current = pose_looking({0.5, 0.5, 1.1}, 0.0);
-  const PlannerSetup setup = setup_with(
-      all_around(), {.radius_m = 0.15, .min_height_m = 1.05, .max_height_m = 1.15, .yaw_only = true});
+  const PlannerSetup setup =
+      setup_with(all_around(), {.radius_m = 0.15, .min_height_m = 1.05, .max_height_m = 1.15, .yaw_only = true});
   HarmonicPlanner planner(setup);
   const Plan plan = planner.plan(map, current);
   ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
@@ -178,7 +178,8 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   EXPECT_EQ(message(setup, {}), "");
   EXPECT_NE(message(setup, {.survey = {.patience = 0}}).find("FrontierSurveyOptions::patience"), std::string::npos);
   EXPECT_NE(message(setup, {.tolerance = -1.0}).find("tolerance"), std::string::npos);
-  EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"), std::string::npos);
+  EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"),
+            std::string::npos);
   HarmonicPlanner planner(setup);
   Pose bent = Pose::Identity();
   bent.linear() *= 2.0;

@@ -49,11 +49,26 @@ RunRecord three_views() {
 
 TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
   const ordered_json report = ordered_json::parse(report_json(three_views()));
-  EXPECT_EQ(keys_of(report),
-            (std::vector<std::string>{"vantage", "command", "world", "planner", "seed", "threads", "resolution_m", "outcome",
-                                      "reason", "views", "path_length_m", "coverage", "observable_cells",
-                                      "surface_coverage", "leftover", "collisions", "ray_operations", "time_ms",
-                                      "peak_memory_mb", "cycles"}));
+  EXPECT_EQ(keys_of(report), (std::vector<std::string>{"vantage",
+                                                       "command",
+                                                       "world",
+                                                       "planner",
+                                                       "seed",
+                                                       "threads",
+                                                       "resolution_m",
+                                                       "outcome",
+                                                       "reason",
+                                                       "views",
+                                                       "path_length_m",
+                                                       "coverage",
+                                                       "observable_cells",
+                                                       "surface_coverage",
+                                                       "leftover",
+                                                       "collisions",
+                                                       "ray_operations",
+                                                       "time_ms",
+                                                       "peak_memory_mb",
+                                                       "cycles"}));
   EXPECT_EQ(keys_of(report["leftover"]), (std::vector<std::string>{"unreachable", "unobservable", "too_small"}));
   EXPECT_EQ(keys_of(report["ray_operations"]), (std::vector<std::string>{"integration", "planning"}));
   EXPECT_EQ(keys_of(report["time_ms"]), (std::vector<std::string>{"insert", "plan"}));
@@ -91,7 +106,8 @@ TEST(ReportJson, WritesARotationOneWayOnly) {
   ASSERT_EQ(pose.size(), 7U);
   EXPECT_EQ(pose[0], 1.0);
   EXPECT_GE(pose[6].get<double>(), 0.0);
-  const Eigen::Quaterniond back(pose[6].get<double>(), pose[3].get<double>(), pose[4].get<double>(), pose[5].get<double>());
+  const Eigen::Quaterniond back(pose[6].get<double>(), pose[3].get<double>(), pose[4].get<double>(),
+                                pose[5].get<double>());
   EXPECT_LT(back.angularDistance(turn), 1e-7);
 }
 

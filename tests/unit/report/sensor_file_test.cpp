@@ -48,7 +48,8 @@ TEST_F(SensorFile, ReadsAPinholeByAngles) {
 }
 
 TEST_F(SensorFile, ReadsAPinholeByFocalLength) {
-  const RangeSensor sensor = load(R"({"projection": "pinhole", "width": 64, "height": 48, "fx": 50, "fy": 51.5, "cx": 30,
+  const RangeSensor sensor =
+      load(R"({"projection": "pinhole", "width": 64, "height": 48, "fx": 50, "fy": 51.5, "cx": 30,
                                       "max_range_m": 4})");
   EXPECT_EQ(sensor.fx, 50.0);
   EXPECT_EQ(sensor.fy, 51.5);
@@ -57,7 +58,8 @@ TEST_F(SensorFile, ReadsAPinholeByFocalLength) {
 }
 
 TEST_F(SensorFile, ReadsASphericalSensorInRadians) {
-  const RangeSensor sensor = load(R"({"projection": "spherical", "width": 360, "height": 32, "horizontal_fov_rad": 6.2,
+  const RangeSensor sensor =
+      load(R"({"projection": "spherical", "width": 360, "height": 32, "horizontal_fov_rad": 6.2,
                                       "vertical_fov_rad": 0.5, "max_range_m": 30, "reports_no_return": true})");
   EXPECT_EQ(sensor.projection, RangeSensor::Projection::Spherical);
   EXPECT_EQ(sensor.horizontal_fov_rad, 6.2);
@@ -91,7 +93,8 @@ TEST_F(SensorFile, SaysWhatIsWrongAndWhere) {
       {R"({"width": 64, "height": 48, "horizontal_fov_deg": 50, "vertical_fov_deg": 40, "fx": 1, "max_range_m": 4})",
        "not both"},
       {R"({"projection": "fisheye", "width": 64, "height": 48, "fx": 1, "fy": 1, "max_range_m": 4})", "fisheye"},
-      {R"({"projection": "spherical", "width": 64, "height": 48, "fx": 1, "max_range_m": 4})", "'fx' belongs to a pinhole"},
+      {R"({"projection": "spherical", "width": 64, "height": 48, "fx": 1, "max_range_m": 4})",
+       "'fx' belongs to a pinhole"},
       {R"({"width": 64, "height": 48, "fx": 1, "fy": 1, "max_range_m": 4, "reports_no_return": 1})",
        "'reports_no_return' is 1"},
       {R"({"width": 64, "height": 48, "fx": 1, "fy": 1, "max_range_m": 1e999})", "1e999"},

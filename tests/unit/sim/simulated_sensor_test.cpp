@@ -121,7 +121,8 @@ TEST(SimulatedSensor, EveryRayIsCountedOnce) {
       sensor.reports_no_return = knows;
       SimulatedSensor simulated(TriangleScene(box_room(3.5)), sensor, {.axial = 1.0, .dropped_share = 0.1}, 5);
       for (int view = 0; view < 5; ++view, ++scans) {
-        const Scan scan = simulated.scan(pose_looking({metre(engine), metre(engine), metre(engine)}, angle(engine), 0.4));
+        const Scan scan =
+            simulated.scan(pose_looking({metre(engine), metre(engine), metre(engine)}, angle(engine), 0.4));
         EXPECT_EQ(scan.points.size() + scan.no_return.size(), sensor.width * sensor.height) << name;
         EXPECT_EQ(scan.organised(), scan.no_return.empty()) << name;
         EXPECT_TRUE(knows || scan.organised()) << name;

@@ -61,9 +61,8 @@ TEST(Truth, RasterisesEveryCellThatATrianglePasses) {
       }
     }
     std::size_t occupied = 0;
-    for_each_cell(*truth.map().region(), [&](const VoxelIndex& cell) {
-      occupied += truth.at(cell) == CellTruth::Occupied ? 1U : 0U;
-    });
+    for_each_cell(*truth.map().region(),
+                  [&](const VoxelIndex& cell) { occupied += truth.at(cell) == CellTruth::Occupied ? 1U : 0U; });
     tight += occupied <= hit.size() + hit.size() / 10 + 3 ? 1U : 0U;
   }
   EXPECT_GT(sampled, 300'000U);

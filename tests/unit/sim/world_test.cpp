@@ -61,7 +61,8 @@ TEST_F(MeshFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(complaint([&] { (void)read_mesh_file(nan); }), nan.string() + ": vertex 1 is not finite");
   const auto garbage = write("garbage.ply", "this is no mesh");
   EXPECT_NE(complaint([&] { (void)read_mesh_file(garbage); }).find("cannot be read as a mesh"), std::string::npos);
-  EXPECT_EQ(complaint([&] { (void)read_mesh_file(nan, {.scale = 0.0}); }), "MeshFileOptions::scale is 0, must be > 0");
+  EXPECT_EQ(complaint([&] { (void)read_mesh_file(nan, {.scale = 0.0}); }),
+            "MeshFileOptions::scale is 0, must be > 0");
 }
 
 TEST(World, AnUnknownNameListsThoseThereAre) {
@@ -90,8 +91,8 @@ TEST(World, SeedsMakeTheGeneratedWorlds) {
   }
 }
 
-// A closed world has no leak: a ray from an empty place, however it goes, meets a surface within the region, and meets
-// it inside a cell, not on a border.
+// A closed world has no leak: a ray from an empty place, however it goes, meets a surface within the region, and
+// meets it inside a cell, not on a border.
 TEST(World, GeneratedWorldsAreClosedAndMeetRaysInsideTheirCells) {
   std::mt19937 engine(5);
   std::normal_distribution<double> normal;

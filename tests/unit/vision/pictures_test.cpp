@@ -39,7 +39,9 @@ FloorPlanContent walk() {
 std::size_t count(const Picture& picture, int red, int green, int blue) {
   std::size_t found = 0;
   for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
-    const auto near = [&](std::size_t channel, int value) { return std::abs(int(picture.rgb[i + channel]) - value) <= 6; };
+    const auto near = [&](std::size_t channel, int value) {
+      return std::abs(int(picture.rgb[i + channel]) - value) <= 6;
+    };
     found += near(0, red) && near(1, green) && near(2, blue) ? 1U : 0U;
   }
   return found;
@@ -50,7 +52,8 @@ TEST(FloorPlan, ShowsFreeOccupiedUnknownAndTheJourney) {
   ASSERT_EQ(picture.rgb.size(), 3 * picture.width * picture.height);
   const double area = 880.0 * 880.0 * 40.0 / 60.0;  // of the map, pixels
   EXPECT_NEAR(static_cast<double>(count(picture, 183, 189, 199)) / area, 9.0 * 38.0 / 2400.0, 0.02) << "unknown";
-  EXPECT_NEAR(static_cast<double>(count(picture, 29, 32, 40)) / area, (2400.0 - 58.0 * 38.0 + 24.0) / 2400.0, 0.02) << "walls";
+  EXPECT_NEAR(static_cast<double>(count(picture, 29, 32, 40)) / area, (2400.0 - 58.0 * 38.0 + 24.0) / 2400.0, 0.02)
+      << "walls";
   EXPECT_GT(count(picture, 22, 145, 84), 100U) << "start";
   EXPECT_GT(count(picture, 206, 43, 55), 100U) << "end";
   EXPECT_EQ(picture.rgb, draw_floor_plan(walled_room(), walk()).rgb) << "the same input, the same bytes";
