@@ -70,11 +70,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options) : options_(option
 bool OccupancyMap::contested(const VoxelIndex& cell) const {
   const Brick* brick = find_brick(Brick::of_cell(cell));
   const std::size_t offset = Brick::offset_of(cell);
-  if (brick == nullptr || brick->at(offset) != Occupancy::Free) {
-    return false;
-  }
-  const std::int8_t steps = brick->log_odds[offset];
-  return steps > min_steps_ && steps % miss_steps_ != 0;
+  return brick != nullptr && brick->at(offset) == Occupancy::Free && shows_a_hit(brick->log_odds[offset]);
 }
 
 std::optional<double> OccupancyMap::log_odds(const VoxelIndex& cell) const {

@@ -31,10 +31,21 @@ std::vector<Eigen::Vector3d> spread_directions(std::size_t count) {
 // The cells that sight passes, in one block: a survey asks for them millions of times.
 VoxelGrid<std::uint8_t> clear_cells(const OccupancyMap& map) {
   VoxelGrid<std::uint8_t> clear(map.bounds());
-  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
-    clear[cell] = occupancy == Occupancy::Free && !map.contested(cell) ? 1 : 0;
-  });
+  map.for_each_clear([&](const VoxelIndex& cell) { clear[cell] = 1; });
   return clear;
+}
+
+// Whether every cell before `target` on the straight line to its centre is clear; counts the cells visited.
+template <class IsClear>
+bool line_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& target, IsClear&& is_clear,
+                   std::uint64_t& operations) {
+  for (const VoxelIndex& cell : VoxelRay(frame, from, frame.centre_of(target))) {
+    ++operations;
+    if (cell != target && !is_clear(cell)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 // Finds a viewpoint for one unknown cell after another.
@@ -122,17 +133,8 @@ class ViewpointSearch {
     if (!platform_.can_tilt() && !sensor_.in_view(platform_.facing(from, line).linear().transpose() * line)) {
       return false;
     }
-    return in_sight(from, unknown);
-  }
-
-  bool in_sight(const Eigen::Vector3d& from, const VoxelIndex& unknown) {
-    for (const VoxelIndex& cell : VoxelRay(frame_, from, frame_.centre_of(unknown))) {
-      ++operations_;
-      if (cell != unknown && !clear(cell)) {
-        return false;
-      }
-    }
-    return true;
+    return line_is_clear(
+        frame_, from, unknown, [this](const VoxelIndex& cell) { return clear(cell); }, operations_);
   }
 
   VoxelFrame frame_;
@@ -224,11 +226,9 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
         hidden.push_back(cell);
       }
     }
-    // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
-    if (std::vector<FrontierTarget> large = large_clusters(map, options, survey.targets); !large.empty()) {
-      survey.leftover.too_small = survey.targets.size() - large.size();
-      survey.targets = std::move(large);
-    } else {
+    std::vector<FrontierTarget> large = large_clusters(map, options, survey.targets);
+    if (large.empty()) {
+      // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
       std::size_t pairs = options.exhaustive_pairs;
       std::erase_if(hidden, [&](const VoxelIndex& cell) {
         return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
@@ -238,9 +238,9 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
         return RasterOrder{}(a.frontier, b.frontier);
       });
       large = large_clusters(map, options, survey.targets);
-      survey.leftover.too_small = survey.targets.size() - large.size();
-      survey.targets = std::move(large);
     }
+    survey.leftover.too_small = survey.targets.size() - large.size();
+    survey.targets = std::move(large);
     survey.ray_operations = search.operations();
   } else {
     hidden = std::move(frontier);
@@ -254,13 +254,8 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
 
 bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                     std::uint64_t& operations) {
-  for (const VoxelIndex& cell : VoxelRay(map.frame(), from, map.frame().centre_of(target))) {
-    ++operations;
-    if (cell != target && (map.at(cell) != Occupancy::Free || map.contested(cell))) {
-      return false;
-    }
-  }
-  return true;
+  return line_is_clear(
+      map.frame(), from, target, [&](const VoxelIndex& cell) { return map.is_clear(cell); }, operations);
 }
 
 bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,

@@ -11,7 +11,6 @@
 #include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
-#include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
 
 namespace vantage {

@@ -9,30 +9,20 @@
 namespace vantage {
 namespace {
 
-// A contested cell holds a piece of a surface, free or not.
-bool is_free(const OccupancyMap& map, const VoxelIndex& cell) {
-  return map.at(cell) == Occupancy::Free && !map.contested(cell);
-}
-
-// The free cells of a box, as 1.
-VoxelGrid<std::uint8_t> free_cells(const OccupancyMap& map, const VoxelBox& box) {
-  VoxelGrid<std::uint8_t> free(box);
-  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(brick.free(word), word, [&](std::size_t offset) {
-        const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
-        if (box.contains(cell) && !map.contested(cell)) {
-          free[cell] = 1;
-        }
-      });
+// The clear cells of a box, as 1.
+VoxelGrid<std::uint8_t> clear_cells(const OccupancyMap& map, const VoxelBox& box) {
+  VoxelGrid<std::uint8_t> clear(box);
+  map.for_each_clear([&](const VoxelIndex& cell) {
+    if (box.contains(cell)) {
+      clear[cell] = 1;
     }
   });
-  return free;
+  return clear;
 }
 
-bool has_free_neighbour(const VoxelGrid<std::uint8_t>& free, const VoxelIndex& cell) {
+bool has_clear_neighbour(const VoxelGrid<std::uint8_t>& clear, const VoxelIndex& cell) {
   for (const VoxelIndex& step : kAllNeighbours) {
-    if (free.value_or(cell + step, 0) != 0) {
+    if (clear.value_or(cell + step, 0) != 0) {
       return true;
     }
   }
@@ -59,18 +49,19 @@ bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
     return false;
   }
   return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
-                                       [&](const VoxelIndex& cell) { return is_free(map, cell); });
+                                       [&](const VoxelIndex& cell) { return map.is_clear(cell); });
 }
 
 bool FreeFlyer::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
   const Eigen::Vector3d centre = map.frame().centre_of(cell);
   return height_allowed(centre.z()) &&
          detail::swept_sphere_is_clear(map.frame(), centre, centre, reach_m(),
-                                       [&](const VoxelIndex& touched) { return is_free(map, touched); });
+                                       [&](const VoxelIndex& touched) { return map.is_clear(touched); });
 }
 
 VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
-  // What a sphere at the centre of cell (0, 0, 0) touches; every cell that is not free forbids the centres around it.
+  // What a sphere at the centre of cell (0, 0, 0) touches; every cell that is not clear forbids the centres around
+  // it.
   const VoxelFrame& frame = map.frame();
   const VoxelBox home{{0, 0, 0}, {1, 1, 1}};
   const auto rings = static_cast<std::int32_t>(std::ceil(reach_m() / frame.size_m));
@@ -80,14 +71,14 @@ VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const
       touched.push_back(cell);
     }
   });
-  const VoxelGrid<std::uint8_t> free = free_cells(map, box.grown(rings));
+  const VoxelGrid<std::uint8_t> clear = clear_cells(map, box.grown(rings));
   VoxelGrid<std::uint8_t> admitted(box);
   for_each_cell(box, [&](const VoxelIndex& cell) {
-    admitted[cell] = free[cell] != 0 && height_allowed(frame.centre_of(cell).z()) ? 1 : 0;
+    admitted[cell] = clear[cell] != 0 && height_allowed(frame.centre_of(cell).z()) ? 1 : 0;
   });
-  for_each_cell(free.box(), [&](const VoxelIndex& cell) {
-    // Deep inside what is not free there is no centre left to forbid.
-    if (free[cell] != 0 || !has_free_neighbour(free, cell)) {
+  for_each_cell(clear.box(), [&](const VoxelIndex& cell) {
+    // Deep inside what is not clear there is no centre left to forbid.
+    if (clear[cell] != 0 || !has_clear_neighbour(clear, cell)) {
       return;
     }
     for (const VoxelIndex& offset : touched) {
@@ -107,7 +98,7 @@ bool FreeFlyer::admits_motion(const OccupancyMap& map, const Pose& from, const P
     return false;
   }
   return detail::swept_sphere_is_clear(frame, a, b, reach_m(), [&](const VoxelIndex& cell) {
-    return is_free(map, cell) || detail::sphere_touches(frame, a, reach_m(), cell);
+    return map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell);
   });
 }
 

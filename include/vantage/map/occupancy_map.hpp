@@ -84,6 +84,11 @@ class OccupancyMap {
   /// number of misses go unnoticed: seven of eight pass by the default constants, none does where a hit is a multiple
   /// of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
+  /// Whether a cell is free and not contested: what sight passes, and a body may touch.
+  [[nodiscard]] bool is_clear(const VoxelIndex& cell) const {
+    const Brick* brick = find_brick(Brick::of_cell(cell));
+    return brick != nullptr && is_clear(*brick, Brick::offset_of(cell));
+  }
   /// Log-odds of a cell; none where it is unknown.
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const;
   /// Log-odds of the cell of 2^level finest cells an edge at `coarse` (in units of that cell); none if all of it is
@@ -120,6 +125,19 @@ class OccupancyMap {
       for (std::size_t word = 0; word < Brick::kWords; ++word) {
         for_each_offset(brick.known[word], word, [&](std::size_t offset) {
           visit(Brick::first_cell(address) + Brick::cell_at(offset), brick.at(offset));
+        });
+      }
+    });
+  }
+  /// Calls `visit(VoxelIndex)` for every clear cell.
+  template <class Visit>
+  void for_each_clear(Visit&& visit) const {
+    for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        for_each_offset(brick.free(word), word, [&](std::size_t offset) {
+          if (is_clear(brick, offset)) {
+            visit(Brick::first_cell(address) + Brick::cell_at(offset));
+          }
         });
       }
     });
@@ -162,6 +180,11 @@ class OccupancyMap {
   };
   friend class ScanInserter;
 
+  // Whether log-odds of a free cell are none that misses alone could make.
+  [[nodiscard]] bool shows_a_hit(std::int8_t steps) const { return steps > min_steps_ && steps % miss_steps_ != 0; }
+  [[nodiscard]] bool is_clear(const Brick& brick, std::size_t offset) const {
+    return brick.at(offset) == Occupancy::Free && !shows_a_hit(brick.log_odds[offset]);
+  }
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);

@@ -53,6 +53,10 @@ TEST(OccupancyMap, AFreeCellThatWasHitIsContestedUntilItIsFreeForSure) {
       map.set_log_odds(VoxelIndex{1, 2, 3}, log_odds);
       const bool is_free = map.at({1, 2, 3}) == Occupancy::Free;
       EXPECT_EQ(map.contested({1, 2, 3}), is_free && hit_since) << log_odds;
+      EXPECT_EQ(map.is_clear({1, 2, 3}), is_free && !hit_since) << log_odds;
+      std::size_t visited = 0;
+      map.for_each_clear([&](const VoxelIndex& cell) { visited += cell == VoxelIndex{1, 2, 3} ? 1U : 2U; });
+      EXPECT_EQ(visited, is_free && !hit_since ? 1U : 0U);
       contested += map.contested({1, 2, 3}) ? 1U : 0U;
       free += is_free ? 1U : 0U;
     }

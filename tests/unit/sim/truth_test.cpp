@@ -92,29 +92,33 @@ TEST(Truth, RefusesWhatItCannotRasterise) {
   EXPECT_THROW(Truth(world, 0.2, Box{}), std::invalid_argument);
 }
 
-TEST(Truth, StartsAreDrawnFromTheSeedWhereThePlatformIsAdmitted) {
+/// Two rooms and what a flyer in them can see.
+class TruthOfTwoRooms : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<VoxelIndex> seen_by(int threads) const {
+    return truth.observable(flyer, RangeSensor::preset("panoramic"), start, threads);
+  }
   const World world = two_rooms();
-  const Truth truth(world, 0.2, world.region);
+  const Truth truth{world, 0.2, world.region};
   const FreeFlyer flyer = small_flyer();
+  const Pose start = truth.draw_start(flyer, 1).value();
+  const std::vector<VoxelIndex> seen = seen_by(1);
+};
+
+TEST_F(TruthOfTwoRooms, StartsAreDrawnFromTheSeedWhereThePlatformIsAdmitted) {
   std::size_t different = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const Pose start = truth.draw_start(flyer, seed).value();
-    EXPECT_TRUE(flyer.admits(truth.map(), start));
-    EXPECT_EQ(start.matrix(), truth.draw_start(flyer, seed)->matrix());
-    different += start.translation() != truth.draw_start(flyer, seed + 1)->translation() ? 1U : 0U;
+    const Pose drawn = truth.draw_start(flyer, seed).value();
+    EXPECT_TRUE(flyer.admits(truth.map(), drawn));
+    EXPECT_EQ(drawn.matrix(), truth.draw_start(flyer, seed)->matrix());
+    different += drawn.translation() != truth.draw_start(flyer, seed + 1)->translation() ? 1U : 0U;
   }
   EXPECT_GT(different, 40U);
   EXPECT_FALSE(truth.draw_start(FreeFlyer(FreeFlyerOptions{.radius_m = 3.0}), 1).has_value());
 }
 
-TEST(Truth, ObservableIsTheInsideAndItsWallsWhateverTheThreads) {
-  const World world = two_rooms();
-  const Truth truth(world, 0.2, world.region);
-  const FreeFlyer flyer = small_flyer();
-  const Pose start = truth.draw_start(flyer, 1).value();
-  const RangeSensor sensor = RangeSensor::preset("panoramic");
-  const std::vector<VoxelIndex> seen = truth.observable(flyer, sensor, start);
-  EXPECT_EQ(seen, truth.observable(flyer, sensor, start, 4));
+TEST_F(TruthOfTwoRooms, ObservableIsTheInsideAndItsWallsWhateverTheThreads) {
+  EXPECT_EQ(seen, seen_by(4));
   std::size_t free = 0;
   for (const VoxelIndex& cell : seen) {
     free += truth.at(cell) == CellTruth::Free ? 1U : 0U;
@@ -126,13 +130,7 @@ TEST(Truth, ObservableIsTheInsideAndItsWallsWhateverTheThreads) {
 }
 
 // The measure must be attainable: a scan from every place of the lattice knows nearly every observable cell.
-TEST(Truth, AnExhaustiveScanCoversNearlyEverythingObservable) {
-  const World world = two_rooms();
-  const Truth truth(world, 0.2, world.region);
-  const FreeFlyer flyer = small_flyer();
-  const Pose start = truth.draw_start(flyer, 1).value();
-  const RangeSensor sensor = RangeSensor::preset("panoramic");
-  const std::vector<VoxelIndex> seen = truth.observable(flyer, sensor, start);
+TEST_F(TruthOfTwoRooms, AnExhaustiveScanCoversNearlyEverythingObservable) {
   OccupancyMap map({.resolution_m = 0.2, .region = world.region});
   SimulatedSensor simulated(TriangleScene(world.mesh), coarse_panoramic());
   for (const VoxelIndex& cell : truth.lattice(flyer, start)) {
