@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vantage/geometry/voxel.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// A set of cells of a box, one bit each: what a view sees of an object. Words hold 4 x 4 x 4 cells, x running
+/// fastest, as those of Brick.
+class CellSet {
+ public:
+  CellSet() = default;
+  /// An empty set of cells of `box`.
+  explicit CellSet(const VoxelBox& box)
+      : box_(box), lo_(word_of(box.lo)), extent_(word_of(box.hi - VoxelIndex{1, 1, 1}) - lo_ + VoxelIndex{1, 1, 1}) {
+    if (!box.empty()) {
+      words_.resize(VoxelBox{{}, extent_}.size());
+    }
+  }
+
+  /// The cells that it may hold.
+  [[nodiscard]] const VoxelBox& box() const { return box_; }
+  /// Whether it holds a cell.
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const {
+    return box_.contains(cell) && (words_[place_of(cell)] & bit_of(cell)) != 0;
+  }
+  /// Adds a cell; one outside the box has no effect.
+  void insert(const VoxelIndex& cell) {
+    if (box_.contains(cell)) {
+      words_[place_of(cell)] |= bit_of(cell);
+    }
+  }
+  /// Takes a cell out.
+  void erase(const VoxelIndex& cell) {
+    if (box_.contains(cell)) {
+      words_[place_of(cell)] &= ~bit_of(cell);
+    }
+  }
+  /// How many cells it holds.
+  [[nodiscard]] std::size_t size() const {
+    std::size_t count = 0;
+    for (const std::uint64_t word : words_) {
+      count += static_cast<std::size_t>(std::popcount(word));
+    }
+    return count;
+  }
+  /// Adds the cells of a set of the same box.
+  CellSet& operator|=(const CellSet& other) {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      words_[i] |= other.words_[i];
+    }
+    return *this;
+  }
+  /// Removes the cells of a set of the same box.
+  CellSet& operator-=(const CellSet& other) {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      words_[i] &= ~other.words_[i];
+    }
+    return *this;
+  }
+  /// The same cells of the same box.
+  friend bool operator==(const CellSet&, const CellSet&) = default;
+
+  /// Calls `visit(VoxelIndex of the word, std::uint64_t cells)` for every word that holds a cell: cell (x, y, z) is
+  /// bit x % 4 + 4 (y % 4) + 16 (z % 4) of word (x / 4, y / 4, z / 4), rounded down.
+  template <class Visit>
+  void for_each_word(Visit&& visit) const {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      if (words_[i] != 0) {
+        visit(word_at(i), words_[i]);
+      }
+    }
+  }
+  /// Calls `visit(VoxelIndex)` for every cell, word by word.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      for (std::uint64_t left = words_[i]; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        const VoxelIndex word = word_at(i);
+        visit(VoxelIndex{word.x * 4 + (bit & 3), word.y * 4 + (bit >> 2 & 3), word.z * 4 + (bit >> 4)});
+      }
+    }
+  }
+
+ private:
+  static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
+  static std::uint64_t bit_of(const VoxelIndex& cell) {
+    return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
+  }
+  [[nodiscard]] std::size_t place_of(const VoxelIndex& cell) const {
+    const VoxelIndex at = word_of(cell) - lo_;
+    return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(extent_.y) + static_cast<std::size_t>(at.y)) *
+               static_cast<std::size_t>(extent_.x) +
+           static_cast<std::size_t>(at.x);
+  }
+  [[nodiscard]] VoxelIndex word_at(std::size_t place) const {
+    const auto row = static_cast<std::size_t>(extent_.x);
+    const auto plane = row * static_cast<std::size_t>(extent_.y);
+    return lo_ + VoxelIndex{static_cast<std::int32_t>(place % row), static_cast<std::int32_t>(place % plane / row),
+                            static_cast<std::int32_t>(place / plane)};
+  }
+
+  VoxelBox box_;
+  VoxelIndex lo_;
+  VoxelIndex extent_;
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace vantage

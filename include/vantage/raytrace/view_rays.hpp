@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// Up to 64 neighbouring rays of a view, a square of 8 x 8 of them.
+struct RayTile {
+  static constexpr std::size_t kRays = 64;  ///< most rays
+
+  /// Directions in the sensor frame, x y z of one ray after the other; neighbours are close in the list too (the bits
+  /// of column and row alternate). A place without a ray repeats the first.
+  std::array<float, 3 * kRays> directions{};
+  std::array<std::uint32_t, kRays> ray{};           ///< number of each ray in the image, row by row
+  std::uint64_t rays = 0;                           ///< a bit for each place that holds a ray
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< all directions lie in a cone around this one,
+  double cos_half_angle = 1.0;                      ///< whose half angle has this cosine
+  double sin_half_angle = 0.0;                      ///< and this sine
+};
+
+/// The rays of a view in the sensor frame: an image of directions that all reach equally far, arranged for being
+/// traced (RayCaster, evaluate_view). Made once for a sensor and used for every pose of it.
+class ViewRays {
+ public:
+  /// One ray through the centre of every pixel. Throws std::invalid_argument as RangeSensor::validate.
+  explicit ViewRays(const RangeSensor& sensor);
+  /// `width * height` directions (any non-zero length), row by row. Neighbours in the image should point to nearly
+  /// the same place: that is what makes tracing fast. Throws std::invalid_argument naming what is wrong.
+  ViewRays(const std::vector<Eigen::Vector3f>& directions, std::size_t width, std::size_t height, double max_range_m,
+           double min_range_m = 0.0);
+
+  /// How many rays there are.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// How far a ray reaches, metres.
+  [[nodiscard]] double max_range_m() const { return max_range_m_; }
+  /// What stops a ray nearer than this is not seen, metres.
+  [[nodiscard]] double min_range_m() const { return min_range_m_; }
+  /// All rays, in tiles.
+  [[nodiscard]] const std::vector<RayTile>& tiles() const { return tiles_; }
+
+ private:
+  std::size_t size_ = 0;
+  double max_range_m_ = 0.0;
+  double min_range_m_ = 0.0;
+  std::vector<RayTile> tiles_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <raytrace/blocking_grid.hpp>
+#include <stdexcept>
+
+namespace vantage {
+namespace {
+
+// A table of this many pages takes 1 GiB; it is for 2^42 cells.
+constexpr std::size_t kMaxTable = std::size_t{1} << 27U;
+
+VoxelBox box_around(const VoxelBox& a, const VoxelBox& b) {
+  if (a.empty()) {
+    return b;
+  }
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
+std::uint64_t bit_of(const VoxelIndex& cell) {
+  return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
+}
+
+// State of the cube of `edge` cells at `from` in a brick, as OccupancyMap::at gives it for a coarser level.
+Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t edge, CoarseningPolicy policy) {
+  int known = 0;
+  int sum = 0;
+  int largest = -128;
+  for_each_cell({from, from + VoxelIndex{edge, edge, edge}}, [&](const VoxelIndex& cell) {
+    const std::size_t offset = Brick::offset_of(cell);
+    if (brick.at(offset) != Occupancy::Unknown) {
+      ++known;
+      sum += brick.log_odds[offset];
+      largest = std::max<int>(largest, brick.log_odds[offset]);
+    }
+  });
+  if (known == 0) {
+    return Occupancy::Unknown;
+  }
+  return (policy == CoarseningPolicy::Max ? largest : sum) >= 0 ? Occupancy::Occupied : Occupancy::Free;
+}
+
+// Rows of words along x, as bits, of a page and kFurthest words around it.
+constexpr std::size_t kRows = 24;
+using Rows = std::array<std::uint32_t, kRows * kRows>;
+
+// Leaves the bits all of whose 26 neighbours are set; bits at the rim lose their meaning.
+void erode(const Rows& rows, Rows& eroded) {
+  Rows along_y;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    eroded[i] = rows[i] & rows[i] << 1U & rows[i] >> 1U;
+  }
+  along_y.fill(0);
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    along_y[i] = eroded[i - 1] & eroded[i] & eroded[i + 1];
+  }
+  eroded.fill(0);
+  for (std::size_t i = kRows; i + kRows < rows.size(); ++i) {
+    eroded[i] = along_y[i - kRows] & along_y[i] & along_y[i + kRows];
+  }
+}
+
+}  // namespace
+
+std::size_t BlockingGrid::update(const OccupancyMap& map) {
+  // The mean of a coarser cell may change its sign while no finest cell changes its state.
+  const bool by_mean = level_ > 0 && policy_ == CoarseningPolicy::Mean && map.revision() != revision_;
+  const std::vector<VoxelIndex> changed = map.changed_since(by_mean ? 0 : revision_);
+  VoxelBox pages;
+  for (const VoxelIndex& brick : changed) {
+    const VoxelBox words = words_of_brick(brick);
+    const VoxelIndex page = page_address(words.lo);
+    pages = box_around(pages, {page, page + VoxelIndex{1, 1, 1}});
+  }
+  reach(pages);
+  for (const VoxelIndex& address : changed) {
+    const Brick& brick = *map.find_brick(address);
+    if (level_ == 0) {
+      take_brick(address, brick);
+    } else {
+      take_coarse(map, address, brick);
+    }
+  }
+  refresh_distances();
+  revision_ = map.revision();
+  return changed.size();
+}
+
+VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) const {
+  const VoxelIndex cell = Brick::first_cell(address);
+  const VoxelIndex lo = word_of({cell.x >> level_, cell.y >> level_, cell.z >> level_});
+  const std::int32_t words = level_ == 0 ? 2 : 1;
+  return {lo, lo + VoxelIndex{words, words, words}};
+}
+
+// Lets the table hold these pages.
+void BlockingGrid::reach(const VoxelBox& pages) {
+  const VoxelBox larger = pages.empty() ? pages_box_ : box_around(pages_box_, pages);
+  if (larger == pages_box_) {
+    return;
+  }
+  const VoxelIndex extent = larger.extent();
+  if (static_cast<double>(extent.x) * extent.y * extent.z > static_cast<double>(kMaxTable)) {
+    throw std::length_error("the known cells lie too far apart for tracing rays");
+  }
+  pages_box_ = larger;
+  table_.assign(larger.size(), &unseen_);
+  for (Page& page : pages_) {
+    table_[place_in_table(page.address)] = &page;
+  }
+}
+
+BlockingGrid::Page& BlockingGrid::writable_page(const VoxelIndex& page) {
+  Page*& place = table_[place_in_table(page)];
+  if (place == &unseen_) {
+    place = &pages_.emplace_back();
+    place->blocking.fill(~std::uint64_t{0});
+    place->address = page;
+  }
+  return *place;
+}
+
+void BlockingGrid::write(const VoxelIndex& word, std::uint64_t cells, std::uint64_t blocking,
+                         std::uint64_t occupied) {
+  Page& page = writable_page(page_address(word));
+  const std::size_t offset = offset_in_page(word);
+  const bool was_free = page.blocking[offset] == 0;
+  page.blocking[offset] = (page.blocking[offset] & ~cells) | (blocking & cells);
+  page.occupied[offset] = (page.occupied[offset] & ~cells) | (occupied & cells);
+  if ((page.blocking[offset] == 0) != was_free) {
+    page.free_words[offset >> 3U] ^= static_cast<std::uint8_t>(1U << (offset & 7U));
+    if (!page.stale) {
+      page.stale = true;
+      stale_.push_back(&page);
+    }
+  }
+}
+
+void BlockingGrid::take_brick(const VoxelIndex& address, const Brick& brick) {
+  const VoxelIndex first = words_of_brick(address).lo;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    const auto w = static_cast<std::int32_t>(word);
+    write(first + VoxelIndex{w & 1, w >> 1 & 1, w >> 2}, ~std::uint64_t{0}, ~brick.free(word), brick.occupied[word]);
+  }
+}
+
+void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick) {
+  const auto take = [&](const VoxelIndex& coarse, Occupancy state) {
+    const std::uint64_t bit = bit_of(coarse);
+    write(word_of(coarse), bit, state == Occupancy::Free ? 0 : bit, state == Occupancy::Occupied ? bit : 0);
+  };
+  const VoxelIndex cell = Brick::first_cell(address);
+  const VoxelIndex first{cell.x >> level_, cell.y >> level_, cell.z >> level_};
+  constexpr int kBrickLevel = 3;
+  if (level_ > kBrickLevel) {
+    take(first, map.at(first, level_, policy_));
+    return;
+  }
+  const std::int32_t count = Brick::kSide >> level_;
+  const std::int32_t edge = 1 << level_;
+  for_each_cell({{0, 0, 0}, {count, count, count}}, [&](const VoxelIndex& c) {
+    take(first + c, coarse_state(brick, {c.x * edge, c.y * edge, c.z * edge}, edge, policy_));
+  });
+}
+
+// A word is nearer than kFurthest to those of its own page and the pages around it only.
+void BlockingGrid::refresh_distances() {
+  std::vector<Page*> affected;
+  for (const Page* page : stale_) {
+    for_each_cell(VoxelBox{page->address, page->address + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& at) {
+      if (pages_box_.contains(at) && table_[place_in_table(at)] != &unseen_) {
+        affected.push_back(table_[place_in_table(at)]);
+      }
+    });
+  }
+  for (Page* page : stale_) {
+    page->stale = false;
+  }
+  stale_.clear();
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  for (Page* page : affected) {
+    find_distances(*page);
+  }
+}
+
+// The k-th erosion of the free words leaves those with only free words less than k words away.
+void BlockingGrid::find_distances(Page& page) {
+  Rows rows{};
+  for_each_cell({{-1, -1, -1}, {2, 2, 2}}, [&](const VoxelIndex& side) {
+    const std::array<std::uint8_t, 64>& free_words = page_at(page.address + side).free_words;
+    const std::size_t first =
+        static_cast<std::size_t>(side.z + 1) * 8 * kRows + static_cast<std::size_t>(side.y + 1) * 8;
+    for (std::size_t row = 0; row < free_words.size(); ++row) {
+      rows[first + (row >> 3U) * kRows + (row & 7U)] |= std::uint32_t{free_words[row]}
+                                                        << 8U * static_cast<unsigned>(side.x + 1);
+    }
+  });
+  page.distance.fill(0);
+  for (std::uint8_t k = 1; k <= kFurthest; ++k) {
+    for (std::size_t row = 0; row < 64; ++row) {
+      const std::uint32_t bits = rows[((row >> 3U) + 8) * kRows + (row & 7U) + 8] >> 8U;
+      for (std::size_t x = 0; x < 8; ++x) {
+        page.distance[row * 8 + x] = static_cast<std::uint8_t>(page.distance[row * 8 + x] + (bits >> x & 1U));
+      }
+    }
+    if (k < kFurthest) {
+      Rows eroded;
+      erode(rows, eroded);
+      rows = eroded;
+    }
+  }
+}
+
+}  // namespace vantage

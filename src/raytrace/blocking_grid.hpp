@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vantage/map/occupancy_map.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// The cells of a map in a form made for rays: bit planes in words of 4 x 4 x 4 cells (as the words of Brick), and
+/// for every word how far the nearest word is in which a cell stops a ray. A cell stops a ray unless it is known
+/// free.
+///
+/// Pages of 8 x 8 x 8 words exist where the map has bricks; a dense table finds them. All that is unseen shares one
+/// page that stops everything.
+class BlockingGrid {
+ public:
+  /// No distance is larger: a page need only know its neighbours.
+  static constexpr std::uint8_t kFurthest = 8;
+
+  /// Of the cells of 2^level finest cells an edge.
+  BlockingGrid(int level, CoarseningPolicy policy) : level_(level), policy_(policy) { unseen_.blocking.fill(~0ULL); }
+  ~BlockingGrid() = default;
+  BlockingGrid(BlockingGrid&&) = delete;  // the table points into it
+  BlockingGrid& operator=(BlockingGrid&&) = delete;
+  BlockingGrid(const BlockingGrid&) = delete;
+  BlockingGrid& operator=(const BlockingGrid&) = delete;
+
+  /// Takes over what changed in the map since the last call. Returns how many of its bricks changed.
+  std::size_t update(const OccupancyMap& map);
+
+  /// The word that holds a cell.
+  [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
+  /// Which cells of a word stop a ray.
+  [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) const {
+    return page_of(word).blocking[offset_in_page(word)];
+  }
+  /// Which cells of a word are occupied.
+  [[nodiscard]] std::uint64_t occupied(const VoxelIndex& word) const {
+    return page_of(word).occupied[offset_in_page(word)];
+  }
+  /// All words less than this many words away along every axis stop nothing; 0: this one stops something.
+  [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) const {
+    return page_of(word).distance[offset_in_page(word)];
+  }
+  /// State of a cell.
+  [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
+    const VoxelIndex word = word_of(cell);
+    const std::uint64_t bit = std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
+    if ((blocking(word) & bit) == 0) {
+      return Occupancy::Free;
+    }
+    return (occupied(word) & bit) != 0 ? Occupancy::Occupied : Occupancy::Unknown;
+  }
+  /// Bytes held.
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return table_.size() * sizeof(void*) + pages_.size() * sizeof(Page);
+  }
+
+ private:
+  static constexpr std::int32_t kPageSide = 8;  // words
+  static constexpr std::size_t kPageWords = 512;
+
+  struct Page {
+    std::array<std::uint64_t, kPageWords> blocking{};
+    std::array<std::uint64_t, kPageWords> occupied{};
+    std::array<std::uint8_t, kPageWords> distance{};
+    std::array<std::uint8_t, 64> free_words{};  // a bit for every word that stops nothing; a row along x in a byte
+    VoxelIndex address;
+    bool stale = false;  // its free words have changed since the distances were found
+  };
+
+  static VoxelIndex page_address(const VoxelIndex& word) { return {word.x >> 3, word.y >> 3, word.z >> 3}; }
+  static std::size_t offset_in_page(const VoxelIndex& word) {
+    return static_cast<std::size_t>((word.x & 7) | (word.y & 7) << 3 | (word.z & 7) << 6);
+  }
+  [[nodiscard]] std::size_t place_in_table(const VoxelIndex& page) const {
+    const VoxelIndex at = page - pages_box_.lo;
+    const VoxelIndex extent = pages_box_.extent();
+    return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(extent.y) + static_cast<std::size_t>(at.y)) *
+               static_cast<std::size_t>(extent.x) +
+           static_cast<std::size_t>(at.x);
+  }
+  [[nodiscard]] const Page& page_at(const VoxelIndex& page) const {
+    return pages_box_.contains(page) ? *table_[place_in_table(page)] : unseen_;
+  }
+  [[nodiscard]] const Page& page_of(const VoxelIndex& word) const { return page_at(page_address(word)); }
+
+  void reach(const VoxelBox& pages);
+  Page& writable_page(const VoxelIndex& page);
+  void write(const VoxelIndex& word, std::uint64_t cells, std::uint64_t blocking, std::uint64_t occupied);
+  void take_brick(const VoxelIndex& address, const Brick& brick);
+  void take_coarse(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick);
+  [[nodiscard]] VoxelBox words_of_brick(const VoxelIndex& address) const;
+  void refresh_distances();
+  void find_distances(Page& page);
+
+  int level_;
+  CoarseningPolicy policy_;
+  OccupancyMap::Revision revision_ = 0;
+  VoxelBox pages_box_;
+  std::vector<Page*> table_;  // of pages_box_; null never: what is unseen points to unseen_
+  std::deque<Page> pages_;
+  std::vector<Page*> stale_;
+  Page unseen_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <raytrace/single_walk.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr std::int64_t kEnd = FaceCrossings::kEnd;
+
+}  // namespace
+
+SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& first,
+                       const Eigen::Vector3d& to, const VoxelIndex& last)
+    : cell_{first.x, first.y, first.z} {
+  const std::array<std::int32_t, 3> end{last.x, last.y, last.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    sign_[axis] = end[axis] >= cell_[axis] ? 1 : -1;
+    faces_[axis] = FaceCrossings::between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
+  }
+}
+
+bool SingleWalk::advance(const BlockingGrid& grid) {
+  while (true) {
+    const VoxelIndex word = BlockingGrid::word_of(cell());
+    const std::int32_t free = grid.distance(word) - 1;
+    if (free >= 0) {
+      const VoxelBox cube = VoxelBox{word, word + VoxelIndex{1, 1, 1}}.grown(free);
+      if (!leave({cube.lo.x * 4, cube.lo.y * 4, cube.lo.z * 4},
+                 {cube.hi.x * 4 - 1, cube.hi.y * 4 - 1, cube.hi.z * 4 - 1})) {
+        return false;
+      }
+      continue;
+    }
+    const std::uint64_t blocking = grid.blocking(word);
+    do {
+      if ((blocking >> ((cell_[0] & 3) | (cell_[1] & 3) << 2 | (cell_[2] & 3) << 4) & 1U) != 0) {
+        return true;
+      }
+      if (!leave(cell(), cell())) {
+        return false;
+      }
+    } while (BlockingGrid::word_of(cell()) == word);
+  }
+}
+
+// Leaves a box of cells by the face that is crossed first; false: the ray ends before.
+bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
+  const std::array<std::int32_t, 3> least{lo.x, lo.y, lo.z};
+  const std::array<std::int32_t, 3> most{last.x, last.y, last.z};
+  std::size_t by = 0;
+  std::int64_t leaves = kEnd + 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int32_t faces = sign_[axis] > 0 ? most[axis] - cell_[axis] : cell_[axis] - least[axis];
+    const FaceCrossings& crossings = faces_[axis];
+    if (static_cast<double>(faces) * static_cast<double>(crossings.delta) > static_cast<double>(kEnd)) {
+      continue;  // after the end; and the product might not fit
+    }
+    const std::int64_t crosses = crossings.next + faces * crossings.delta;
+    if (crosses < leaves) {
+      leaves = crosses;
+      by = axis;
+    }
+  }
+  const bool ends = leaves > kEnd;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    FaceCrossings& faces = faces_[axis];
+    // Of faces crossed at the same time, that across the lower axis comes first.
+    const std::int64_t until = ends ? kEnd : leaves - (axis > by ? 1 : 0);
+    if (faces.next <= until) {
+      const std::int64_t crossed = faces.crossed_by(until);
+      cell_[axis] += sign_[axis] * static_cast<std::int32_t>(crossed);
+      faces.next += crossed * faces.delta;
+    }
+  }
+  return !ends;
+}
+
+}  // namespace vantage
