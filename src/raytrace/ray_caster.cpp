@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <map/ray_block.hpp>
 #include <raytrace/blocking_grid.hpp>
 #include <raytrace/single_walk.hpp>
 #include <raytrace/tile_walk.hpp>
+#include <raytrace/view_placer.hpp>
 #include <stdexcept>
 #include <vantage/raytrace/ray_caster.hpp>
 
@@ -22,30 +22,6 @@ RayCasterOptions validated(const RayCasterOptions& options) {
                          "in [0, 16]");
   return options;
 }
-
-// Puts the rays of one view into the world, tile by tile.
-class ViewPlacer {
- public:
-  ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame)
-      : placer_{SensorFrame(world_from_sensor), rays.max_range_m(), frame.size_m * kFurthestVoxel, frame.size_m} {
-    if (!is_rigid(world_from_sensor)) {
-      throw std::invalid_argument("RayCaster: the pose of a view must be a rotation and a translation");
-    }
-    const Eigen::Vector3d reach = world_from_sensor.translation().cwiseAbs().array() + 2.0 * rays.max_range_m();
-    if (!frame.addressable(reach)) {
-      throw std::invalid_argument("RayCaster: the rays of a view reach further than cells can be addressed");
-    }
-  }
-
-  void place_ends(const RayTile& tile, RayBlock& block) const {
-    block.point = tile.directions;
-    placer_.place_ends(false, block);
-  }
-  void place_cells(RayBlock& block) const { placer_.place_cells(block); }
-
- private:
-  RayPlacer placer_;
-};
 
 // Which rays of a view can meet a box at all.
 class BoxCulling {

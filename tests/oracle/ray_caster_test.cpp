@@ -7,6 +7,7 @@
 #include <raytrace/blocking_grid.hpp>
 #include <raytrace/tile_walk.hpp>
 #include <stdexcept>
+#include <support/hollow_map.hpp>
 #include <support/random_maps.hpp>
 #include <support/real_data.hpp>
 #include <vantage/map/octomap_bridge.hpp>
@@ -18,27 +19,6 @@ namespace {
 
 constexpr VoxelBox kEverywhere{{-kFurthestVoxel, -kFurthestVoxel, -kFurthestVoxel},
                                {kFurthestVoxel, kFurthestVoxel, kFurthestVoxel}};
-
-// A map with much free space, so that rays get somewhere: a box of free cells with things and holes in it.
-OccupancyMap hollow_map(std::mt19937& engine, double resolution_m) {
-  OccupancyMap map({.resolution_m = resolution_m});
-  std::uniform_int_distribution<std::int32_t> extent(2, 90);
-  std::uniform_int_distribution<std::int32_t> coordinate(-90, 90);
-  map.set_log_odds(
-      VoxelBox{{-extent(engine), -extent(engine), -extent(engine)}, {extent(engine), extent(engine), extent(engine)}},
-      -2.0);
-  const int things = extent(engine);
-  for (int i = 0; i < things; ++i) {
-    const VoxelIndex cell{coordinate(engine), coordinate(engine), coordinate(engine)};
-    if (i % 4 == 0) {
-      const std::int32_t edge = extent(engine) / 8;
-      map.set_log_odds(VoxelBox{cell, cell + VoxelIndex{edge, edge, edge}}, i % 8 == 0 ? 3.0 : -1.0);
-    } else {
-      map.set(cell, static_cast<Occupancy>(i % 3));
-    }
-  }
-  return map;
-}
 
 // A point anywhere, or in a lattice plane, or in the middle of a cell.
 Eigen::Vector3d random_point(std::mt19937& engine, const VoxelFrame& frame, double reach_m) {
@@ -61,7 +41,7 @@ TEST(RayCaster, OneRayAtATimeFindsWhatTheSlowWalkFinds) {
   std::size_t differing = 0;
   for (int world = 0; world < 100; ++world) {
     const double size_m = world % 3 == 0 ? 0.25 : 0.07;
-    const OccupancyMap map = world % 4 == 0 ? test::random_map(engine, size_m) : hollow_map(engine, size_m);
+    const OccupancyMap map = world % 4 == 0 ? test::random_map(engine, size_m) : test::hollow_map(engine, size_m);
     const RayCaster caster(map);
     for (int i = 0; i < 10'000; ++i) {
       const Eigen::Vector3d from = random_point(engine, map.frame(), (i % 3 == 0 ? 10 : 60) * size_m);
@@ -170,7 +150,7 @@ TEST(RayCaster, EveryInstructionSetFindsWhatTheSlowWalkFinds) {
   std::vector<Compared> compared(instruction_sets().size());
   for (int world = 0; world < 100; ++world) {
     const double size_m = world % 3 == 0 ? 0.25 : 0.07;
-    const OccupancyMap map = world % 5 == 0 ? test::random_map(engine, size_m) : hollow_map(engine, size_m);
+    const OccupancyMap map = world % 5 == 0 ? test::random_map(engine, size_m) : test::hollow_map(engine, size_m);
     BlockingGrid grid(0, CoarseningPolicy::Max);
     grid.update(map);
     const RayCaster caster(map);
@@ -259,7 +239,7 @@ TEST(RayCaster, DistancesAreThoseToTheNearestWordThatStops) {
   std::mt19937 engine(35);
   std::size_t cases = 0;
   for (int world = 0; world < 6; ++world) {
-    OccupancyMap map = hollow_map(engine, 0.1);
+    OccupancyMap map = test::hollow_map(engine, 0.1);
     BlockingGrid grid(0, CoarseningPolicy::Max);
     for (int step = 0; step < 2; ++step) {
       map.set({static_cast<std::int32_t>(engine() % 20), 3, 3}, Occupancy::Occupied);
@@ -289,7 +269,7 @@ TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
   std::size_t views = 0;
   std::size_t cells = 0;
   for (int world = 0; world < 60; ++world) {
-    const OccupancyMap map = hollow_map(engine, 0.1);
+    const OccupancyMap map = test::hollow_map(engine, 0.1);
     const RayCaster caster(map);
     const Eigen::Vector3d inside(0.05, -0.11, 0.13);
     std::uniform_int_distribution<std::int32_t> coordinate(-40, 20);
