@@ -47,7 +47,10 @@ class RatioReporter : public benchmark::ConsoleReporter {
     std::vector<std::string_view> theirs;
   };
   static inline const std::vector<Peers> kPeers{{"/vantage", {"/octomap"}},
-                                                {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}}};
+                                                {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}},
+                                                {"/default/vantage",
+                                                 {"/uniform/octomap", "/culled/octomap", "/hierarchical/octomap",
+                                                  "/uniform/vantage", "/hierarchical/vantage"}}};
 
   void add(const std::string& name, double time) {
     const auto [entry, is_new] = least_times_.try_emplace(name, time);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 #include <vantage/geometry/box.hpp>
+#include <vantage/view/candidate_views.hpp>
 #include <vector>
 
 namespace vantage {
@@ -88,9 +89,42 @@ Scene hall(std::mt19937& engine) {
   return scene;
 }
 
+// Whether a point is in the room and in none of its things.
+bool is_open(const Scene& scene, const Eigen::Vector3d& point) {
+  const auto holds = [&](const Box& box) { return box.contains(point); };
+  const auto within = [&](const Ball& ball) { return (point - ball.centre).norm() < ball.radius; };
+  return scene.room.contains(point) && std::none_of(scene.boxes.begin(), scene.boxes.end(), holds) &&
+         std::none_of(scene.balls.begin(), scene.balls.end(), within);
+}
+
 }  // namespace
 
-Scan table_scan(std::size_t width, std::size_t height, std::uint32_t seed) {
+ObjectScene object_scene(double resolution_m, std::uint32_t seed) {
+  std::mt19937 engine(seed);
+  const Scene scene = table_room(engine);
+  ObjectScene made{OccupancyMap({.resolution_m = resolution_m}), {}, {}};
+  OccupancyMap& map = made.map;
+  const VoxelFrame& frame = map.frame();
+  made.object = frame.cells_centred_in({{-0.15, -0.2, 0.74}, {0.25, 0.2, 1.14}});
+  map.set_log_odds(frame.cells_centred_in(scene.room).grown(1), 3.5);
+  for_each_cell(frame.cells_centred_in(scene.room), [&](const VoxelIndex& cell) {
+    if (is_open(scene, frame.centre_of(cell))) {
+      map.set_log_odds(cell, -2.0);
+    }
+  });
+  for_each_cell(made.object, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
+  map.insert(table_scan(640, 480, seed));
+  const Eigen::Vector3d centre = frame.box_of(made.object).centre();
+  for (const Eigen::Vector3d& direction : icosahedron_directions(2)) {
+    const Eigen::Vector3d eye = centre + 1.5 * direction;
+    if (map.at(frame.cell_of(eye)) == Occupancy::Free) {
+      made.views.push_back(pose_looking_along(eye, centre - eye));
+    }
+  }
+  return made;
+}
+
+Scan table_scan(const Pose& world_from_sensor, std::size_t width, std::size_t height, std::uint32_t seed) {
   std::mt19937 engine(seed);
   const Scene scene = table_room(engine);
   std::normal_distribution<double> noise(0.0, 0.001);
@@ -98,8 +132,8 @@ Scan table_scan(std::size_t width, std::size_t height, std::uint32_t seed) {
   Scan scan;
   scan.width = width;
   scan.height = height;
-  const Eigen::Vector3d eye(-1.513, -1.327, 1.541);
-  scan.world_from_sensor = pose_looking_along(eye, Eigen::Vector3d(0.1, 0.05, 0.75) - eye);
+  scan.world_from_sensor = world_from_sensor;
+  const Eigen::Vector3d eye = world_from_sensor.translation();
   for (std::size_t row = 0; row < height; ++row) {
     for (std::size_t column = 0; column < width; ++column) {
       const Eigen::Vector3d pixel((static_cast<double>(column) - 0.5 * static_cast<double>(width - 1)) / focal_px,
@@ -110,6 +144,11 @@ Scan table_scan(std::size_t width, std::size_t height, std::uint32_t seed) {
     }
   }
   return scan;
+}
+
+Scan table_scan(std::size_t width, std::size_t height, std::uint32_t seed) {
+  const Eigen::Vector3d eye(-1.513, -1.327, 1.541);
+  return table_scan(pose_looking_along(eye, Eigen::Vector3d(0.1, 0.05, 0.75) - eye), width, height, seed);
 }
 
 Scan hall_scan(std::uint32_t seed) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vantage/map/occupancy_map.hpp>
 #include <vantage/map/scan.hpp>
+#include <vector>
 
 namespace vantage {
 
@@ -10,9 +12,20 @@ namespace vantage {
 /// corner at 1.5 m. Depths carry the seeded noise of a structured-light camera, 1 mm at 1 m and growing with its
 /// square.
 [[nodiscard]] Scan table_scan(std::size_t width = 640, std::size_t height = 480, std::uint32_t seed = 1);
+/// The same from another place in the room.
+[[nodiscard]] Scan table_scan(const Pose& world_from_sensor, std::size_t width = 640, std::size_t height = 480,
+                              std::uint32_t seed = 1);
 
 /// A scan of a lidar of 64 x 1,024 rays and a range of 20 m in a hall of 36 x 18 x 7 m with pillars and crates, its
 /// points shuffled: an unorganised scan.
 [[nodiscard]] Scan hall_scan(std::uint32_t seed = 1);
+
+/// An object that is to be seen, on the table of that room, and from where it might be.
+struct ObjectScene {
+  OccupancyMap map;         ///< all of the room is known; of the object box, what one first scan saw
+  VoxelBox object;          ///< cells of the object box
+  std::vector<Pose> views;  ///< 1.5 m from its centre, looking at it: those of 320 all around that are in free space
+};
+[[nodiscard]] ObjectScene object_scene(double resolution_m, std::uint32_t seed = 1);
 
 }  // namespace vantage
