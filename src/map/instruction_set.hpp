@@ -32,6 +32,15 @@ template <class Body>
 #endif
 /// \endcond
 
+/// \cond
+/// Before a loop over arrays: its passes do not depend on each other, which compilers cannot tell from pointers.
+#if defined(__clang__)
+#define VANTAGE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define VANTAGE_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+/// \endcond
+
 /// Calls `body()`, in which every call is inlined and compiled for `set`: loops over arrays become vectors. The
 /// library is compiled without contraction of a * b + c, so that all sets round alike.
 template <class Body>

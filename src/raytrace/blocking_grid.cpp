@@ -17,10 +17,6 @@ VoxelBox box_around(const VoxelBox& a, const VoxelBox& b) {
           {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
 }
 
-std::uint64_t bit_of(const VoxelIndex& cell) {
-  return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
-}
-
 // State of the cube of `edge` cells at `from` in a brick, as OccupancyMap::at gives it for a coarser level.
 Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t edge, CoarseningPolicy policy) {
   int known = 0;
@@ -104,6 +100,8 @@ void BlockingGrid::reach(const VoxelBox& pages) {
     throw std::length_error("the known cells lie too far apart for tracing rays");
   }
   pages_box_ = larger;
+  row_ = static_cast<std::size_t>(extent.x);
+  plane_ = row_ * static_cast<std::size_t>(extent.y);
   table_.assign(larger.size(), &unseen_);
   for (Page& page : pages_) {
     table_[place_in_table(page.address)] = &page;

@@ -34,6 +34,10 @@ class BlockingGrid {
 
   /// The word that holds a cell.
   [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
+  /// The bit of a cell in its word.
+  [[nodiscard]] static std::uint64_t bit_of(const VoxelIndex& cell) {
+    return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
+  }
   /// Which cells of a word stop a ray.
   [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) const {
     return page_of(word).blocking[offset_in_page(word)];
@@ -49,11 +53,10 @@ class BlockingGrid {
   /// State of a cell.
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
     const VoxelIndex word = word_of(cell);
-    const std::uint64_t bit = std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
-    if ((blocking(word) & bit) == 0) {
+    if ((blocking(word) & bit_of(cell)) == 0) {
       return Occupancy::Free;
     }
-    return (occupied(word) & bit) != 0 ? Occupancy::Occupied : Occupancy::Unknown;
+    return (occupied(word) & bit_of(cell)) != 0 ? Occupancy::Occupied : Occupancy::Unknown;
   }
   /// Bytes held.
   [[nodiscard]] std::size_t memory_bytes() const {
@@ -79,10 +82,8 @@ class BlockingGrid {
   }
   [[nodiscard]] std::size_t place_in_table(const VoxelIndex& page) const {
     const VoxelIndex at = page - pages_box_.lo;
-    const VoxelIndex extent = pages_box_.extent();
-    return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(extent.y) + static_cast<std::size_t>(at.y)) *
-               static_cast<std::size_t>(extent.x) +
-           static_cast<std::size_t>(at.x);
+    return static_cast<std::size_t>(at.x) + static_cast<std::size_t>(at.y) * row_ +
+           static_cast<std::size_t>(at.z) * plane_;
   }
   [[nodiscard]] const Page& page_at(const VoxelIndex& page) const {
     return pages_box_.contains(page) ? *table_[place_in_table(page)] : unseen_;
@@ -102,6 +103,8 @@ class BlockingGrid {
   CoarseningPolicy policy_;
   OccupancyMap::Revision revision_ = 0;
   VoxelBox pages_box_;
+  std::size_t row_ = 0;       // pages of pages_box_ along x
+  std::size_t plane_ = 0;     // and in a plane of x and y
   std::vector<Page*> table_;  // of pages_box_; null never: what is unseen points to unseen_
   std::deque<Page> pages_;
   std::vector<Page*> stale_;

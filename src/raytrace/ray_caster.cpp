@@ -51,34 +51,45 @@ class BoxCulling {
   }
   // The rays of a block, placed, that pass through the box.
   [[nodiscard]] std::uint64_t meeting(const RayBlock& block) const {
-    RayBlock::PerRay<std::int64_t> meets;
-    compiled_for(best_instruction_set(), [&] {
+    RayBlock::PerRay<std::int64_t> flags;
+    const double* const end_x = block.end[0].data();
+    const double* const end_y = block.end[1].data();
+    const double* const end_z = block.end[2].data();
+    compiled_for(best_instruction_set(), [=, &flags, lo = Eigen::Vector3d(box_.min - origin_),
+                                          hi = Eigen::Vector3d(box_.max - origin_), origin = origin_] {
+      std::int64_t* const meets = flags.data();
+      VANTAGE_INDEPENDENT
       for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-        double enters = 0.0;
-        double leaves = 1.0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const auto a = static_cast<Eigen::Index>(axis);
-          constexpr double kParallel = 1e-12;
-          const double extent = block.end[axis][i] - origin_[a];
-          const double per_unit = 1.0 / (std::abs(extent) < kParallel ? kParallel : extent);
-          const double to_min = (box_.min[a] - origin_[a]) * per_unit;
-          const double to_max = (box_.max[a] - origin_[a]) * per_unit;
-          const double first = to_min < to_max ? to_min : to_max;
-          const double last = to_min < to_max ? to_max : to_min;
-          enters = enters < first ? first : enters;
-          leaves = last < leaves ? last : leaves;
-        }
-        meets[i] = enters <= leaves ? 1 : 0;
+        const Share x(lo.x(), hi.x(), end_x[i] - origin.x());
+        const Share y(lo.y(), hi.y(), end_y[i] - origin.y());
+        const Share z(lo.z(), hi.z(), end_z[i] - origin.z());
+        const double enters_xy = x.enters > y.enters ? x.enters : y.enters;
+        const double leaves_xy = x.leaves < y.leaves ? x.leaves : y.leaves;
+        const double enters = enters_xy > z.enters ? enters_xy : z.enters;
+        const double leaves = leaves_xy < z.leaves ? leaves_xy : z.leaves;
+        const double from = enters > 0.0 ? enters : 0.0;
+        const double to = leaves < 1.0 ? leaves : 1.0;
+        meets[i] = static_cast<std::int64_t>(from <= to);
       }
     });
-    std::uint64_t all = 0;
-    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      all |= static_cast<std::uint64_t>(meets[i]) << i;
-    }
-    return all;
+    return equal_to(flags, 1, best_instruction_set());
   }
 
  private:
+  // The part of a ray, of which 1 is all, that lies between two planes across an axis.
+  struct Share {
+    Share(double lo, double hi, double extent) {
+      constexpr double kParallel = 1e-12;
+      const double per_unit = 1.0 / ((extent < 0.0 ? -extent : extent) < kParallel ? kParallel : extent);
+      const double to_lo = lo * per_unit;
+      const double to_hi = hi * per_unit;
+      enters = to_lo < to_hi ? to_lo : to_hi;
+      leaves = to_lo < to_hi ? to_hi : to_lo;
+    }
+    double enters;
+    double leaves;
+  };
+
   Eigen::Vector3d origin_;
   Box box_;
   bool inside_sphere_ = false;
@@ -127,16 +138,25 @@ void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays, std::s
   TileWalk walk(*grid_, frame_, world_from_sensor.translation(), best_instruction_set());
   RayBlock block;
   TileHits hits;
+  VoxelIndex word;
+  std::uint64_t occupied = grid_->occupied(word);
   for (const RayTile& tile : rays.tiles()) {
     placer.place_ends(tile, block);
     placer.place_cells(block);
     walk.walk(block, tile.rays, kEverywhere, hits);
-    for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
+    for (std::uint64_t left = tile.rays & ~hits.stopped; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      const bool stopped = (hits.stopped >> i & 1U) != 0;
-      const auto& cells = stopped ? hits.cell : block.cell;
-      const VoxelIndex cell{cells[0][i], cells[1][i], cells[2][i]};
-      ends[tile.ray[i]] = {cell, stopped ? grid_->at(cell) : Occupancy::Free};
+      ends[tile.ray[i]] = {{block.cell[0][i], block.cell[1][i], block.cell[2][i]}, Occupancy::Free};
+    }
+    for (std::uint64_t left = hits.stopped; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const VoxelIndex cell{hits.cell[0][i], hits.cell[1][i], hits.cell[2][i]};
+      if (BlockingGrid::word_of(cell) != word) {  // seldom: neighbours meet neighbours
+        word = BlockingGrid::word_of(cell);
+        occupied = grid_->occupied(word);
+      }
+      const bool is_occupied = (occupied & BlockingGrid::bit_of(cell)) != 0;
+      ends[tile.ray[i]] = {cell, is_occupied ? Occupancy::Occupied : Occupancy::Unknown};
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <raytrace/slice_lanes.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 
@@ -12,6 +13,7 @@ namespace vantage {
 namespace {
 
 constexpr std::int64_t kEnd = FaceCrossings::kEnd;
+constexpr double kLarge = std::numeric_limits<double>::max();
 
 // Of faces crossed at the same time, that across the lower axis comes first: those across a lateral axis above the
 // major one only up to the time before.
@@ -122,6 +124,32 @@ VANTAGE_TARGET_AVX512 void walk_avx512(SliceLanes& lanes, const SliceWindows& wi
   _mm512_store_si512(&lanes.at[first], _mm512_add_epi64(at, _mm512_set1_epi64(windows.origin)));
 }
 
+VANTAGE_TARGET_AVX512 std::uint64_t equal_avx512(const RayBlock::PerRay<std::int64_t>& values, std::int64_t value) {
+  std::uint64_t equal = 0;
+  for (std::size_t first = 0; first < values.size(); first += 8) {
+    const __m512i eight = _mm512_loadu_si512(&values[first]);
+    equal |= std::uint64_t{_mm512_cmpeq_epi64_mask(eight, _mm512_set1_epi64(value))} << first;
+  }
+  return equal;
+}
+
+VANTAGE_TARGET_AVX512 std::pair<double, double> range_avx512(const RayBlock::PerRay<double>& values,
+                                                             std::uint64_t active) {
+  __m512d least = _mm512_set1_pd(kLarge);
+  __m512d most = _mm512_set1_pd(-kLarge);
+  for (std::size_t first = 0; first < values.size(); first += 8) {
+    const __m512d eight = _mm512_loadu_pd(&values[first]);
+    const auto some = static_cast<__mmask8>(active >> first);
+    least = _mm512_mask_min_pd(least, some, least, eight);
+    most = _mm512_mask_max_pd(most, some, most, eight);
+  }
+  alignas(64) std::array<double, 8> lows;
+  alignas(64) std::array<double, 8> highs;
+  _mm512_store_pd(lows.data(), least);
+  _mm512_store_pd(highs.data(), most);
+  return {*std::min_element(lows.begin(), lows.end()), *std::max_element(highs.begin(), highs.end())};
+}
+
 // Four rays at a time; masks are whole lanes.
 VANTAGE_TARGET_AVX2 inline __m256i load(const std::int64_t* four) {
   return _mm256_load_si256(reinterpret_cast<const __m256i*>(four));
@@ -200,17 +228,47 @@ VANTAGE_TARGET_AVX2 void walk_avx2(SliceLanes& lanes, const SliceWindows& window
 
 #endif
 
-// Faces crossed up to `time`: a quotient in floating point is at most one off.
+// Faces crossed up to `time`, without a branch: a quotient in floating point is at most one off.
 inline std::int64_t crossed_by(std::int64_t time, std::int64_t next, std::int64_t delta) {
   const std::int64_t since = time - next;
-  const std::int64_t step = delta > 0 ? delta : 1;
-  auto faces = static_cast<std::int64_t>(static_cast<double>(since) / static_cast<double>(step));
+  const std::int64_t step = delta + static_cast<std::int64_t>(delta == 0);
+  const auto faces = static_cast<std::int64_t>(static_cast<double>(since) / static_cast<double>(step));
   const std::int64_t rest = since - faces * step;
-  faces += (rest >= step ? 1 : 0) - (rest < 0 ? 1 : 0);
-  return since < 0 || delta == 0 ? 0 : faces + 1;
+  const std::int64_t exact = faces + static_cast<std::int64_t>(rest >= step) - static_cast<std::int64_t>(rest < 0);
+  return static_cast<std::int64_t>(since >= 0) * static_cast<std::int64_t>(delta > 0) * (exact + 1);
 }
 
 }  // namespace
+
+std::uint64_t equal_to(const RayBlock::PerRay<std::int64_t>& values, std::int64_t value, InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::Avx512) {
+    return equal_avx512(values, value);
+  }
+#endif
+  (void)set;
+  std::uint64_t equal = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    equal |= static_cast<std::uint64_t>(values[i] == value) << i;
+  }
+  return equal;
+}
+
+std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active, InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::Avx512) {
+    return range_avx512(values, active);
+  }
+#endif
+  (void)set;
+  std::pair<double, double> range{kLarge, -kLarge};
+  for (; active != 0; active &= active - 1) {
+    const double value = values[static_cast<std::size_t>(std::countr_zero(active))];
+    range.first = std::min(range.first, value);
+    range.second = std::max(range.second, value);
+  }
+  return range;
+}
 
 void walk_slices(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
                  InstructionSet set) {
@@ -239,30 +297,33 @@ void walk_slices(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t a
 std::uint64_t skip_slices(SliceLanes& lanes, std::int64_t slices, std::uint64_t active, InstructionSet set) {
   const std::int64_t tie_u = tie(lanes.u, lanes.major);
   const std::int64_t tie_v = tie(lanes.v, lanes.major);
-  SliceLanes::PerRay<std::int64_t> ended;
-  std::int64_t any_ended = 0;
-  compiled_for(set, [&, major = lanes.major, u = lanes.u, v = lanes.v] {
-    std::int64_t any = 0;
+  std::int64_t* const next_m = lanes.next[lanes.major].data();
+  std::int64_t* const next_u = lanes.next[lanes.u].data();
+  std::int64_t* const next_v = lanes.next[lanes.v].data();
+  const std::int64_t* const delta_m = lanes.delta[lanes.major].data();
+  const std::int64_t* const delta_u = lanes.delta[lanes.u].data();
+  const std::int64_t* const delta_v = lanes.delta[lanes.v].data();
+  const std::int64_t* const step_u = lanes.step_u.data();
+  const std::int64_t* const step_v = lanes.step_v.data();
+  std::int64_t* const at = lanes.at.data();
+  RayBlock::PerRay<std::int64_t> ended;
+  compiled_for(set, [=, &ended] {
+    std::int64_t* const ends = ended.data();
+    VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       const auto is_active = static_cast<std::int64_t>(active >> i & 1U);
       const std::int64_t forward = is_active * slices;
-      const std::int64_t enters = lanes.next[major][i] + (forward - 1) * lanes.delta[major][i];
-      const std::int64_t faces_u = is_active * crossed_by(enters - tie_u, lanes.next[u][i], lanes.delta[u][i]);
-      const std::int64_t faces_v = is_active * crossed_by(enters - tie_v, lanes.next[v][i], lanes.delta[v][i]);
-      ended[i] = enters > kEnd ? is_active : 0;
-      any |= ended[i];
-      lanes.next[major][i] += forward * lanes.delta[major][i];
-      lanes.next[u][i] += faces_u * lanes.delta[u][i];
-      lanes.next[v][i] += faces_v * lanes.delta[v][i];
-      lanes.at[i] += faces_u * lanes.step_u[i] + faces_v * lanes.step_v[i];
+      const std::int64_t enters = next_m[i] + (forward - 1) * delta_m[i];
+      const std::int64_t faces_u = is_active * crossed_by(enters - tie_u, next_u[i], delta_u[i]);
+      const std::int64_t faces_v = is_active * crossed_by(enters - tie_v, next_v[i], delta_v[i]);
+      ends[i] = static_cast<std::int64_t>(enters > kEnd);
+      next_m[i] += forward * delta_m[i];
+      next_u[i] += faces_u * delta_u[i];
+      next_v[i] += faces_v * delta_v[i];
+      at[i] += faces_u * step_u[i] + faces_v * step_v[i];
     }
-    any_ended = any;
   });
-  std::uint64_t all = 0;
-  for (std::size_t i = 0; i < RayBlock::kRays && any_ended != 0; ++i) {
-    all |= static_cast<std::uint64_t>(ended[i]) << i;
-  }
-  return all;
+  return equal_to(ended, 1, set) & active;
 }
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map/instruction_set.hpp>
 #include <map/ray_block.hpp>
+#include <utility>
 
 namespace vantage {
 
@@ -53,6 +54,14 @@ struct SliceHits {
   alignas(64) RayBlock::PerRay<std::int64_t> slice{};   ///< of a stopped ray: number of the slice
   alignas(64) RayBlock::PerRay<std::int64_t> within{};  ///< and the position in its window
 };
+
+/// The rays with this value, a bit for each.
+[[nodiscard]] std::uint64_t equal_to(const RayBlock::PerRay<std::int64_t>& values, std::int64_t value,
+                                     InstructionSet set);
+
+/// The least and the largest of the values of the `active` rays.
+[[nodiscard]] std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active,
+                                                 InstructionSet set);
 
 /// Walks the `active` rays, all at the beginning of the first slice, through the slices. While they are in a slice
 /// they must be in its window. Where rays are that are not active is undefined afterwards.

@@ -42,22 +42,29 @@ std::uint64_t in_slices(std::uint64_t word, std::size_t major) {
   return major == 2 ? word : swap_index_bits<2, 4>(swap_index_bits<3, 5>(word));
 }
 
-// FaceCrossings::between, without a branch; false where what rounding may have undone has to be put right.
-inline bool faces_between(double from, double to, std::int32_t first, std::int32_t last, double size_m,
-                          std::int64_t& next, std::int64_t& delta) {
+// FaceCrossings::between, without a branch; `wrong` is 1 where what rounding may have undone has to be put right.
+struct Faces {
+  std::int64_t next;
+  std::int64_t delta;
+  std::int64_t wrong;
+};
+inline Faces faces_between(double from, double to, std::int32_t first, std::int32_t last, double size_m) {
   constexpr auto kUnit = static_cast<double>(kEnd);
-  const double per_metre = std::min(kUnit / std::abs(to - from), 1e200);
-  const double sign = last > first ? 1.0 : -1.0;
-  const double face_m = (first + (last > first ? 1 : 0)) * size_m;
-  const double until_face = (face_m - from) * sign * per_metre;
-  const bool crosses = last != first;
-  const auto next_face = static_cast<std::int64_t>(std::min(std::max(until_face, 0.0), kUnit));
-  const auto step = static_cast<std::int64_t>(std::min(size_m * per_metre, 2.0 * kUnit));
-  next = crosses ? next_face : FaceCrossings::kNever;
-  delta = crosses ? step : 0;
-  const std::int64_t faces = std::abs(last - first);
+  const auto up = static_cast<std::int32_t>(last > first);
+  const auto crosses = static_cast<std::int64_t>(last != first);
+  const double unlimited = kUnit / std::abs(to - from);
+  const double per_metre = unlimited < 1e200 ? unlimited : 1e200;
+  const double face_m = (first + up) * size_m;
+  const double until_face = (face_m - from) * (2 * up - 1) * per_metre;
+  const double not_before = until_face > 0.0 ? until_face : 0.0;
+  const double step = size_m * per_metre;
+  const auto next = static_cast<std::int64_t>(not_before < kUnit ? not_before : kUnit);
+  const auto delta = static_cast<std::int64_t>(step < 2.0 * kUnit ? step : 2.0 * kUnit);
+  const std::int64_t faces = (last - first) * (2 * up - 1);
   const std::int64_t last_face = next + (faces - 1) * delta;
-  return !crosses || (last_face <= kEnd && last_face + delta > kEnd);
+  const auto too_late = static_cast<std::int64_t>(last_face > kEnd);
+  const auto too_early = static_cast<std::int64_t>(last_face + delta <= kEnd);
+  return {crosses * next + (1 - crosses) * FaceCrossings::kNever, crosses * delta, crosses & (too_late | too_early)};
 }
 
 }  // namespace
@@ -88,32 +95,31 @@ void TileWalk::walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& w
 }
 
 void TileWalk::time_faces(const RayBlock& block, std::uint64_t rays) {
-  std::array<RayBlock::PerRay<std::int32_t>, 3> wrong;
-  std::int32_t any_wrong = 0;
-  compiled_for(set_, [&, size_m = frame_.size_m] {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double from = origin_[static_cast<Eigen::Index>(axis)];
-      const std::int32_t first = first_cell_[axis];
-      std::int32_t any = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from = origin_[static_cast<Eigen::Index>(axis)];
+    const std::int32_t first = first_cell_[axis];
+    const double* const end = block.end[axis].data();
+    const std::int32_t* const cell = block.cell[axis].data();
+    std::int64_t* const next = lanes_.next[axis].data();
+    std::int64_t* const delta = lanes_.delta[axis].data();
+    double* const extent = extent_m_[axis].data();
+    RayBlock::PerRay<std::int64_t> flags;
+    compiled_for(set_, [=, &flags, size_m = frame_.size_m] {
+      std::int64_t* const wrong = flags.data();
+      VANTAGE_INDEPENDENT
       for (std::size_t i = 0; i < kRays; ++i) {
-        const bool right = faces_between(from, block.end[axis][i], first, block.cell[axis][i], size_m,
-                                         lanes_.next[axis][i], lanes_.delta[axis][i]);
-        wrong[axis][i] = right ? 0 : 1;
-        any |= wrong[axis][i];
-        extent_m_[axis][i] = block.end[axis][i] - from;
+        const Faces faces = faces_between(from, end[i], first, cell[i], size_m);
+        next[i] = faces.next;
+        delta[i] = faces.delta;
+        wrong[i] = faces.wrong;
+        extent[i] = end[i] - from;
       }
-      any_wrong |= any;
-    }
-  });
-  for (std::size_t axis = 0; axis < 3 && any_wrong != 0; ++axis) {
-    for (std::size_t i = 0; i < kRays; ++i) {
-      if (wrong[axis][i] != 0 && (rays >> i & 1U) != 0) {
-        const FaceCrossings faces =
-            FaceCrossings::between(origin_[static_cast<Eigen::Index>(axis)], block.end[axis][i], first_cell_[axis],
-                                   block.cell[axis][i], frame_.size_m);
-        lanes_.next[axis][i] = faces.next;
-        lanes_.delta[axis][i] = faces.delta;
-      }
+    });
+    for (std::uint64_t wrong = equal_to(flags, 1, set_) & rays; wrong != 0; wrong &= wrong - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(wrong));
+      const FaceCrossings faces = FaceCrossings::between(from, end[i], first, cell[i], frame_.size_m);
+      next[i] = faces.next;
+      delta[i] = faces.delta;
     }
   }
 }
@@ -121,47 +127,57 @@ void TileWalk::time_faces(const RayBlock& block, std::uint64_t rays) {
 // Those of the rays that advance fastest along the same axis, in the same direction, as the first of them.
 std::uint64_t TileWalk::take_class(std::uint64_t rays, const RayBlock& block) {
   constexpr std::int64_t kStays = 6;  // in its first cell
-  RayBlock::PerRay<std::int64_t> kind;
-  compiled_for(set_, [&] {
-    const auto pace = [&](std::size_t axis, std::size_t i) {
-      return lanes_.delta[axis][i] == 0 ? FaceCrossings::kNever : lanes_.delta[axis][i];
-    };
+  const std::int64_t* const delta_x = lanes_.delta[0].data();
+  const std::int64_t* const delta_y = lanes_.delta[1].data();
+  const std::int64_t* const delta_z = lanes_.delta[2].data();
+  const std::int32_t* const cell_x = block.cell[0].data();
+  const std::int32_t* const cell_y = block.cell[1].data();
+  const std::int32_t* const cell_z = block.cell[2].data();
+  RayBlock::PerRay<std::int64_t> kinds;
+  compiled_for(set_, [=, &kinds, first = first_] {
+    constexpr std::int64_t kNever = FaceCrossings::kNever;
+    std::int64_t* const kind = kinds.data();
+    VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < kRays; ++i) {
-      const std::int64_t x = pace(0, i);
-      const std::int64_t y = pace(1, i);
-      const std::int64_t z = pace(2, i);
-      const std::int64_t by_z = block.cell[2][i] > first_cell_[2] ? 5 : 4;
-      const std::int64_t by_y = block.cell[1][i] > first_cell_[1] ? 3 : 2;
-      const std::int64_t by_x = block.cell[0][i] > first_cell_[0] ? 1 : 0;
-      const std::int64_t fastest = ((x <= y) & (x <= z)) ? by_x : y <= z ? by_y : by_z;
-      kind[i] = std::min(x, std::min(y, z)) == FaceCrossings::kNever ? kStays : fastest;
+      const std::int64_t x = delta_x[i] == 0 ? kNever : delta_x[i];
+      const std::int64_t y = delta_y[i] == 0 ? kNever : delta_y[i];
+      const std::int64_t z = delta_z[i] == 0 ? kNever : delta_z[i];
+      const auto by_x = static_cast<std::int64_t>(cell_x[i] > first.x);
+      const std::int64_t by_y = 2 + static_cast<std::int64_t>(cell_y[i] > first.y);
+      const std::int64_t by_z = 4 + static_cast<std::int64_t>(cell_z[i] > first.z);
+      const std::int64_t y_or_z = y < z ? y : z;
+      const std::int64_t of_y_or_z = y <= z ? by_y : by_z;
+      const std::int64_t fastest = x <= y_or_z ? by_x : of_y_or_z;
+      const std::int64_t least = x < y_or_z ? x : y_or_z;
+      kind[i] = least == kNever ? kStays : fastest;
     }
   });
-  const std::int64_t chosen = kind[static_cast<std::size_t>(std::countr_zero(rays))];
-  std::uint64_t all = 0;
-  for (std::size_t i = 0; i < kRays; ++i) {
-    all |= static_cast<std::uint64_t>(kind[i] == chosen) << i;
-  }
+  const std::int64_t chosen = kinds[static_cast<std::size_t>(std::countr_zero(rays))];
   advances_ = chosen != kStays;
   lanes_.set_major(static_cast<std::size_t>(chosen / 2 % 3));
   up_ = chosen % 2 == 1;
-  return all & rays;
+  return equal_to(kinds, chosen, set_) & rays;
 }
 
 void TileWalk::walk_class(const RayBlock& block, std::uint64_t rays, TileHits& hits) {
-  const std::size_t major = lanes_.major;
-  const std::size_t u = lanes_.u;
-  const std::size_t v = lanes_.v;
-  compiled_for(set_, [&] {
-    for (std::size_t i = 0; i < kRays; ++i) {
-      const double per_metre = 1.0 / std::abs(extent_m_[major][i]);
-      slope_[0][i] = extent_m_[u][i] * per_metre;
-      slope_[1][i] = extent_m_[v][i] * per_metre;
-      lanes_.at[i] = 0;
-      lanes_.step_u[i] = block.cell[u][i] >= first_cell_[u] ? 1 : -1;
-      lanes_.step_v[i] = block.cell[v][i] >= first_cell_[v] ? SliceWindows::kWidth : -SliceWindows::kWidth;
-    }
-  });
+  const double* const extent_m = extent_m_[lanes_.major].data();
+  for (std::size_t lateral = 0; lateral < 2; ++lateral) {
+    const std::size_t axis = lateral == 0 ? lanes_.u : lanes_.v;
+    const double* const extent = extent_m_[axis].data();
+    const std::int32_t* const cell = block.cell[axis].data();
+    const std::int32_t first = first_cell_[axis];
+    double* const slope = slope_[lateral].data();
+    std::int64_t* const step = (lateral == 0 ? lanes_.step_u : lanes_.step_v).data();
+    const std::int64_t stride = lateral == 0 ? 1 : SliceWindows::kWidth;
+    compiled_for(set_, [=] {
+      VANTAGE_INDEPENDENT
+      for (std::size_t i = 0; i < kRays; ++i) {
+        slope[i] = extent[i] / std::abs(extent_m[i]);
+        step[i] = cell[i] >= first ? stride : -stride;
+      }
+    });
+  }
+  lanes_.at.fill(0);
   follow(block, rays, 0, hits);
 }
 
@@ -238,25 +254,9 @@ std::int64_t TileWalk::last_slice(const RayBlock& block, std::uint64_t rays) con
 }
 
 TileWalk::Spread TileWalk::spread_of(std::uint64_t active) const {
-  constexpr double kLarge = std::numeric_limits<double>::max();
-  Spread spread{};
-  compiled_for(set_, [&] {
-    for (std::size_t lateral = 0; lateral < 2; ++lateral) {
-      double least = kLarge;
-      double most = -kLarge;
-      for (std::size_t i = 0; i < kRays; ++i) {
-        const double slope = slope_[lateral][i];
-        const bool is_active = (active >> i & 1U) != 0;
-        const double low = is_active ? slope : kLarge;
-        const double high = is_active ? slope : -kLarge;
-        least = low < least ? low : least;
-        most = high > most ? high : most;
-      }
-      spread.least[lateral] = least;
-      spread.most[lateral] = most;
-    }
-  });
-  return spread;
+  const auto [least_u, most_u] = range_of(slope_[0], active, set_);
+  const auto [least_v, most_v] = range_of(slope_[1], active, set_);
+  return {{least_u, least_v}, {most_u, most_v}};
 }
 
 // The lateral cells that rays of this spread may be in from the first to the last slice.
@@ -278,17 +278,6 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
     window.hi[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(hi, -kFar, kFar));
   }
   return window;
-}
-
-VoxelIndex TileWalk::word_at(std::int32_t along, std::int32_t u, std::int32_t v) const {
-  switch (lanes_.major) {
-    case 0:
-      return {along, u, v};
-    case 1:
-      return {u, along, v};
-    default:
-      return {u, v, along};
-  }
 }
 
 // How many layers of words, from this one on, stop nothing wherever rays may go from these words of it: no ray gets

@@ -44,7 +44,11 @@ class TileWalk {
   [[nodiscard]] std::int64_t last_slice(const RayBlock& block, std::uint64_t rays) const;
   [[nodiscard]] Spread spread_of(std::uint64_t active) const;
   [[nodiscard]] Window window_of(const Spread& spread, std::int64_t first, std::int64_t last) const;
-  [[nodiscard]] VoxelIndex word_at(std::int32_t along, std::int32_t u, std::int32_t v) const;
+  [[nodiscard]] VoxelIndex word_at(std::int32_t along, std::int32_t u, std::int32_t v) const {
+    return lanes_.major == 0   ? VoxelIndex{along, u, v}
+           : lanes_.major == 1 ? VoxelIndex{u, along, v}
+                               : VoxelIndex{u, v, along};
+  }
   [[nodiscard]] std::int32_t free_layers(const Window& words, std::int32_t along) const;
   bool fill_windows(const Window& window, std::int64_t slice, std::size_t count);
   void take_hits(const SliceHits& of_slices, std::int64_t slice, TileHits& hits) const;
