@@ -123,18 +123,32 @@ class ViewpointSearch {
     return std::nullopt;
   }
 
+  // The tests are in the order of their price: most pairs fail beside the unknown cell.
   bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+    if (!open_towards(viewpoint, unknown)) {
+      return false;
+    }
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
     const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
     const double range_m = line.norm();
-    if (range_m < sensor_.min_range_m || range_m > sensor_.max_range_m || failed_.failed_from(unknown, viewpoint)) {
+    if (range_m < sensor_.min_range_m || range_m > sensor_.max_range_m) {
       return false;
     }
-    if (!platform_.can_tilt() && !sensor_.in_view(platform_.facing(from, line).linear().transpose() * line)) {
-      return false;
-    }
-    return line_is_clear(
-        frame_, from, unknown, [this](const VoxelIndex& cell) { return clear(cell); }, operations_);
+    const bool in_sight =
+        VoxelRay(frame_, from, frame_.centre_of(unknown)).all_from_the_end([&](const VoxelIndex& cell) {
+          ++operations_;
+          return cell == unknown || clear(cell);
+        });
+    return in_sight && !failed_.failed_from(unknown, viewpoint) &&
+           (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
+  }
+
+  // Whether a line of sight from `viewpoint` could enter `unknown` by one of the faces turned to it.
+  bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
+    const VoxelIndex away = viewpoint - unknown;
+    return (away.x != 0 && clear(unknown + VoxelIndex{away.x > 0 ? 1 : -1, 0, 0})) ||
+           (away.y != 0 && clear(unknown + VoxelIndex{0, away.y > 0 ? 1 : -1, 0})) ||
+           (away.z != 0 && clear(unknown + VoxelIndex{0, 0, away.z > 0 ? 1 : -1}));
   }
 
   VoxelFrame frame_;

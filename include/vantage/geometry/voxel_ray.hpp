@@ -89,6 +89,10 @@ class VoxelRay {
   [[nodiscard]] static std::default_sentinel_t end() { return {}; }
   /// Number of cells on the walk.
   [[nodiscard]] std::int64_t size() const { return steps_ + 1; }
+  /// Whether `holds(cell)` for every cell of the walk, asked from the last to the first until one refuses: the same
+  /// cells as forwards, which a walk between the exchanged ends need not pass.
+  template <class Holds>
+  [[nodiscard]] bool all_from_the_end(Holds&& holds) const;
 
  private:
   void advance() {
@@ -112,6 +116,38 @@ class VoxelRay {
   std::array<FaceCrossings, 3> faces_{};
   std::int64_t steps_ = 0;
 };
+
+// Steps are taken in the order of their times, the lower axis first among equals: undone, the latest comes first.
+template <class Holds>
+bool VoxelRay::all_from_the_end(Holds&& holds) const {
+  constexpr std::int64_t kNone = -1;
+  std::array<std::int32_t, 3> cell = cell_;
+  std::array<std::int64_t, 3> latest{kNone, kNone, kNone};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (faces_[axis].next <= FaceCrossings::kEnd) {
+      const std::int64_t faces = faces_[axis].crossed_by(FaceCrossings::kEnd);
+      cell[axis] += sign_[axis] * static_cast<std::int32_t>(faces);
+      latest[axis] = faces_[axis].next + (faces - 1) * faces_[axis].delta;
+    }
+  }
+  for (std::int64_t left = steps_;; --left) {
+    if (!holds(VoxelIndex{cell[0], cell[1], cell[2]})) {
+      return false;
+    }
+    if (left == 0) {
+      return true;
+    }
+    std::size_t axis = 2;
+    if (latest[1] > latest[axis]) {
+      axis = 1;
+    }
+    if (latest[0] > latest[axis]) {
+      axis = 0;
+    }
+    cell[axis] -= sign_[axis];
+    latest[axis] = latest[axis] == faces_[axis].next ? kNone : latest[axis] - faces_[axis].delta;
+  }
+}
 
 /// Walks from cell to cell; a single pass.
 class VoxelRay::iterator {
