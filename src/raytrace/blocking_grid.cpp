@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <map/instruction_set.hpp>
 #include <raytrace/blocking_grid.hpp>
 #include <stdexcept>
 
@@ -41,18 +42,17 @@ constexpr std::size_t kRows = 24;
 using Rows = std::array<std::uint32_t, kRows * kRows>;
 
 // Leaves the bits all of whose 26 neighbours are set; bits at the rim lose their meaning.
-void erode(const Rows& rows, Rows& eroded) {
-  Rows along_y;
+inline void erode(Rows& rows) {
+  Rows along_x;
+  Rows along_y{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    eroded[i] = rows[i] & rows[i] << 1U & rows[i] >> 1U;
+    along_x[i] = rows[i] & rows[i] << 1U & rows[i] >> 1U;
   }
-  along_y.fill(0);
   for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
-    along_y[i] = eroded[i - 1] & eroded[i] & eroded[i + 1];
+    along_y[i] = along_x[i - 1] & along_x[i] & along_x[i + 1];
   }
-  eroded.fill(0);
   for (std::size_t i = kRows; i + kRows < rows.size(); ++i) {
-    eroded[i] = along_y[i - kRows] & along_y[i] & along_y[i + kRows];
+    rows[i] = along_y[i - kRows] & along_y[i] & along_y[i + kRows];
   }
 }
 
@@ -194,19 +194,22 @@ void BlockingGrid::find_distances(Page& page) {
                                                         << 8U * static_cast<unsigned>(side.x + 1);
     }
   });
-  page.distance.fill(0);
-  for (std::uint8_t k = 1; k <= kFurthest; ++k) {
-    for (std::size_t row = 0; row < 64; ++row) {
-      const std::uint32_t bits = rows[((row >> 3U) + 8) * kRows + (row & 7U) + 8] >> 8U;
-      for (std::size_t x = 0; x < 8; ++x) {
-        page.distance[row * 8 + x] = static_cast<std::uint8_t>(page.distance[row * 8 + x] + (bits >> x & 1U));
+  std::array<std::uint32_t, 512> distance{};
+  compiled_for(best_instruction_set(), [&] {
+    for (std::uint8_t k = 1; k <= kFurthest; ++k) {
+      for (std::size_t row = 0; row < 64; ++row) {
+        const std::uint32_t bits = rows[((row >> 3U) + 8) * kRows + (row & 7U) + 8] >> 8U;
+        for (std::uint32_t x = 0; x < 8; ++x) {
+          distance[row * 8 + x] += bits >> x & 1U;
+        }
+      }
+      if (k < kFurthest) {
+        erode(rows);
       }
     }
-    if (k < kFurthest) {
-      Rows eroded;
-      erode(rows, eroded);
-      rows = eroded;
-    }
+  });
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    page.distance[i] = static_cast<std::uint8_t>(distance[i]);
   }
 }
 
