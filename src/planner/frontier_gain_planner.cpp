@@ -1,36 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-#include <numbers>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
+#include "geometry/dice.hpp"
 #include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
 
 namespace vantage {
 namespace {
-
-// Draws of our own from the engine's bits: the standard distributions differ from library to library.
-class Dice {
- public:
-  Dice(std::uint64_t seed, OccupancyMap::Revision revision) : engine_(seed * 0x9E3779B97F4A7C15ULL + revision) {}
-
-  double share() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
-  std::size_t below(std::size_t count) { return static_cast<std::size_t>(share() * static_cast<double>(count)); }
-  Eigen::Vector3d direction() {
-    const double z = 2.0 * share() - 1.0;
-    const double angle = 2.0 * std::numbers::pi * share();
-    const double level = std::sqrt(1.0 - z * z);
-    return {level * std::cos(angle), level * std::sin(angle), z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 void validate(const FrontierGainOptions& options) {
   detail::require_option(options.hypotheses >= 1, "FrontierGainOptions::hypotheses", options.hypotheses, ">= 1");

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 #include <vantage/view/candidate_views.hpp>
 
+#include "geometry/dice.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage {
@@ -35,6 +39,25 @@ std::vector<Face> icosahedron() {
   return faces;
 }
 
+// Calls `look(place, direction drawn)` for places of a workspace.
+template <class Look>
+std::vector<Pose> drawn_views(const Box& workspace, std::size_t count, std::uint64_t seed, const Look& look) {
+  if (workspace.empty() || !workspace.min.allFinite() || !workspace.max.allFinite()) {
+    throw std::invalid_argument("random views: the workspace must have min < max on every axis and be finite");
+  }
+  Dice dice(seed);
+  std::vector<Pose> views;
+  views.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = dice.share();
+    const double y = dice.share();
+    const double z = dice.share();
+    const Eigen::Vector3d place = workspace.min + Eigen::Vector3d(x, y, z).cwiseProduct(workspace.extent());
+    views.push_back(pose_looking_along(place, look(place, dice.direction())));
+  }
+  return views;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> icosahedron_directions(int subdivisions) {
@@ -58,6 +81,30 @@ std::vector<Eigen::Vector3d> icosahedron_directions(int subdivisions) {
     directions.push_back((a + b + c).normalized());
   }
   return directions;
+}
+
+std::vector<Pose> views_around(const Eigen::Vector3d& target, std::span<const double> radii_m, int subdivisions) {
+  std::vector<Pose> views;
+  const std::vector<Eigen::Vector3d> directions = icosahedron_directions(subdivisions);
+  for (const double radius_m : radii_m) {
+    detail::require_option(std::isfinite(radius_m) && radius_m > 0.0, "views_around: radius_m", radius_m, "> 0");
+    for (const Eigen::Vector3d& direction : directions) {
+      views.push_back(pose_looking_along(target + radius_m * direction, -direction));
+    }
+  }
+  return views;
+}
+
+std::vector<Pose> random_views(const Box& workspace, std::size_t count, std::uint64_t seed) {
+  return drawn_views(workspace, count, seed,
+                     [](const Eigen::Vector3d&, const Eigen::Vector3d& drawn) { return drawn; });
+}
+
+std::vector<Pose> random_views_of(const Eigen::Vector3d& target, const Box& workspace, std::size_t count,
+                                  std::uint64_t seed) {
+  return drawn_views(workspace, count, seed, [&](const Eigen::Vector3d& place, const Eigen::Vector3d& drawn) {
+    return place == target ? drawn : Eigen::Vector3d(target - place);
+  });
 }
 
 }  // namespace vantage
