@@ -36,6 +36,7 @@ constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
     {"frontier-gain", "the best of many random views, by the frontier seen from them; a baseline"},
     {"harmonic", "down the steepest way of a harmonic field (Shade & Newman 2011)"},
     {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},
+    {"next-best-view", "the view of most unknown cells, nearness counted (Vasquez-Gomez et al. 2013)"},
 };
 
 void print(std::string_view name, std::string_view about) {

@@ -11,15 +11,6 @@
 namespace vantage::detail {
 namespace {
 
-void validate(const OccupancyMap& map, const Pose& current) {
-  if (!is_rigid(current)) {
-    throw std::invalid_argument("plan(): the current pose is not a rigid transform");
-  }
-  if (!map.frame().addressable(current.translation()) || !map.in_region(map.frame().cell_of(current.translation()))) {
-    throw std::invalid_argument("plan(): the current pose is outside the map's region");
-  }
-}
-
 FrontierSurvey checked_survey(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
                               const FrontierSurveyOptions& options, FailedViews& failed) {
   validate(map, current);
@@ -83,6 +74,15 @@ Plan FrontierCycle::blocked(std::string reason) {
   plan_.outcome = Outcome::Blocked;
   plan_.reason = std::move(reason);
   return std::move(plan_);
+}
+
+void validate(const OccupancyMap& map, const Pose& current) {
+  if (!is_rigid(current)) {
+    throw std::invalid_argument("plan(): the current pose is not a rigid transform");
+  }
+  if (!map.frame().addressable(current.translation()) || !map.in_region(map.frame().cell_of(current.translation()))) {
+    throw std::invalid_argument("plan(): the current pose is outside the map's region");
+  }
 }
 
 void validate(const PlannerSetup& setup) {

@@ -54,6 +54,8 @@ class FrontierCycle {
   bool over_ = false;
 };
 
+/// Throws std::invalid_argument unless `current` is a pose in the map.
+void validate(const OccupancyMap& map, const Pose& current);
 /// Throws std::invalid_argument if the setup lacks a platform, or its sensor or thread count is not valid.
 void validate(const PlannerSetup& setup);
 /// Throws std::invalid_argument naming the option at fault.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -8,6 +10,7 @@
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
+#include <vantage/planner/next_best_view_planner.hpp>
 
 namespace vantage {
 namespace {
@@ -57,6 +60,24 @@ class SettingReader {
         names.push_back(value_name);
       }
       refuse(name, *text, "one of " + listing(names));
+    }
+    return *this;
+  }
+  // "x0,y0,z0,x1,y1,z1", metres.
+  SettingReader& box(std::string_view name, std::optional<Box>& field) {
+    if (const std::string* text = find(name)) {
+      std::array<double, 6> corners{};
+      const char* at = text->data();
+      const char* const end = at + text->size();
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto [after, error] = std::from_chars(at, end, corners[i]);
+        const bool separated = i + 1 == corners.size() ? after == end : after != end && *after == ',';
+        if (error != std::errc{} || !separated) {
+          refuse(name, *text, "six numbers x0,y0,z0,x1,y1,z1");
+        }
+        at = after + 1;
+      }
+      field = Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
     }
     return *this;
   }
@@ -128,6 +149,20 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
   return std::make_unique<HarmonicPlanner>(setup, options);
 }
 
+std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setup, SettingReader& read) {
+  NextBestViewOptions options;
+  read_survey(read, options.survey)
+      .box("object", options.object)
+      .number("radius_m", options.radius_m)
+      .number("subdivisions", options.subdivisions)
+      .number("random_candidates", options.random_candidates)
+      .number("min_overlap_cells", options.min_overlap_cells)
+      .number("min_unknown_cells", options.min_unknown_cells)
+      .number("hypotheses", options.hypotheses)
+      .done();
+  return std::make_unique<NextBestViewPlanner>(setup, options);
+}
+
 using Maker = std::unique_ptr<ExplorationPlanner> (*)(const PlannerSetup&, SettingReader&);
 
 const std::vector<std::pair<std::string_view, Maker>>& makers() {
@@ -135,6 +170,7 @@ const std::vector<std::pair<std::string_view, Maker>>& makers() {
       {"frontier-gain", make_frontier_gain},
       {"harmonic", make_harmonic},
       {"nearest-frontier", make_nearest_frontier},
+      {"next-best-view", make_next_best_view},
   };
   return all;
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vantage/geometry/box.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/planner/failed_views.hpp>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/view/view_utility.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// Options of NextBestViewPlanner.
+struct NextBestViewOptions {
+  /// The box of the object to reconstruct, metres; none: the whole map is to be seen.
+  std::optional<Box> object = std::nullopt;
+
+  // With an object:
+  double radius_m = 1.5;  ///< candidates look at the middle of the object from this far off, > 0 (VI-A)
+  /// Those candidates are 20 * 4^this, evenly spread, in [0, 6]; the paper's 320 by default.
+  int subdivisions = 2;
+  /// As many more, from places drawn in the region or, without one, in the known part of the map (VI-B).
+  std::size_t random_candidates = 0;
+  /// The least overlap: how many occupied cells of the object a view must see, `h_oc` in eq. 2. Waived while none is
+  /// known.
+  std::size_t min_overlap_cells = 0;
+  /// A view must see this many unknown cells of the object, >= 1; when none does, the object is done (VI-B: 50).
+  std::size_t min_unknown_cells = 50;
+
+  // Without one:
+  std::size_t hypotheses =
+      100;  ///< poses drawn in the reachable space per plan, every other aimed at a frontier; >= 1
+
+  FrontierSurveyOptions survey = {};  ///< what counts as a frontier worth a view, and the patience with failed views
+};
+
+/// The next best view of Vasquez-Gomez et al. 2013, Algorithm 1: of many candidate views, the one of the largest
+/// utility `u = pos reg sur dist` (eq. 1-5), where what a view would see is counted exactly, in distinct cells
+/// (evaluate_view), rather than by their hierarchical approximation.
+///
+/// With an object box, that object is reconstructed: the run is over when no admitted candidate sees enough unknown
+/// cells of it. Without, the map is explored: candidates are drawn where the platform can get, and what is left is
+/// judged by the survey that all planners share.
+class NextBestViewPlanner final : public ExplorationPlanner {
+ public:
+  /// Throws std::invalid_argument naming the option at fault.
+  explicit NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options = {});
+
+  /// "next-best-view".
+  [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
+  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+
+ private:
+  void follow(const OccupancyMap& map);
+  [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current,
+                                              const VoxelBox& object) const;
+  [[nodiscard]] std::vector<VoxelIndex> unknown_seen(const Pose& pose, const VoxelBox& object) const;
+  [[nodiscard]] Plan reconstruct(const OccupancyMap& map, const Pose& current);
+  [[nodiscard]] Plan explore(const OccupancyMap& map, const Pose& current);
+
+  PlannerSetup setup_;
+  NextBestViewOptions options_;
+  FailedViews failed_;
+  std::optional<RayCaster> caster_;  // of the map that was planned in last
+  std::optional<ViewRays> rays_;     // as dense as its cells ask for
+  const OccupancyMap* followed_ = nullptr;
+  OccupancyMap::Revision revision_ = 0;
+};
+
+}  // namespace vantage

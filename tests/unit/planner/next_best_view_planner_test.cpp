@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <contract/cell_world.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/raytrace/evaluate_view.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/view/candidate_views.hpp>
+
+namespace vantage {
+namespace {
+
+using testing::CellWorld;
+
+// A thing with arms on a table in a closed room, of cells of 5 cm.
+CellWorld table_world(std::uint32_t seed) {
+  CellWorld world{VoxelFrame{0.05}, VoxelGrid<std::uint8_t>({{-30, -30, 0}, {30, 30, 44}}, 1), {}};
+  std::mt19937 engine(seed);
+  const auto fill = [&](const VoxelBox& box, std::uint8_t value) {
+    for_each_cell(box, [&](const VoxelIndex& cell) { world.solid[cell] = value; });
+  };
+  fill({{-29, -29, 1}, {29, 29, 43}}, 0);
+  fill({{-8, -8, 12}, {8, 8, 14}}, 1);
+  fill({{-2, -2, 14}, {2, 2, 22}}, 1);
+  for (int arm = 0; arm < 3; ++arm) {
+    const auto at = [&](std::uint32_t span) { return static_cast<std::int32_t>(engine() % span); };
+    const VoxelIndex lo{at(6) - 5, at(6) - 5, 15 + at(4)};
+    fill({lo, lo + VoxelIndex{1 + at(5), 1 + at(5), 2}}, 1);
+  }
+  return world;
+}
+
+const Box kObject{{-0.3, -0.3, 0.7}, {0.3, 0.3, 1.15}};
+
+struct Robot {
+  explicit Robot(std::uint32_t seed)
+      : world(table_world(seed)),
+        map({.resolution_m = 0.05, .region = world.frame.box_of(world.solid.box())}),
+        pose(pose_looking_along({-1.2, 0.1, 1.3}, {1.2, -0.1, -0.4})) {
+    map.assume_free(platform->body_box(pose));
+    look();
+  }
+
+  void look() { map.insert(testing::scan_cells_of(world, sensor, pose)); }
+  [[nodiscard]] PlannerSetup setup(int threads = 1) const { return {sensor, platform, 7, threads}; }
+  // Share of the object's faces towards free space that the map knows to be occupied.
+  [[nodiscard]] double coverage() const {
+    std::size_t surface = 0;
+    std::size_t known = 0;
+    for_each_cell(map.frame().cells_centred_in(kObject), [&](const VoxelIndex& cell) {
+      const bool is_open = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                                       [&](const VoxelIndex& step) { return !world.is_solid(cell + step); });
+      if (world.is_solid(cell) && is_open) {
+        ++surface;
+        known += map.at(cell) == Occupancy::Occupied ? 1U : 0U;
+      }
+    });
+    return static_cast<double>(known) / static_cast<double>(surface);
+  }
+
+  CellWorld world;
+  RangeSensor sensor = RangeSensor::pinhole(120, 90, 1.2, 0.95, 0.0, 4.0);
+  std::shared_ptr<const FreeFlyer> platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.06});
+  OccupancyMap map;
+  Pose pose;
+};
+
+// The largest utility by uniform ray tracing of every candidate.
+double best_utility(const Robot& run, const NextBestViewOptions& options) {
+  const ViewRays rays(run.sensor.rays_for(0.05));
+  const UniformRayTracer uniform(run.map);
+  double best = 0.0;
+  for (const Pose& view : views_around(kObject.centre(), std::array{options.radius_m}, options.subdivisions)) {
+    if (run.platform->admits(run.map, view)) {
+      const ViewEvaluation seen = uniform.evaluate(view, rays, run.map.frame().cells_centred_in(kObject));
+      const double rho_m = run.platform->distance_m(run.pose, view);
+      best = std::max(
+          best, seen.occupied >= options.min_overlap_cells ? static_cast<double>(seen.unknown) / (1.0 + rho_m) : 0.0);
+    }
+  }
+  return best;
+}
+
+TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
+  std::size_t plans = 0;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    Robot run(seed);
+    const NextBestViewOptions options{
+        .object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
+    NextBestViewPlanner planner(run.setup(), options);
+    std::size_t views = 0;
+    Plan plan = planner.plan(run.map, run.pose);
+    for (; views < 40 && plan.outcome == Outcome::Move; ++views) {
+      if (views < 3) {  // before anything can have been given up
+        EXPECT_DOUBLE_EQ(plan.goal.utility, best_utility(run, options));
+      }
+      EXPECT_GE(plan.sought.size(), options.min_unknown_cells);
+      EXPECT_EQ(plan.path.front().matrix(), run.pose.matrix());
+      EXPECT_EQ(plan.path.back().matrix(), plan.goal.pose.matrix());
+      EXPECT_TRUE(run.platform->admits(run.map, plan.goal.pose));
+      const Plan on_threads = NextBestViewPlanner(run.setup(3), options).plan(run.map, run.pose);
+      if (views < 3) {
+        EXPECT_EQ(on_threads.goal.pose.matrix(), plan.goal.pose.matrix());
+      }
+      const Plan again = planner.plan(run.map, run.pose);
+      EXPECT_EQ(again.goal.pose.matrix(), plan.goal.pose.matrix());
+      EXPECT_EQ(again.goal.utility, plan.goal.utility);
+      run.pose = plan.goal.pose;
+      run.look();
+      plan = planner.plan(run.map, run.pose);
+      ++plans;
+    }
+    EXPECT_EQ(plan.outcome, Outcome::Explored) << plan.reason;
+    EXPECT_LT(views, 20U);
+    EXPECT_GT(run.coverage(), 0.95);
+  }
+  EXPECT_GE(plans, 8U);
+}
+
+TEST(NextBestViewPlanner, NamesWhatIsWrong) {
+  const Robot run(1);
+  const auto complaint = [&](const PlannerSettings& settings) -> std::string {
+    try {
+      (void)make_planner("next-best-view", run.setup(), settings);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint({{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"min_unknown_cells", "20"}}), "");
+  EXPECT_NE(complaint({{"object", "1,2,3"}}).find("must be six numbers"), std::string::npos);
+  EXPECT_NE(complaint({{"object", "0,0,0,1,1,1,1"}}).find("must be six numbers"), std::string::npos);
+  EXPECT_EQ(complaint({{"object", "0,0,0,1,-1,1"}}),
+            "NextBestViewOptions::object must have min < max on every axis and be finite");
+  EXPECT_EQ(complaint({{"radius_m", "0"}}), "NextBestViewOptions::radius_m is 0, must be > 0");
+  EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [0, 6]");
+  EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
+  EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be >= 1");
+}
+
+}  // namespace
+}  // namespace vantage
