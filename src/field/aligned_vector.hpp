@@ -5,19 +5,36 @@
 #include <new>
 #include <vector>
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 namespace vantage::detail {
 
-/// Memory that starts at a cache line.
+/// Memory that starts at a cache line, or at a huge page if there is enough to fill some: a field of a million cells
+/// is touched so evenly that small pages cost a tenth of the time.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
-  static constexpr std::align_val_t kLine{64};
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21U;
 
   CacheLineAllocator() = default;
   template <class U>
   explicit CacheLineAllocator(const CacheLineAllocator<U>& /*other*/) {}
-  [[nodiscard]] T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
-  void deallocate(T* memory, std::size_t /*count*/) { ::operator delete(memory, kLine); }
+  [[nodiscard]] T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    void* memory = ::operator new(bytes, alignment(bytes));
+#ifdef __linux__
+    if (bytes >= kHugePage) {
+      ::madvise(memory, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);  // a wish: small pages do as well
+    }
+#endif
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count * sizeof(T))); }
+  [[nodiscard]] static constexpr std::align_val_t alignment(std::size_t bytes) {
+    return std::align_val_t{bytes >= kHugePage ? kHugePage : 64};
+  }
   friend bool operator==(const CacheLineAllocator& /*a*/, const CacheLineAllocator& /*b*/) { return true; }
 };
 
