@@ -158,6 +158,11 @@ std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setu
       .number("random_candidates", options.random_candidates)
       .number("min_overlap_cells", options.min_overlap_cells)
       .number("min_unknown_cells", options.min_unknown_cells)
+      .choice("method", options.method,
+              {{"default", VisibilityMethod::Exact},
+               {"uniform", VisibilityMethod::Uniform},
+               {"hierarchical", VisibilityMethod::Hierarchical}})
+      .number("hierarchical_levels", options.hierarchical_levels)
       .number("hypotheses", options.hypotheses)
       .done();
   return std::make_unique<NextBestViewPlanner>(setup, options);

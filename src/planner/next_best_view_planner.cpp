@@ -11,6 +11,7 @@
 #include <utility>
 #include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/planner/target_view.hpp>
+#include <vantage/raytrace/hierarchical_ray_tracer.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/view/candidate_views.hpp>
 #include <vantage/view/view_utility.hpp>
@@ -33,6 +34,8 @@ void validate(const NextBestViewOptions& options) {
                          options.subdivisions, "in [0, 6]");
   detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
                          options.min_unknown_cells, ">= 1");
+  detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
+                         "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
   detail::require_option(options.hypotheses >= 1, "NextBestViewOptions::hypotheses", options.hypotheses, ">= 1");
   detail::validate(options.survey);
 }
@@ -81,7 +84,8 @@ Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
 }
 
 void NextBestViewPlanner::follow(const OccupancyMap& map) {
-  if (!caster_ || followed_ != &map || revision_ > map.revision()) {
+  // At the same address another map may lie now; one that has moved on since is taken for the same.
+  if (!caster_ || followed_ != &map || revision_ >= map.revision()) {
     caster_.emplace(map);
     rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
     followed_ = &map;
@@ -103,20 +107,47 @@ std::vector<ScoredView> NextBestViewPlanner::score(const OccupancyMap& map, cons
   factors.registration = minimum_overlap(any_known ? options_.min_overlap_cells : 0);
   factors.surface = unknown_cells();
   factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(current, pose); });
-  return score_views(*caster_, candidates_for(map, setup_, options_), *rays_, object, factors,
-                     static_cast<std::size_t>(setup_.threads));
+  return score_views(
+      candidates_for(map, setup_, options_),
+      [&](std::span<const Pose> views) { return evaluate(map, object, views); }, factors);
 }
 
-// The unknown cells of the object that a view sees and that have not been given up.
-std::vector<VoxelIndex> NextBestViewPlanner::unknown_seen(const Pose& pose, const VoxelBox& object) const {
+std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& map, const VoxelBox& object,
+                                                          std::span<const Pose> views) const {
+  if (options_.method == VisibilityMethod::Exact) {
+    return evaluate_views(*caster_, views, *rays_, object, static_cast<std::size_t>(setup_.threads));
+  }
+  std::vector<ViewEvaluation> evaluations;
+  if (options_.method == VisibilityMethod::Uniform) {
+    const UniformRayTracer tracer(map);
+    for (const Pose& view : views) {
+      evaluations.push_back(tracer.evaluate(view, *rays_, object));
+    }
+    return evaluations;
+  }
+  const HierarchicalRayTracer tracer(map, setup_.sensor, {.levels = options_.hierarchical_levels});
+  for (const Pose& view : views) {
+    const HierarchicalCounts counts = tracer.evaluate(view, object);
+    evaluations.push_back({counts.unknown, counts.occupied});
+  }
+  return evaluations;
+}
+
+// The unknown cells of the object that a view sees and that have not been given up, and their share of all it sees.
+NextBestViewPlanner::Sought NextBestViewPlanner::sought_from(const Pose& pose, const VoxelBox& object) const {
   const VoxelIndex viewpoint = caster_->frame().cell_of(pose.translation());
-  std::vector<VoxelIndex> cells;
+  Sought sought;
+  std::size_t all = 0;
   caster_->visible_cells(pose, *rays_, object).for_each([&](const VoxelIndex& cell) {
-    if (caster_->at(cell) == Occupancy::Unknown && !failed_.gave_up(cell) && !failed_.failed_from(cell, viewpoint)) {
-      cells.push_back(cell);
+    if (caster_->at(cell) == Occupancy::Unknown) {
+      ++all;
+      if (!failed_.gave_up(cell) && !failed_.failed_from(cell, viewpoint)) {
+        sought.cells.push_back(cell);
+      }
     }
   });
-  return cells;
+  sought.share = all == 0 ? 0.0 : static_cast<double>(sought.cells.size()) / static_cast<double>(all);
+  return sought;
 }
 
 Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& current) {
@@ -143,10 +174,10 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     const Rank top = ranks.top();
     ranks.pop();
     const ScoredView& view = scored[top.candidate];
-    std::vector<VoxelIndex> sought = unknown_seen(view.pose, object);
-    const bool worthwhile = sought.size() >= options_.min_unknown_cells;
+    auto [sought, share] = sought_from(view.pose, object);
+    const bool worthwhile =
+        share * static_cast<double>(view.seen.unknown) >= static_cast<double>(options_.min_unknown_cells);
     if (worthwhile && !top.exact) {
-      const double share = static_cast<double>(sought.size()) / static_cast<double>(view.seen.unknown);
       ranks.push({view.utility * share, top.candidate, true});
       continue;
     }

@@ -20,8 +20,8 @@ std::function<double(const Pose&)> nearness(std::function<double(const Pose&)> r
   return [rho_m = std::move(rho_m)](const Pose& pose) { return 1.0 / (1.0 + rho_m(pose)); };  // Equation (5)
 }
 
-std::vector<ScoredView> score_views(const RayCaster& caster, std::span<const Pose> candidates, const ViewRays& rays,
-                                    const VoxelBox& object, const UtilityFactors& factors, std::size_t threads) {
+std::vector<ScoredView> score_views(std::span<const Pose> candidates, const EvaluateViews& evaluate,
+                                    const UtilityFactors& factors) {
   std::vector<ScoredView> scored(candidates.size());
   std::vector<std::size_t> admitted;
   std::vector<Pose> poses;
@@ -32,7 +32,7 @@ std::vector<ScoredView> score_views(const RayCaster& caster, std::span<const Pos
       poses.push_back(candidates[i]);
     }
   }
-  const std::vector<ViewEvaluation> seen = evaluate_views(caster, poses, rays, object, threads);
+  const std::vector<ViewEvaluation> seen = evaluate(poses);
   for (std::size_t i = 0; i < admitted.size(); ++i) {
     ScoredView& view = scored[admitted[i]];
     view.seen = seen[i];
@@ -48,6 +48,13 @@ std::vector<ScoredView> score_views(const RayCaster& caster, std::span<const Pos
     }
   }
   return scored;
+}
+
+std::vector<ScoredView> score_views(const RayCaster& caster, std::span<const Pose> candidates, const ViewRays& rays,
+                                    const VoxelBox& object, const UtilityFactors& factors, std::size_t threads) {
+  return score_views(
+      candidates, [&](std::span<const Pose> views) { return evaluate_views(caster, views, rays, object, threads); },
+      factors);
 }
 
 }  // namespace vantage

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
@@ -13,6 +15,13 @@
 #include <vector>
 
 namespace vantage {
+
+/// How a NextBestViewPlanner counts what a view of an object sees.
+enum class VisibilityMethod : std::uint8_t {
+  Exact,         ///< distinct cells, by evaluate_view
+  Uniform,       ///< the same cells, by walking every ray: the paper's method of comparison
+  Hierarchical,  ///< rays, by HierarchicalRayTracer: the paper's own
+};
 
 /// Options of NextBestViewPlanner.
 struct NextBestViewOptions {
@@ -30,6 +39,9 @@ struct NextBestViewOptions {
   std::size_t min_overlap_cells = 0;
   /// A view must see this many unknown cells of the object, >= 1; when none does, the object is done (VI-B: 50).
   std::size_t min_unknown_cells = 50;
+
+  VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
+  int hierarchical_levels = 3;  ///< HierarchicalRayTracerOptions::levels, in [1, 16] (VI-B: start depth 14 of 16)
 
   // Without one:
   std::size_t hypotheses =
@@ -55,10 +67,17 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
  private:
+  struct Sought {
+    std::vector<VoxelIndex> cells;
+    double share = 0.0;
+  };
+
   void follow(const OccupancyMap& map);
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current,
                                               const VoxelBox& object) const;
-  [[nodiscard]] std::vector<VoxelIndex> unknown_seen(const Pose& pose, const VoxelBox& object) const;
+  [[nodiscard]] Sought sought_from(const Pose& pose, const VoxelBox& object) const;
+  [[nodiscard]] std::vector<ViewEvaluation> evaluate(const OccupancyMap& map, const VoxelBox& object,
+                                                     std::span<const Pose> views) const;
   [[nodiscard]] Plan reconstruct(const OccupancyMap& map, const Pose& current);
   [[nodiscard]] Plan explore(const OccupancyMap& map, const Pose& current);
 

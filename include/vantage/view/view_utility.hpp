@@ -39,8 +39,16 @@ struct ScoredView {
   double utility = 0.0;          ///< the product of the factors; 0 where one of them is
 };
 
-/// Scores every candidate, in their order, by this many threads; the result does not depend on their number. Factors
-/// are called from the calling thread only. Errors as evaluate_views, and whatever a factor throws.
+/// How views are evaluated: what each of them sees, in their order.
+using EvaluateViews = std::function<std::vector<ViewEvaluation>(std::span<const Pose>)>;
+
+/// Scores every candidate, in their order; those that `position` admits are evaluated, all in one call. Throws
+/// whatever `evaluate` or a factor throws.
+[[nodiscard]] std::vector<ScoredView> score_views(std::span<const Pose> candidates, const EvaluateViews& evaluate,
+                                                  const UtilityFactors& factors);
+
+/// The same by evaluate_views, on this many threads; the result does not depend on their number.
+/// Factors are called from the calling thread only. Errors as evaluate_views, and whatever a factor throws.
 [[nodiscard]] std::vector<ScoredView> score_views(const RayCaster& caster, std::span<const Pose> candidates,
                                                   const ViewRays& rays, const VoxelBox& object,
                                                   const UtilityFactors& factors, std::size_t threads = 1);

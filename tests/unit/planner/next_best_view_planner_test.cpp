@@ -122,6 +122,31 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
   EXPECT_GE(plans, 8U);
 }
 
+TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
+  Robot run(2);
+  NextBestViewOptions options{
+      .object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
+  const Plan exact = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
+  options.method = VisibilityMethod::Uniform;
+  const Plan uniform = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
+  EXPECT_EQ(exact.goal.pose.matrix(), uniform.goal.pose.matrix());
+  EXPECT_EQ(exact.goal.utility, uniform.goal.utility);
+  EXPECT_EQ(exact.sought, uniform.sought);
+  options.method = VisibilityMethod::Hierarchical;
+  NextBestViewPlanner planner(run.setup(), options);
+  Plan plan = planner.plan(run.map, run.pose);
+  EXPECT_GT(plan.goal.utility, exact.goal.utility) << "it counts rays, of which there are more than cells";
+  std::size_t views = 0;
+  for (; views < 40 && plan.outcome == Outcome::Move; ++views) {
+    run.pose = plan.goal.pose;
+    run.look();
+    plan = planner.plan(run.map, run.pose);
+  }
+  EXPECT_EQ(plan.outcome, Outcome::Explored);
+  EXPECT_GT(views, 1U);
+  EXPECT_GT(run.coverage(), 0.9);
+}
+
 TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   const Robot run(1);
   const auto complaint = [&](const PlannerSettings& settings) -> std::string {
