@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shade & Newman 2011, "Choosing Where To Go: Complete 3D Exploration With Stereo", section II.
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vantage/field/laplace_guess.hpp>
@@ -11,6 +13,7 @@
 #include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
+#include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
 
 namespace vantage {
@@ -48,10 +51,19 @@ std::vector<VoxelIndex> viewpoints(const FrontierSurvey& survey) {
   return cells;
 }
 
-const FrontierTarget* target_seen_from(const FrontierSurvey& survey, const VoxelIndex& cell) {
+std::optional<FrontierTarget> target_seen_from(const FrontierSurvey& survey, const VoxelIndex& cell) {
   const auto found = std::find_if(survey.targets.begin(), survey.targets.end(),
                                   [&](const FrontierTarget& target) { return target.viewpoint == cell; });
-  return found == survey.targets.end() ? nullptr : &*found;
+  return found == survey.targets.end() ? std::nullopt : std::optional<FrontierTarget>(*found);
+}
+
+// Leaves out what comes after the first point of the curve in this cell.
+void cut_at(std::vector<Eigen::Vector3d>& curve, const VoxelFrame& frame, const VoxelIndex& cell) {
+  const auto last = std::find_if(curve.begin(), curve.end(),
+                                 [&](const Eigen::Vector3d& point) { return frame.cell_of(point) == cell; });
+  if (last != curve.end()) {
+    curve.erase(last + 1, curve.end());
+  }
 }
 
 // The streamline as poses that look along the flow, one per cell or so, if every motion between them is admitted.
@@ -78,6 +90,10 @@ HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOption
   detail::validate(setup);
   detail::validate(options.survey);
   relaxation_options(options).validate();
+  detail::require_option(options.strategy.detour_m >= 0.0, "HarmonicStrategy::detour_m", options.strategy.detour_m,
+                         ">= 0");
+  detail::require_option(options.strategy.look_spacing_m >= 0.0, "HarmonicStrategy::look_spacing_m",
+                         options.strategy.look_spacing_m, ">= 0");
   failed_ = FailedViews(options.survey.patience);
 }
 
@@ -88,29 +104,86 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
     return cycle.plan();
   }
   const FrontierSurvey& survey = cycle.survey();
+  const HarmonicStrategy& strategy = options_.strategy;
   PlanStatistics& statistics = cycle.plan().statistics;
   detail::Stopwatch watch;
   std::vector<VoxelIndex> way{*survey.reachable.start()};
-  if (target_seen_from(survey, way.back()) == nullptr) {  // else look from where the sensor is
-    solve(survey, statistics);
+  std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
+  if (!wanted) {  // else look from where the sensor is
+    solve(map, survey, statistics);
     way = way_down(map, current, survey);
+    if (strategy.shortest_way) {
+      way = GridPaths(survey.reachable).to(way.back());
+    }
+    wanted = strategy.look_early ? first_look(map, survey, way, statistics.ray_operations)
+                                 : target_seen_from(survey, way.back());
   }
-  const TargetView chosen = view_of_target(map, *setup_.platform, setup_.sensor, survey,
-                                           *target_seen_from(survey, way.back()), statistics.ray_operations);
+  const TargetView chosen =
+      view_of_target(map, *setup_.platform, setup_.sensor, survey, *wanted, statistics.ray_operations);
   const double choose_ms = watch.lap_ms();
   std::optional<std::vector<Pose>> path;
-  if (field_ && field_->followed) {
+  if (field_ && field_->followed && !strategy.shortest_way) {
+    cut_at(field_->streamline, map.frame(), wanted->viewpoint);
     path = poses_of_curve(map, *setup_.platform, current, field_->streamline, chosen.view.pose);
   }
-  Plan plan = path ? cycle.go(chosen, std::move(*path)) : cycle.go(chosen, way);
+  Plan plan =
+      path ? cycle.go(chosen, std::move(*path)) : cycle.go(chosen, GridPaths(survey.reachable).to(wanted->viewpoint));
+  plan.scan_on_the_way = !(strategy.look_early && strategy.spare_scans);
   plan.statistics.choose_ms = choose_ms;
   plan.statistics.path_ms = watch.lap_ms();
   return plan;
 }
 
-void HarmonicPlanner::solve(const FrontierSurvey& survey, PlanStatistics& statistics) {
+// Whether `target` can be looked at from the centre of a cell: the same rule as FrontierSurvey's, and near enough to
+// be resolved.
+bool HarmonicPlanner::can_look(const OccupancyMap& map, const FrontierTarget& target, const VoxelIndex& from,
+                               std::uint64_t& operations) const {
+  if (from == target.viewpoint) {
+    return true;
+  }
+  const RangeSensor& sensor = setup_.sensor;
+  const Eigen::Vector3d position = map.frame().centre_of(from);
+  const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
+  return line.norm() <= sensor.resolving_range_m(map.resolution_m()) && !failed_.failed_from(target.unknown, from) &&
+         sees(map, sensor, setup_.platform->facing(position, line), target.unknown, operations);
+}
+
+// The first look on the way: at the boundary it leads to or, a while from the start, at any that is in sight.
+FrontierTarget HarmonicPlanner::first_look(const OccupancyMap& map, const FrontierSurvey& survey,
+                                           const std::vector<VoxelIndex>& way, std::uint64_t& operations) const {
+  const auto looked_at_from = [](FrontierTarget target, const VoxelIndex& cell) {
+    target.viewpoint = cell;
+    return target;
+  };
+  const FrontierTarget wanted = *target_seen_from(survey, way.back());
+  double gone_m = 0.0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    gone_m += i == 0 ? 0.0 : (map.frame().centre_of(way[i]) - map.frame().centre_of(way[i - 1])).norm();
+    const auto in_sight = [&](const FrontierTarget& target) { return can_look(map, target, way[i], operations); };
+    if (in_sight(wanted)) {
+      return looked_at_from(wanted, way[i]);
+    }
+    if (gone_m >= options_.strategy.look_spacing_m) {
+      const auto other = std::find_if(survey.targets.begin(), survey.targets.end(), in_sight);
+      if (other != survey.targets.end()) {
+        return looked_at_from(*other, way[i]);
+      }
+    }
+  }
+  return wanted;
+}
+
+// The viewpoints that draw the flow.
+std::vector<VoxelIndex> HarmonicPlanner::sinks(const OccupancyMap& map, const FrontierSurvey& survey) const {
+  std::vector<VoxelIndex> cells = viewpoints(survey);
+  return std::isinf(options_.strategy.detour_m)
+             ? cells
+             : GridPaths(survey.reachable).nearest_within(cells, options_.strategy.detour_m, map.resolution_m());
+}
+
+void HarmonicPlanner::solve(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics) {
   field_.emplace(HarmonicField{
-      LaplaceProblem(survey.reachable.cells(), viewpoints(survey), *survey.reachable.start()), {}, {}, {}, 0, true});
+      LaplaceProblem(survey.reachable.cells(), sinks(map, survey), *survey.reachable.start()), {}, {}, {}, 0, true});
   if (options_.solver == FieldSolver::Multigrid) {
     solve_by_multigrid();
   } else {
@@ -154,7 +227,7 @@ void HarmonicPlanner::relax() {
   field_->stuck_cells = count_stuck_cells(field_->problem, field_->phi);
 }
 
-// The cells from the start to the sink that the field leads to; the shortest way where it leads nowhere.
+// The cells that the streamline passes from the start to its sink; the shortest way where the field leads nowhere.
 std::vector<VoxelIndex> HarmonicPlanner::way_down(const OccupancyMap& map, const Pose& current,
                                                   const FrontierSurvey& survey) {
   const LaplaceProblem& problem = field_->problem;
@@ -174,7 +247,7 @@ std::vector<VoxelIndex> HarmonicPlanner::way_down(const OccupancyMap& map, const
     }
     field_->streamline = std::move(*curve);
     field_->streamline.push_back(frame.centre_of(cells.back()));
-    return GridPaths(survey.reachable).to(cells.back());
+    return cells;
   }
   std::vector<VoxelIndex> cells;
   for (const Position position : descend(problem, field_->phi, problem.source()).cells) {

@@ -133,6 +133,10 @@ std::unique_ptr<ExplorationPlanner> make_nearest_frontier(const PlannerSetup& se
 
 std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, SettingReader& read) {
   HarmonicOptions options;
+  bool faithful = false;
+  if (read.flag("faithful", faithful); faithful) {
+    options.strategy = HarmonicStrategy::faithful();
+  }
   read_survey(read, options.survey)
       .choice("solver", options.solver,
               {{"multigrid", FieldSolver::Multigrid},
@@ -145,6 +149,11 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
       .number("max_sweeps", options.max_sweeps)
       .number("over_relaxation", options.over_relaxation)
       .number("uniform_source", options.uniform_source)
+      .number("detour_m", options.strategy.detour_m)
+      .flag("look_early", options.strategy.look_early)
+      .number("look_spacing_m", options.strategy.look_spacing_m)
+      .flag("shortest_way", options.strategy.shortest_way)
+      .flag("spare_scans", options.strategy.spare_scans)
       .done();
   return std::make_unique<HarmonicPlanner>(setup, options);
 }

@@ -45,7 +45,8 @@ std::vector<VoxelIndex> way_back(const ReachableSpace& space, const std::vector<
   return way;
 }
 
-// Best-first search from the start of the space until `is_goal` holds; `heuristic` must never overestimate.
+// Best-first search from the start of the space until `is_goal(number, cost)` holds; `heuristic` must never
+// overestimate.
 template <class IsGoal, class Heuristic>
 std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, Heuristic&& heuristic) {
   std::vector<std::uint32_t> cost(space.size(), 0xFFFFFFFFU);
@@ -61,7 +62,7 @@ std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, He
     if (estimate != cost[number] + heuristic(cell)) {
       continue;
     }
-    if (is_goal(number)) {
+    if (is_goal(number, cost[number])) {
       return way_back(space, before, number);
     }
     for (const VoxelIndex& step : kAllNeighbours) {
@@ -108,21 +109,50 @@ std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platform, co
 
 }  // namespace
 
-std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals) const {
+std::vector<bool> GridPaths::marked(std::span<const VoxelIndex> goals) const {
   std::vector<bool> is_goal(space_.size(), false);
-  bool any = false;
   for (const VoxelIndex& goal : goals) {
     const std::uint32_t number = space_.number_of(goal);
     if (number != ReachableSpace::kOutside) {
       is_goal[number] = true;
-      any = true;
     }
   }
-  if (!any) {
+  return is_goal;
+}
+
+std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals) const {
+  if (space_.size() == 0) {
     return {};
   }
+  const std::vector<bool> is_goal = marked(goals);
   return search(
-      space_, [&](std::uint32_t number) { return is_goal[number]; }, [](const VoxelIndex&) { return 0U; });
+      space_, [&](std::uint32_t number, std::uint32_t) { return is_goal[number]; },
+      [](const VoxelIndex&) { return 0U; });
+}
+
+std::vector<VoxelIndex> GridPaths::nearest_within(std::span<const VoxelIndex> goals, double detour_m,
+                                                  double cell_m) const {
+  std::vector<VoxelIndex> near;
+  if (space_.size() == 0) {
+    return near;
+  }
+  const std::vector<bool> is_goal = marked(goals);
+  const double detour = std::min(1000.0 * detour_m / cell_m, 4e9);
+  double furthest = 5e9;
+  (void)search(
+      space_,
+      [&](std::uint32_t number, std::uint32_t cost) {
+        if (cost > furthest) {
+          return true;
+        }
+        if (is_goal[number]) {
+          furthest = near.empty() ? cost + detour : furthest;
+          near.push_back(space_.cells()[number]);
+        }
+        return false;
+      },
+      [](const VoxelIndex&) { return 0U; });
+  return near;
 }
 
 std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) const {
@@ -131,7 +161,7 @@ std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) const {
     return {};
   }
   return search(
-      space_, [&](std::uint32_t number) { return number == wanted; },
+      space_, [&](std::uint32_t number, std::uint32_t) { return number == wanted; },
       [&](const VoxelIndex& cell) { return bound(cell, goal); });
 }
 

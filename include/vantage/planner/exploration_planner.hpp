@@ -69,7 +69,9 @@ struct Plan {
   /// have made all of them known, the rest of the way is not worth following: plan again. Empty if the planner cannot
   /// say.
   std::vector<VoxelIndex> sought;
-  Leftover leftover;                             ///< what was given up
+  bool scan_on_the_way =
+      true;           ///< false: before the goal none of `sought` is in sight, so a scan there can be spared
+  Leftover leftover;  ///< what was given up
   std::string reason = "plan() was not called";  ///< one sentence, for a person
   PlanStatistics statistics;                     ///< what it took
 };

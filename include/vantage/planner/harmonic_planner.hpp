@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vantage/field/laplace_problem.hpp>
@@ -23,6 +24,30 @@ enum class FieldSolver : std::uint8_t {
   GaussSeidel,  ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
 };
 
+/// What HarmonicPlanner does that the paper leaves open or does otherwise; docs/harmonic.md has what each part earns.
+struct HarmonicStrategy {
+  /// Sinks whose way is longer than the way to the nearest by more than this wait for a later plan, metres, >= 0:
+  /// what is near is cleared first. Infinity: every frontier draws.
+  double detour_m = 0.2;
+  /// Looks from the first place on the way from which the boundary it came for is in sight, not from beside it.
+  bool look_early = true;
+  /// With look_early: once it has gone so far, metres, >= 0, any other boundary that comes into sight is looked at,
+  /// too.
+  double look_spacing_m = 0.5;
+  /// Takes the shortest way to the place it looks from, not the streamline.
+  bool shortest_way = true;
+  /// With look_early: spares the scans on the way, where nothing that is sought is in sight yet.
+  bool spare_scans = true;
+
+  /// The paper's plain method.
+  [[nodiscard]] static HarmonicStrategy faithful() {
+    return {.detour_m = std::numeric_limits<double>::infinity(),
+            .look_early = false,
+            .shortest_way = false,
+            .spare_scans = false};
+  }
+};
+
 /// Options of HarmonicPlanner.
 struct HarmonicOptions {
   FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
@@ -32,6 +57,7 @@ struct HarmonicOptions {
   std::size_t max_sweeps = 50000;     ///< of the relaxation; no plan takes more, > 0
   double over_relaxation = 1.0;       ///< in (0, 2); 1 is Gauss-Seidel
   double uniform_source = 1e-4;       ///< see RelaxationOptions; 0 is the field of the paper
+  HarmonicStrategy strategy = {};     ///< what to make of the field
   FrontierSurveyOptions survey = {};  ///< what counts as observable
 };
 
@@ -68,11 +94,16 @@ class HarmonicPlanner final : public ExplorationPlanner {
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
 
  private:
-  void solve(const FrontierSurvey& survey, PlanStatistics& statistics);
+  void solve(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
   void solve_by_multigrid();
   void relax();
   [[nodiscard]] std::vector<VoxelIndex> way_down(const OccupancyMap& map, const Pose& current,
                                                  const FrontierSurvey& survey);
+  [[nodiscard]] std::vector<VoxelIndex> sinks(const OccupancyMap& map, const FrontierSurvey& survey) const;
+  [[nodiscard]] bool can_look(const OccupancyMap& map, const FrontierTarget& target, const VoxelIndex& from,
+                              std::uint64_t& operations) const;
+  [[nodiscard]] FrontierTarget first_look(const OccupancyMap& map, const FrontierSurvey& survey,
+                                          const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
 
   PlannerSetup setup_;
   HarmonicOptions options_;

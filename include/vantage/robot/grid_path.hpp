@@ -20,10 +20,16 @@ class GridPaths {
   /// Dijkstra from the start of the space until the first of `goals` is settled: the way to it, both ends included.
   /// Empty if no goal is reachable.
   [[nodiscard]] std::vector<VoxelIndex> to_nearest(std::span<const VoxelIndex> goals) const;
+  /// Those of `goals` whose way is at most `detour_m` longer than the way to the nearest of them, each once, nearest
+  /// first; `cell_m` is the edge of a cell. Empty if no goal is reachable.
+  [[nodiscard]] std::vector<VoxelIndex> nearest_within(std::span<const VoxelIndex> goals, double detour_m,
+                                                       double cell_m) const;
   /// A* from the start of the space to one cell, both ends included. Empty if the cell is not reachable.
   [[nodiscard]] std::vector<VoxelIndex> to(const VoxelIndex& goal) const;
 
  private:
+  [[nodiscard]] std::vector<bool> marked(std::span<const VoxelIndex> goals) const;
+
   const ReachableSpace& space_;
 };
 

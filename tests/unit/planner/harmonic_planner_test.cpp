@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -51,7 +52,8 @@ TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
   for (const FieldSolver solver : {FieldSolver::Multigrid, FieldSolver::CoarseToFine, FieldSolver::GaussSeidel}) {
     for (const NeumannScheme neumann : {NeumannScheme::FiniteVolume, NeumannScheme::Mirror}) {
       const PlannerSetup setup = setup_with(all_around());
-      HarmonicPlanner planner(setup, {.solver = solver, .neumann = neumann});
+      HarmonicPlanner planner(setup,
+                              {.solver = solver, .neumann = neumann, .strategy = HarmonicStrategy::faithful()});
       const Plan plan = planner.plan(map, current);
       ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
       expect_admitted(map, *setup.platform, current, plan);
@@ -93,6 +95,57 @@ TEST(HarmonicPlanner, SameMapSamePlanAndPlanningTwiceChangesNothing) {
     EXPECT_EQ(first.path[i].matrix(), second.path[i].matrix());
     EXPECT_EQ(first.path[i].matrix(), third.path[i].matrix());
   }
+}
+
+double length_m(const Plan& plan) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < plan.path.size(); ++i) {
+    sum_m += (plan.path[i].translation() - plan.path[i - 1].translation()).norm();
+  }
+  return sum_m;
+}
+
+// From every corner of the box: the view is taken where the boundary first comes into sight, so the way is never
+// longer than to the boundary itself, and scans on it are spared.
+TEST(HarmonicPlanner, LooksFromTheFirstPlaceThatSeesTheBoundary) {
+  const OccupancyMap map = box_with_opening();
+  const PlannerSetup setup = setup_with(all_around());
+  std::size_t shorter = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d at(corner % 2 == 0 ? 0.5 : 3.5, corner / 2 % 2 == 0 ? 0.5 : 2.7, corner < 4 ? 0.5 : 1.9);
+    const Pose current = pose_looking(at, 0.0);
+    HarmonicPlanner early(setup);
+    HarmonicPlanner late(setup, {.strategy = {.look_early = false}});
+    const Plan plan = early.plan(map, current);
+    const Plan beside = late.plan(map, current);
+    ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
+    expect_admitted(map, *setup.platform, current, plan);
+    EXPECT_FALSE(plan.scan_on_the_way);
+    EXPECT_TRUE(beside.scan_on_the_way);
+    ASSERT_FALSE(plan.sought.empty());
+    std::uint64_t operations = 0;
+    for (const VoxelIndex& unknown : plan.sought) {
+      EXPECT_TRUE(sees(map, setup.sensor, plan.goal.pose, unknown, operations));
+    }
+    EXPECT_LT(length_m(plan), length_m(beside) + 0.3);
+    shorter += length_m(plan) < length_m(beside) - 0.3 ? 1U : 0U;
+  }
+  EXPECT_GE(shorter, 4U);
+}
+
+// What is near is cleared first, however much more flow a large boundary further off draws.
+TEST(HarmonicPlanner, ClearsWhatIsNearBeforeItGoesFar) {
+  OccupancyMap map = box_with_opening();
+  for_each_cell({{20, 2, 2}, {21, 14, 10}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  map.set({4, -1, 5}, Occupancy::Free);  // a scrap in the near wall
+  const Pose current = pose_looking({1.9, 0.9, 1.1}, 0.0);
+  HarmonicPlanner near_first(setup_with(all_around()), {.strategy = {.look_early = false}});
+  HarmonicPlanner faithful(setup_with(all_around()), {.strategy = HarmonicStrategy::faithful()});
+  const auto seeks_the_scrap = [](const Plan& plan) {
+    return std::find(plan.sought.begin(), plan.sought.end(), VoxelIndex{4, -2, 5}) != plan.sought.end();
+  };
+  EXPECT_TRUE(seeks_the_scrap(near_first.plan(map, current)));
+  EXPECT_FALSE(seeks_the_scrap(faithful.plan(map, current)));
 }
 
 // A height band one cell high makes the problem of the paper's own experiments: a plane.
@@ -177,6 +230,8 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   const PlannerSetup setup = setup_with(all_around());
   EXPECT_EQ(message(setup, {}), "");
   EXPECT_NE(message(setup, {.survey = {.patience = 0}}).find("FrontierSurveyOptions::patience"), std::string::npos);
+  EXPECT_NE(message(setup, {.strategy = {.detour_m = -1.0}}).find("HarmonicStrategy::detour_m"), std::string::npos);
+  EXPECT_NE(message(setup, {.strategy = {.look_spacing_m = -1.0}}).find("look_spacing_m"), std::string::npos);
   EXPECT_NE(message(setup, {.tolerance = -1.0}).find("tolerance"), std::string::npos);
   EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"),
             std::string::npos);

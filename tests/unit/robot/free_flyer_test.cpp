@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 #include <string>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/robot/reachable_space.hpp>
@@ -191,6 +193,49 @@ TEST(GridPath, IsAsShortAsTheSlowSearchSaysAndKeepsToAdmittedPoses) {
   }
   EXPECT_GT(ways, 10U);
   EXPECT_EQ(ways + dead_ends, 30U);
+}
+
+TEST(GridPath, FindsAllGoalsThatAreHardlyFurtherThanTheNearest) {
+  std::mt19937 engine(9);
+  std::size_t within = 0;
+  std::size_t beyond = 0;
+  for (int world = 0; world < 30; ++world) {
+    const OccupancyMap map = random_map(engine, 12, 0.25);
+    VoxelIndex start{0, 0, 0};
+    while (map.at(start) != Occupancy::Free) {
+      ++start.x;
+    }
+    const FreeFlyer flyer({.radius_m = 0.0});
+    const ReachableSpace space(map, flyer, pose_looking(map.frame().centre_of(start), 0.0));
+    const GridPaths paths(space);
+    std::vector<VoxelIndex> goals{{40, 40, 40}};
+    for (int i = 0; i < 12; ++i) {
+      goals.push_back(space.cells()[engine() % space.size()]);
+    }
+    const auto length_m = [&](const VoxelIndex& goal) {
+      const std::vector<VoxelIndex> way = paths.to(goal);
+      double sum_m = 0.0;
+      for (std::size_t i = 1; i < way.size(); ++i) {
+        sum_m += (map.frame().centre_of(way[i]) - map.frame().centre_of(way[i - 1])).norm();
+      }
+      return sum_m;
+    };
+    const double nearest_m = length_m(paths.to_nearest(goals).back());
+    const double detour_m = 3.3 * kCell;
+    const std::vector<VoxelIndex> found = paths.nearest_within(goals, detour_m, kCell);
+    for (std::size_t i = 1; i < goals.size(); ++i) {
+      const bool expected = length_m(goals[i]) <= nearest_m + detour_m;
+      EXPECT_EQ(std::find(found.begin(), found.end(), goals[i]) != found.end(), expected) << world;
+      ++(expected ? within : beyond);
+    }
+    for (std::size_t i = 1; i < found.size(); ++i) {
+      EXPECT_LE(length_m(found[i - 1]), length_m(found[i]) + 1e-2 * kCell);
+    }
+    const std::set<VoxelIndex, RasterOrder> reachable_goals(goals.begin() + 1, goals.end());
+    EXPECT_EQ(paths.nearest_within(goals, 1e9, kCell).size(), reachable_goals.size());
+  }
+  EXPECT_GT(within, 60U);
+  EXPECT_GT(beyond, 60U);
 }
 
 }  // namespace

@@ -142,7 +142,8 @@ TEST_F(TruthOfTwoRooms, AnExhaustiveScanCoversNearlyEverythingObservable) {
 // Goes to and fro between two places, and says when it is done.
 class Shuttle final : public ExplorationPlanner {
  public:
-  Shuttle(Pose a, Pose b, int trips) : a_(a), b_(b), trips_(trips) {}
+  Shuttle(Pose a, Pose b, int trips, bool scan_on_the_way = true)
+      : a_(a), b_(b), trips_(trips), scan_on_the_way_(scan_on_the_way) {}
   std::string_view name() const override { return "shuttle"; }
   Plan plan(const OccupancyMap&, const Pose& current) override {
     Plan plan;
@@ -154,6 +155,7 @@ class Shuttle final : public ExplorationPlanner {
     plan.outcome = Outcome::Move;
     plan.goal.pose = current.translation().isApprox(a_.translation()) ? b_ : a_;
     plan.path = {current, plan.goal.pose};
+    plan.scan_on_the_way = scan_on_the_way_;
     return plan;
   }
 
@@ -161,6 +163,7 @@ class Shuttle final : public ExplorationPlanner {
   Pose a_;
   Pose b_;
   int trips_;
+  bool scan_on_the_way_;
 };
 
 ExplorationRunOptions run_options() {
@@ -190,6 +193,11 @@ TEST(ExplorationRun, ScansOnTheWayAndCountsWhatItTravels) {
   EXPECT_EQ(record.collisions, 0U);
   EXPECT_GT(record.coverage.value(), 0.4);
   EXPECT_GT(record.peak_memory_mb, 1.0);
+
+  Shuttle sparing(a, b, 2, false);
+  const RunRecord spared = run.run(sparing, a);
+  EXPECT_EQ(spared.views.size(), 3U) << "start, goal, goal";
+  EXPECT_NEAR(spared.path_length_m(), 1.2, 1e-9);
 }
 
 TEST(ExplorationRun, CountsCollisionsWithTheTrueWorldAndStopsAtTheBudget) {

@@ -1,0 +1,130 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The table of Shade & Newman 2011 again: explores `rooms` at 0.2 m from SEEDS (default: 1 to 20) drawn starts and prints
+# one row per planner and setting, medians with quartiles. harmonic_table.sh [PART...], where PART is among paper
+# baselines ablation kinect stereo (default: paper baselines ablation). Needs a built program (VANTAGE=path names
+# another). Reports that lie in the folder RESULTS (default: build/harmonic-table) already are not made again.
+set -euo pipefail
+here="$(cd "$(dirname "$0")/.." && pwd)"
+vantage=${VANTAGE:-$here/build/release/bin/vantage}
+results=${RESULTS:-$here/build/harmonic-table}
+seeds=${SEEDS:-$(seq 1 20)}
+jobs=${JOBS:-2}
+max_views=${MAX_VIEWS:-1000}
+mkdir -p "$results"
+
+# field REPORT KEY: the value of a key that stands once in a report.
+field() { sed -n "s/.*\"$2\": \"\{0,1\}\([^\",}]*\).*/\1/p" "$1" | head -1; }
+
+# path_at REPORT SHARE: metres travelled when coverage first was SHARE; "-" if it never was.
+path_at() {
+  awk -v share="$2" '
+    function number(key) { return match($0, "\"" key "\": ?[0-9]") ? substr($0, RSTART + RLENGTH - 1) + 0 : -1 }
+    /"view":/ && number("coverage") >= share { print number("path_length_m"); found = 1; exit }
+    END { if (!found) print "-" }' "$1"
+}
+
+# quartiles DIGITS: median [lower, upper quartile] of the numbers on stdin; "-" if a number is missing.
+quartiles() {
+  sort -g | awk -v digits="$1" '
+    /^-$/ { missing = 1 }
+    { v[NR] = $1 }
+    function at(share,  place, below) {
+      place = 1 + share * (NR - 1); below = int(place)
+      return v[below] + (place - below) * (v[below < NR ? below + 1 : NR] - v[below])
+    }
+    END {
+      if (missing || NR == 0) { print "-"; exit }
+      f = "%." digits "f"
+      printf f " [" f ", " f "]", at(0.5), at(0.25), at(0.75)
+    }'
+}
+
+column() { # column DIGITS COMMAND...: quartiles of a figure over all reports of the row
+  local digits=$1 report
+  shift
+  for report in "${reports[@]}"; do "$@" "$report"; done | quartiles "$digits"
+}
+value_of() { field "$2" "$1"; }
+millions_of() { field "$2" "$1" | awk '{ print $1 / 1e6 }'; }
+path_at_share() { path_at "$2" "$1"; }
+
+# row TITLE NAME OPTION...: explores from every start, in parallel, and prints a row.
+row() {
+  local title=$1 name=$2 seed
+  shift 2
+  reports=()
+  for seed in $seeds; do
+    reports+=("$results/$name-$seed.json")
+    [[ -s $results/$name-$seed.json ]] || echo "$seed"
+  done > "$results/$name.todo"
+  [[ -s $results/$name.todo ]] && echo "$title" >&2
+  xargs -r -P "$jobs" -I{} sh -c '
+    "$0" explore --world rooms --resolution 0.2 --seed {} "$@" > /dev/null || test $? -eq 3' \
+    "$vantage" --max-views "$max_views" --json "$results/$name-{}.json" "$@" < "$results/$name.todo"
+  rm "$results/$name.todo"
+  local explored
+  explored=$(grep -l '"outcome": "explored",$' "${reports[@]}" | wc -l)
+  printf '| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s of %s |\n' "$title" \
+    "$(column 1 value_of path_length_m)" "$(column 0 value_of views)" "$(column 1 path_at_share 0.95)" \
+    "$(column 1 path_at_share 0.99)" "$(column 4 value_of coverage)" "$(column 2 millions_of integration)" \
+    "$(column 1 millions_of planning)" "$(column 0 plan_median)" "$explored" "${#reports[@]}"
+}
+plan_median() { sed -n '/"plan": {/,/}/s/.*"median": \([^,]*\).*/\1/p' "$1" | head -1; }
+
+head_of_table() {
+  printf '\n| %s | path, m | scans | path at 95 %%, m | path at 99 %%, m | coverage | integration, 1e6 cells | planning, 1e6 cells | plan, ms | explored |\n' "$1"
+  echo '|---|---|---|---|---|---|---|---|---|---|'
+}
+
+# sensor_rows SENSOR: the planners beside each other with a narrow sensor.
+sensor_rows() {
+  head_of_table "$1"
+  row 'harmonic' "$1-harmonic" --planner harmonic --sensor "$1"
+  row 'harmonic, faithful' "$1-faithful" --planner harmonic --set faithful=true --sensor "$1"
+  row 'frontier-gain, 100' "$1-gain-100" --planner frontier-gain --sensor "$1"
+  row 'nearest-frontier' "$1-nearest" --planner nearest-frontier --sensor "$1"
+}
+
+for part in "${@:-paper baselines ablation}"; do
+  for what in $part; do
+    case $what in
+      paper)
+        head_of_table panoramic
+        row 'harmonic' harmonic --planner harmonic
+        row 'harmonic, faithful' faithful --planner harmonic --set faithful=true
+        row 'frontier-gain, 100 hypotheses' gain-100 --planner frontier-gain
+        row 'nearest-frontier' nearest --planner nearest-frontier
+        ;;
+      baselines)
+        head_of_table panoramic
+        for hypotheses in 30 300; do
+          row "frontier-gain, $hypotheses hypotheses" "gain-$hypotheses" --planner frontier-gain --set "hypotheses=$hypotheses"
+        done
+        row 'frontier-gain, 100, scans at goals only' gain-100-goals --planner frontier-gain --scan-spacing 0
+        row 'nearest-frontier, scans at goals only' nearest-goals --planner nearest-frontier --scan-spacing 0
+        ;;
+      ablation)
+        head_of_table panoramic
+        row 'faithful' faithful --planner harmonic --set faithful=true
+        row '+ looks early' early --planner harmonic --set faithful=true --set look_early=true
+        row '+ shortest way' early-short --planner harmonic --set faithful=true --set look_early=true \
+          --set shortest_way=true
+        for detour in 2 1 0.5 0; do
+          row "+ nearest first, detour $detour m" "detour-$detour" --planner harmonic --set faithful=true \
+            --set look_early=true --set shortest_way=true --set "detour_m=$detour"
+        done
+        row '+ spared scans: the default' harmonic --planner harmonic
+        row 'default, looks from beside the boundary' late --planner harmonic --set look_early=false
+        row 'default, along the streamline' stream --planner harmonic --set shortest_way=false
+        ;;
+      kinect | stereo)
+        sensor_rows "$what"
+        ;;
+      *)
+        echo "harmonic_table.sh: '$what' is none of paper baselines ablation kinect stereo" >&2
+        exit 2
+        ;;
+    esac
+  done
+done
