@@ -203,6 +203,16 @@ std::vector<FrontierTarget> large_clusters(const OccupancyMap& map, const Fronti
   return large;
 }
 
+// The targets beside a known surface; all of them if there is none.
+std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
+  std::vector<FrontierTarget> beside;
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside), [&](const FrontierTarget& target) {
+    return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(),
+                       [&](const VoxelIndex& step) { return map.at(target.unknown + step) == Occupancy::Occupied; });
+  });
+  return beside.empty() ? std::move(targets) : beside;
+}
+
 // Whether the platform comes close: some reachable cell lies within half its body, and one cell more.
 bool body_comes_near(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
                      const VoxelIndex& cell) {
@@ -254,7 +264,8 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
       large = large_clusters(map, options, survey.targets);
     }
     survey.leftover.too_small = survey.targets.size() - large.size();
-    survey.targets = std::move(large);
+    survey.targets = options.surfaces_first && !sensor.reports_no_return ? surfaces_first(map, std::move(large))
+                                                                         : std::move(large);
     survey.ray_operations = search.operations();
   } else {
     hidden = std::move(frontier);

@@ -29,6 +29,10 @@ struct FrontierSurveyOptions {
   /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear
   /// surfaces away, false frontiers of a few cells open without end.
   std::size_t min_contested_cluster_cells = 32;
+  /// For a sensor that does not report rays without return: targets whose unknown cell touches an occupied one (26
+  /// neighbours) come first, the others when none of these is left. A ray into the open teaches such a sensor
+  /// nothing, one along a known surface most likely meets more of it.
+  bool surfaces_first = true;
   int patience = 2;  ///< places from which a view of a cell may fail before it is given up (FailedViews), >= 1
   std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
   /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are
@@ -43,9 +47,11 @@ struct FrontierSurveyOptions {
 /// of its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest
 /// and longest range, and falls into its field of view in an orientation that the platform can take there.
 struct FrontierSurvey {
-  ReachableSpace reachable;                  ///< cells the platform can bring the sensor to
-  std::vector<FrontierTarget> targets = {};  ///< the observable frontier cells, in raster order of `frontier`
-  std::size_t frontier_cells = 0;            ///< all of them, inside the region
+  ReachableSpace reachable;  ///< cells the platform can bring the sensor to
+  /// The observable frontier cells to go for now (FrontierSurveyOptions::surfaces_first), in raster order of
+  /// `frontier`.
+  std::vector<FrontierTarget> targets = {};
+  std::size_t frontier_cells = 0;  ///< all of them, inside the region
   bool exhausted = true;   ///< false: FrontierSurveyOptions::exhaustive_pairs ran out before every pair was tried
   Leftover leftover = {};  ///< frontier cells given up, by cause
   std::uint64_t ray_operations = 0;  ///< cells visited while looking for lines of sight

@@ -43,6 +43,32 @@ TEST(FrontierSurvey, AnOpeningOfFreeCellsIsATarget) {
   }
 }
 
+// A sensor to which a ray into the open tells nothing goes for the rim of a wide opening first; where nothing touches
+// a surface, it takes what there is.
+TEST(FrontierSurvey, WithoutNoReturnsTheRimOfAnOpeningComesFirst) {
+  constexpr VoxelBox kWide{{12, 3, 3}, {13, 9, 9}};
+  OccupancyMap map = closed_room();
+  for_each_cell(kWide, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  const FrontierSurvey rim = survey_of(map);
+  EXPECT_EQ(rim.targets.size(), 36U - 16U);
+  for (const FrontierTarget& target : rim.targets) {
+    EXPECT_TRUE(target.frontier.y == 3 || target.frontier.y == 8 || target.frontier.z == 3 || target.frontier.z == 8);
+  }
+  EXPECT_EQ(survey_of(map, {.surfaces_first = false}).targets.size(), 36U);
+
+  const auto survey_by = [&](const RangeSensor& sensor) {
+    return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), sensor, pose_looking({1.1, 1.1, 1.1}, 0.0), {},
+                            FailedViews());
+  };
+  RangeSensor time_of_flight = all_around();
+  time_of_flight.reports_no_return = true;
+  EXPECT_EQ(survey_by(time_of_flight).targets.size(), 36U);
+
+  map = OccupancyMap({.resolution_m = 0.2});
+  for_each_cell({{0, 0, 0}, {12, 12, 12}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  EXPECT_EQ(survey_by(all_around()).targets.size(), 12U * 12U * 12U - 10U * 10U * 10U);
+}
+
 // Hit once, missed three times: free by 0.35, which no number of misses makes.
 TEST(FrontierSurvey, SightDoesNotPassAWornWall) {
   OccupancyMap map = closed_room();
