@@ -55,6 +55,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.set_version_flag("--version", "vantage " VANTAGE_VERSION_STRING, "The version");
   app.failure_message(CLI::FailureMessage::simple);
   add_explore_command(app, exit_code);
+  add_reconstruct_command(app, exit_code);
   add_map_command(app, exit_code);
   add_list_command(app);
   // Not inherited by the commands, hence after them.

@@ -47,19 +47,6 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
   }
 }
 
-void check_targets(const ExploreRequest& request) {
-  if (!request.out.empty() && std::filesystem::exists(request.out) && !std::filesystem::is_directory(request.out)) {
-    throw std::runtime_error("--out " + request.out + ": is not a folder");
-  }
-  if (request.json.empty() || request.json == "-") {
-    return;
-  }
-  const std::filesystem::path folder = std::filesystem::path(request.json).parent_path();
-  if (std::filesystem::is_directory(request.json) || (!folder.empty() && !std::filesystem::is_directory(folder))) {
-    throw std::runtime_error("--json " + request.json + ": cannot be written");
-  }
-}
-
 Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
   const std::optional<Pose> given = start_of(request);
   const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
@@ -69,24 +56,9 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
   return *start;
 }
 
-void write_outputs(const ExploreRequest& request, const RunRecord& record, const OccupancyMap& map,
-                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress) {
-  if (!request.out.empty()) {
-    progress << "\nwrote\n";
-    for (const std::filesystem::path& file : write_run_files(request.out, record, map, sensor, field)) {
-      progress << "  " << file.string() << '\n';
-    }
-  }
-  if (request.json == "-") {
-    std::cout << report_json(record) << std::flush;
-  } else if (!request.json.empty()) {
-    write_report_json(record, request.json);
-  }
-}
-
 int explore(const ExploreRequest& request) {
   check_numbers(request);
-  check_targets(request);
+  check_targets(request.out, request.json);
   const std::optional<Pose> start = start_of(request);
   const RangeSensor sensor = sensor_of(request);
   const auto platform = std::make_shared<const FreeFlyer>(
@@ -131,7 +103,7 @@ int explore(const ExploreRequest& request) {
   record.threads = request.threads;
   record.resolution_m = request.resolution_m;
   printer.summary(record);
-  write_outputs(request, record, run.map(), sensor, field.picture(), progress);
+  write_outputs(request.out, request.json, record, run.map(), sensor, field.picture(), progress);
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }
 

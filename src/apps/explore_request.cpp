@@ -15,6 +15,13 @@
 namespace vantage::apps {
 namespace {
 
+template <class Names>
+bool is_known(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
 std::vector<double> numbers_of(const char* flag, const std::string& text) {
   std::vector<double> numbers;
   std::size_t at = 0;
@@ -32,13 +39,6 @@ std::vector<double> numbers_of(const char* flag, const std::string& text) {
   }
   return numbers;
 }
-
-template <class Names>
-bool is_known(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
 
 void check_numbers(const ExploreRequest& request) {
   const auto finite_at_least_0 = [](double value) { return std::isfinite(value) && value >= 0.0; };

@@ -42,6 +42,8 @@ struct ExploreRequest {
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
 [[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
+/// The numbers of a list "1,2.5,-3" that `flag` was given.
+[[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
 /// Numbers and ranges that no file is needed for.
 void check_numbers(const ExploreRequest& request);
 

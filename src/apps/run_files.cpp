@@ -2,6 +2,7 @@
 #include "apps/run_files.hpp"
 
 #include <cmath>
+#include <iostream>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -38,11 +39,13 @@ Picture floor_plan(const RunRecord& record, const OccupancyMap& map, const Range
   return draw_floor_plan(map, content);
 }
 
+// Of the world or, where only an object was to be seen, of its surface.
 Picture coverage_plot(const RunRecord& record) {
   LineSeries over_views;
   LineSeries over_metres;
   for (const ViewRecord& view : record.views) {
-    const double percent = view.coverage ? 100.0 * *view.coverage : std::nan("");
+    const std::optional<double> coverage = record.coverage ? view.coverage : view.surface_coverage;
+    const double percent = coverage ? 100.0 * *coverage : std::nan("");
     over_views.x.push_back(static_cast<double>(view.view));
     over_views.y.push_back(percent);
     over_metres.x.push_back(view.path_length_m);
@@ -51,7 +54,7 @@ Picture coverage_plot(const RunRecord& record) {
   const auto plot = [&](const char* over, const char* x_label, LineSeries series) {
     return LinePlot{.title = title_of(record) + ": coverage over " + over,
                     .x_label = x_label,
-                    .y_label = "observable cells known rightly [%]",
+                    .y_label = record.coverage ? "observable cells known rightly [%]" : "surface measured [%]",
                     .series = {std::move(series)},
                     .y_range = std::pair(0.0, 100.0),
                     .value_unit = " %"};
@@ -104,6 +107,34 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
     write_png(*field, files.back());
   }
   return files;
+}
+
+void check_targets(const std::string& out, const std::string& json) {
+  if (!out.empty() && std::filesystem::exists(out) && !std::filesystem::is_directory(out)) {
+    throw std::runtime_error("--out " + out + ": is not a folder");
+  }
+  if (json.empty() || json == "-") {
+    return;
+  }
+  const std::filesystem::path folder = std::filesystem::path(json).parent_path();
+  if (std::filesystem::is_directory(json) || (!folder.empty() && !std::filesystem::is_directory(folder))) {
+    throw std::runtime_error("--json " + json + ": cannot be written");
+  }
+}
+
+void write_outputs(const std::string& out, const std::string& json, const RunRecord& record, const OccupancyMap& map,
+                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress) {
+  if (!out.empty()) {
+    progress << "\nwrote\n";
+    for (const std::filesystem::path& file : write_run_files(out, record, map, sensor, field)) {
+      progress << "  " << file.string() << '\n';
+    }
+  }
+  if (json == "-") {
+    std::cout << report_json(record) << std::flush;
+  } else if (!json.empty()) {
+    write_report_json(record, json);
+  }
 }
 
 }  // namespace vantage::apps

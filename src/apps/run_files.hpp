@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
+#include <string>
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -30,5 +32,12 @@ class FieldKeeper {
 std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
                                                    const OccupancyMap& map, const RangeSensor& sensor,
                                                    const std::optional<Picture>& field);
+
+/// Refuses, before a run, an --out or a --json that could not be written. Throws std::runtime_error naming it.
+void check_targets(const std::string& out, const std::string& json);
+/// After a run: its files where `out` names a folder, telling `progress` which, and its report where `json` names a
+/// file or, as "-", stdout.
+void write_outputs(const std::string& out, const std::string& json, const RunRecord& record, const OccupancyMap& map,
+                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress);
 
 }  // namespace vantage::apps

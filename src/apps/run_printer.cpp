@@ -52,7 +52,7 @@ std::string times(const char* what, const std::vector<double>& ms) {
 
 void RunPrinter::head(const std::string& planner, const std::string& world, const std::string& sensor,
                       double resolution_m, std::uint64_t seed) {
-  out_ << planner << " explores " << world << " with " << sensor
+  out_ << planner << (planner == "next-best-view" ? " looks at " : " explores ") << world << " with " << sensor
        << format(", cells of %g m, seed %llu\n", resolution_m, static_cast<unsigned long long>(seed)) << std::flush;
 }
 
@@ -60,6 +60,12 @@ void RunPrinter::view(const ViewRecord& view) {
   out_ << format("view %4zu  ", view.view);
   if (view.coverage) {
     out_ << (terminal_ ? bar(*view.coverage) : "") << format("%5.1f %% known  ", 100.0 * *view.coverage);
+  }
+  if (view.surface_coverage) {
+    out_ << format("%5.1f %% of the surface  %7.1f m  insert %6.1f ms  plan %8.1f ms\n",
+                   100.0 * *view.surface_coverage, view.path_length_m, view.insert_ms, view.plan_ms)
+         << std::flush;
+    return;
   }
   out_ << format("%7.1f m  %7zu frontier cells  insert %6.1f ms  plan %8.1f ms\n", view.path_length_m,
                  view.frontier_cells, view.insert_ms, view.plan_ms)
@@ -80,6 +86,9 @@ void RunPrinter::summary(const RunRecord& record) {
   if (record.coverage) {
     out_ << format("  %-12s %.2f %% of %zu observable cells\n", "coverage", 100.0 * *record.coverage,
                    record.observable_cells);
+  }
+  if (record.surface_coverage) {
+    out_ << format("  %-12s %.2f %% of the object's points\n", "surface", 100.0 * *record.surface_coverage);
   }
   out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu too small\n", "left over",
                  record.leftover.unreachable, record.leftover.unobservable, record.leftover.too_small)

@@ -30,8 +30,8 @@ void validate(const NextBestViewOptions& options) {
   }
   detail::require_option(std::isfinite(options.radius_m) && options.radius_m > 0.0, "NextBestViewOptions::radius_m",
                          options.radius_m, "> 0");
-  detail::require_option(options.subdivisions >= 0 && options.subdivisions <= 6, "NextBestViewOptions::subdivisions",
-                         options.subdivisions, "in [0, 6]");
+  detail::require_option(options.subdivisions >= -1 && options.subdivisions <= 6, "NextBestViewOptions::subdivisions",
+                         options.subdivisions, "in [-1, 6]");
   detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
                          options.min_unknown_cells, ">= 1");
   detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
@@ -58,7 +58,10 @@ struct Rank {
 std::vector<Pose> candidates_for(const OccupancyMap& map, const PlannerSetup& setup,
                                  const NextBestViewOptions& options) {
   const Eigen::Vector3d middle = options.object->centre();
-  std::vector<Pose> views = views_around(middle, std::array{options.radius_m}, options.subdivisions);
+  std::vector<Pose> views;
+  if (options.subdivisions >= 0) {
+    views = views_around(middle, std::array{options.radius_m}, options.subdivisions);
+  }
   if (options.random_candidates > 0 && !cells_of_interest(map).empty()) {
     const Box workspace = map.frame().box_of(cells_of_interest(map));
     const std::vector<Pose> random = random_views_of(middle, workspace, options.random_candidates, setup.seed);
@@ -68,6 +71,32 @@ std::vector<Pose> candidates_for(const OccupancyMap& map, const PlannerSetup& se
     view = setup.platform->facing(view.translation(), optical_axis(view));
   }
   return views;
+}
+
+// Line 4: straight there or around the object where the platform can go that way, for that is soon known; else by the
+// platform's own search.
+std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Platform& platform, const Pose& from,
+                                        const Pose& to, const Eigen::Vector3d& middle) {
+  if (platform.admits_motion(map, from, to)) {
+    return std::vector<Pose>{from, to};
+  }
+  const Eigen::Vector3d first = from.translation() - middle;
+  const Eigen::Vector3d last = to.translation() - middle;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(first, last);
+  constexpr int kSteps = 24;
+  std::vector<Pose> arc{from};
+  for (int i = 1; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    const double radius_m = first.norm() + share * (last.norm() - first.norm());
+    const Eigen::Vector3d outwards =
+        Eigen::Quaterniond::Identity().slerp(share, turn) * Eigen::Vector3d(first.normalized());
+    const Pose next = i == kSteps ? to : platform.facing(middle + radius_m * outwards, -outwards);
+    if (!platform.admits(map, next) || !platform.admits_motion(map, arc.back(), next)) {
+      return platform.path(map, from, to);
+    }
+    arc.push_back(next);
+  }
+  return arc;
 }
 
 }  // namespace
@@ -182,7 +211,8 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
       continue;
     }
     plan.statistics.choose_ms += stopwatch.lap_ms();
-    auto path = worthwhile ? setup_.platform->path(map, current, view.pose) : std::nullopt;
+    auto path =
+        worthwhile ? way_to(map, *setup_.platform, current, view.pose, options_.object->centre()) : std::nullopt;
     plan.statistics.path_ms += stopwatch.lap_ms();
     if (path) {
       plan.outcome = Outcome::Move;

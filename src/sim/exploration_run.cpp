@@ -11,6 +11,7 @@
 #include <vantage/sim/exploration_run.hpp>
 
 #include "map/option_rule.hpp"
+#include "sim/surface_coverage.hpp"
 
 namespace vantage {
 namespace {
@@ -29,6 +30,8 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   detail::require_option(std::isfinite(radius_m) && radius_m >= 0.0, "ExplorationRunOptions::body_radius_m", radius_m,
                          ">= 0");
   detail::require_option(options.threads > 0, "ExplorationRunOptions::threads", options.threads, "> 0");
+  detail::require_option(std::isfinite(options.surface_gap_m) && options.surface_gap_m > 0.0,
+                         "ExplorationRunOptions::surface_gap_m", options.surface_gap_m, "> 0");
   if (!options.map.region) {
     options.map.region = world.region;
   }
@@ -65,6 +68,7 @@ struct ExplorationRun::Progress {
   double path_length_m = 0.0;
   double since_scan_m = 0.0;
   std::vector<VoxelIndex> observable;
+  SurfaceCoverage surface;
   RunRecord record;
 };
 
@@ -115,8 +119,19 @@ void ExplorationRun::assume_body_free(const Pose& start) {
   });
 }
 
+void ExplorationRun::know_surroundings() {
+  truth_.map().for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+    const Box box = map_.frame().box_of(cell);
+    const Box& unknown = *options_.unknown_box;
+    if ((box.max.array() <= unknown.min.array()).any() || (box.min.array() >= unknown.max.array()).any()) {
+      map_.set(cell, occupancy);
+    }
+  });
+}
+
 void ExplorationRun::scan(Progress& progress) {
   const Scan scan = progress.sensor.scan(progress.pose);
+  progress.surface.add(scan);
   const Clock::time_point start = Clock::now();
   const ScanReport report = map_.insert(scan, options_.ray_policy);
   ViewRecord view;
@@ -131,8 +146,14 @@ void ExplorationRun::scan(Progress& progress) {
   view.view = record.views.size() + 1;
   view.pose = progress.pose;
   view.path_length_m = progress.path_length_m;
-  view.coverage = truth_.coverage(map_, progress.observable);
+  if (options_.measure_coverage) {
+    view.coverage = truth_.coverage(map_, progress.observable);
+  }
   record.coverage = view.coverage;
+  if (!options_.surface_samples.empty()) {
+    view.surface_coverage = progress.surface.share();
+    record.surface_coverage = view.surface_coverage;
+  }
   record.views.push_back(view);
   progress.since_scan_m = 0.0;
 }
@@ -205,8 +226,11 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
   map_ = OccupancyMap(options_.map);
-  Progress progress{SimulatedSensor(scene_, sensor_, options_.noise, options_.seed), start, 0.0, 0.0, 0.0, {}, {}};
-  progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
+  Progress progress{SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),   start, 0.0, 0.0, 0.0, {},
+                    SurfaceCoverage(options_.surface_samples, options_.surface_gap_m), {}};
+  if (options_.measure_coverage) {
+    progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
+  }
   progress.body_radius_m = options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
   RunRecord& record = progress.record;
   record.command = "explore";
@@ -217,6 +241,9 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
   record.resolution_m = map_.resolution_m();
   record.observable_cells = progress.observable.size();
   record.travelled.push_back(start.translation());
+  if (options_.unknown_box) {
+    know_surroundings();
+  }
   assume_body_free(start);
   scan(progress);
   for (;;) {

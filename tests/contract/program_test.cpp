@@ -53,9 +53,10 @@ class Program : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
   }
   /// The message is one line, `vantage: ...`, that names the thing; the code is 2 and nothing is written.
-  void expect_refused(const std::string& arguments, const std::string& names) {
+  void expect_refused(const std::string& arguments, const std::string& names,
+                      const std::string& command = "explore ") {
     const std::string json = (folder_ / "report.json").string();
-    const Ran ran = run("explore " + arguments + " --out '" + out() + "' --json '" + json + "'");
+    const Ran ran = run(command + arguments + " --out '" + out() + "' --json '" + json + "'");
     EXPECT_EQ(ran.code, 2) << arguments << '\n' << ran.err;
     EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << arguments << '\n' << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << arguments << '\n' << ran.err;
@@ -159,7 +160,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
     EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
-  EXPECT_NE(run("dance").err.find("no command 'dance'; there are: explore, map, list"), std::string::npos);
+  EXPECT_NE(run("dance").err.find("no command 'dance'; there are: explore, reconstruct, map, list"), std::string::npos);
 }
 
 TEST_F(Program, HelpsAndLists) {
@@ -215,6 +216,63 @@ TEST_F(Program, SaysThatABudgetEndedIt) {
   const nlohmann::json report = nlohmann::json::parse(ran.out);
   EXPECT_EQ(report["outcome"], "budget");
   EXPECT_EQ(report["views"], 1);
+}
+
+// A block of 20 x 16 x 24 cm.
+std::string block() {
+  std::string vertices;
+  for (int corner = 0; corner < 8; ++corner) {
+    vertices += std::string(corner % 2 == 0 ? "-0.1 " : "0.1 ") + (corner / 2 % 2 == 0 ? "-0.08 " : "0.08 ") +
+                (corner / 4 == 0 ? "0\n" : "0.24\n");
+  }
+  const std::string faces = "4 0 1 3 2\n4 4 5 7 6\n4 0 1 5 4\n4 2 3 7 6\n4 0 2 6 4\n4 1 3 7 5\n";
+  return ply(vertices, 8, faces, 6);
+}
+
+TEST_F(Program, ReconstructsAnObjectOnTheTable) {
+  const std::string object = "--object '" + file("block.ply", block()) + "' ";
+  const Ran ran =
+      run("reconstruct " + object + "--table --candidates 80 --resolution 0.04 --json - --out '" + out() + "'");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["command"], "reconstruct");
+  EXPECT_EQ(report["planner"], "next-best-view");
+  EXPECT_EQ(report["outcome"], "explored");
+  EXPECT_TRUE(report["coverage"].is_null());
+  EXPECT_GT(report["surface_coverage"], 0.7) << "all but what stands on the table";
+  EXPECT_GT(report["views"], 1);
+  EXPECT_LT(report["views"], 15);
+  EXPECT_EQ(report["collisions"], 0);
+  EXPECT_TRUE(fs::exists(fs::path(out()) / "map.ot"));
+  const Ran again = run("reconstruct " + object + "--table --candidates 80 --resolution 0.04 --json - --threads 2");
+  const nlohmann::json same = nlohmann::json::parse(again.out);
+  EXPECT_EQ(same["path_length_m"], report["path_length_m"]);
+  EXPECT_EQ(same["surface_coverage"], report["surface_coverage"]);
+  const Ran spent = run("reconstruct " + object + "--resolution 0.04 --max-views 1 --candidates 30");
+  EXPECT_EQ(spent.code, 3) << spent.err;
+}
+
+TEST_F(Program, RefusesToReconstructWhatIsNone) {
+  const std::string object = "--object '" + file("block.ply", block()) + "' ";
+  const auto refused = [&](const std::string& arguments, const std::string& names) {
+    expect_refused(arguments, names, "reconstruct ");
+  };
+  refused("--table", "--object");
+  refused("--object /nowhere.ply", "/nowhere.ply");
+  refused(object + "--place 1,2,3", "--place has 3 numbers");
+  refused(object + "--place 0,0,0,0,0,0,0,1", "scale");
+  refused(object + "--place 1,0,0,0,0,0,0,0", "quaternion");
+  refused(object + "--object-box 0,0,0,1,-1,1", "--object-box");
+  refused(object + "--method best", "'best', must be one of default, uniform, hierarchical");
+  refused(object + "--candidates 0", "--candidates");
+  refused(object + "--radius 0", "--radius");
+  refused(object + "--resolution 1e-6", "--resolution");
+  refused(object + "--gap -1", "--gap");
+  refused(object + "--up x", "--up");
+  refused(object + "--reference '" + file("points.txt", "1 2 three\n") + "'", "points.txt");
+  refused(object + "--start 99,0,0", "start");
+  refused(object + "--set gain=3", "gain");
+  EXPECT_EQ(refused_, 15);
 }
 
 }  // namespace

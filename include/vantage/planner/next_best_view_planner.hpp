@@ -30,7 +30,7 @@ struct NextBestViewOptions {
 
   // With an object:
   double radius_m = 1.5;  ///< candidates look at the middle of the object from this far off, > 0 (VI-A)
-  /// Those candidates are 20 * 4^this, evenly spread, in [0, 6]; the paper's 320 by default.
+  /// Those candidates are 20 * 4^this, evenly spread, in [-1, 6]; the paper's 320 by default. -1: there are none.
   int subdivisions = 2;
   /// As many more, from places drawn in the region or, without one, in the known part of the map (VI-B).
   std::size_t random_candidates = 0;

@@ -28,16 +28,17 @@ enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget };
 
 /// One integrated scan of a run and what was known after it.
 struct ViewRecord {
-  std::size_t view = 0;             ///< 1 for the first scan
-  Pose pose = Pose::Identity();     ///< world_from_sensor of the scan
-  std::optional<double> coverage;   ///< after this scan, where the true world is known
-  double path_length_m = 0.0;       ///< travelled so far
-  double insert_ms = 0.0;           ///< time to integrate the scan
-  double plan_ms = 0.0;             ///< 0 where the plan before was still being followed
-  double utility = 0.0;             ///< of the goal chosen after this scan
-  std::size_t frontier_cells = 0;   ///< after this scan; as last counted where no plan was made
-  std::size_t void_cells = 0;       ///< after this scan; planners that look for voids
-  Outcome outcome = Outcome::Move;  ///< of the plan made after this scan
+  std::size_t view = 0;                    ///< 1 for the first scan
+  Pose pose = Pose::Identity();            ///< world_from_sensor of the scan
+  std::optional<double> coverage;          ///< after this scan, where the true world is known
+  std::optional<double> surface_coverage;  ///< after this scan, where an object was to be seen
+  double path_length_m = 0.0;              ///< travelled so far
+  double insert_ms = 0.0;                  ///< time to integrate the scan
+  double plan_ms = 0.0;                    ///< 0 where the plan before was still being followed
+  double utility = 0.0;                    ///< of the goal chosen after this scan
+  std::size_t frontier_cells = 0;          ///< after this scan; as last counted where no plan was made
+  std::size_t void_cells = 0;              ///< after this scan; planners that look for voids
+  Outcome outcome = Outcome::Move;         ///< of the plan made after this scan
 };
 
 /// The record of a run, by whatever host: enough for the report, the pictures and the tables.

@@ -32,6 +32,15 @@ struct ExplorationRunOptions {
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;
   int threads = 1;  ///< for the observable cells, > 0
+  /// Whether coverage is measured, which takes finding all observable cells of the world first.
+  bool measure_coverage = true;
+  /// Cells of the world that do not touch this box are known from the start, as a room may be in which an object is
+  /// to be looked at; none: nothing is.
+  std::optional<Box> unknown_box = std::nullopt;
+  /// Points on the surface of an object; the share of them with a measured point within `surface_gap_m` is reported
+  /// as surface coverage. None: that is not measured.
+  std::vector<Eigen::Vector3d> surface_samples = {};
+  double surface_gap_m = 0.005;  ///< > 0 (V-G, in the reference data)
 };
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
@@ -60,6 +69,7 @@ class ExplorationRun {
   struct Progress;
   void check_start(const Pose& start) const;
   void assume_body_free(const Pose& start);
+  void know_surroundings();
   void scan(Progress& progress);
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);

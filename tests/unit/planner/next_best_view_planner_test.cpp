@@ -163,7 +163,7 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   EXPECT_EQ(complaint({{"object", "0,0,0,1,-1,1"}}),
             "NextBestViewOptions::object must have min < max on every axis and be finite");
   EXPECT_EQ(complaint({{"radius_m", "0"}}), "NextBestViewOptions::radius_m is 0, must be > 0");
-  EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [0, 6]");
+  EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [-1, 6]");
   EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
   EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be >= 1");
 }

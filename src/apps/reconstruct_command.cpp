@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/sim/exploration_run.hpp>
+#include <vantage/sim/mesh_file.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/explore_request.hpp"
+#include "apps/help_format.hpp"
+#include "apps/run_files.hpp"
+#include "apps/run_printer.hpp"
+#include "map/option_rule.hpp"
+
+namespace vantage::apps {
+namespace {
+
+// `vantage reconstruct` as it was typed.
+struct ReconstructRequest {
+  std::string object;
+  std::string place;
+  bool table = false;
+  std::string object_box;
+  std::string reference;
+  double gap_m = 0.0;
+  std::string method = "default";
+  std::uint64_t candidates = 320;
+  double radius_m = 1.5;
+  ExploreRequest run;  // what the commands share
+
+  ReconstructRequest() {
+    run.planner = "next-best-view";
+    run.sensor = "vpl";
+    run.resolution_m = 0.02;
+    run.robot_radius_m = 0.05;
+    run.max_views = 50;
+  }
+};
+
+constexpr double kTableTopM = 0.427277;
+
+// The object where it stands: as told, or in the middle of the table, or where its file has it.
+TriangleMesh placed_object(const ReconstructRequest& request) {
+  const TriangleMesh mesh =
+      read_mesh_file(request.object, {.up = request.run.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z});
+  double scale = 1.0;
+  Pose pose = Pose::Identity();
+  if (!request.place.empty()) {
+    const std::vector<double> n = numbers_of("--place", request.place);
+    if (n.size() != 8) {
+      throw std::invalid_argument("--place has " + std::to_string(n.size()) +
+                                  " numbers, must be scale,x,y,z,qx,qy,qz,qw");
+    }
+    const Eigen::Quaterniond turn(n[7], n[4], n[5], n[6]);
+    detail::require_option(n[0] > 0.0, "the scale of --place", n[0], "> 0");
+    if (turn.norm() < 1e-6) {
+      throw std::invalid_argument("--place " + request.place + ": the quaternion is zero");
+    }
+    scale = n[0];
+    pose = Eigen::Translation3d(n[1], n[2], n[3]) * turn.normalized();
+  } else if (request.table) {
+    const Box bounds = mesh.bounds();
+    pose.translation() = Eigen::Vector3d(-bounds.centre().x(), -bounds.centre().y(), kTableTopM - bounds.min.z());
+  }
+  TriangleMesh placed;
+  placed.append(mesh, pose, scale);
+  return placed;
+}
+
+Box object_box_of(const ReconstructRequest& request, const TriangleMesh& object) {
+  if (!request.object_box.empty()) {
+    const std::vector<double> n = numbers_of("--object-box", request.object_box);
+    if (n.size() != 6 || !(n[0] < n[3] && n[1] < n[4] && n[2] < n[5])) {
+      throw std::invalid_argument("--object-box '" + request.object_box +
+                                  "' must be x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and z0 < z1");
+    }
+    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  }
+  constexpr double kMarginM = 0.03;
+  Box box = object.bounds();
+  box.min.array() -= kMarginM;
+  box.max.array() += kMarginM;
+  if (request.table) {  // not the table itself
+    box.min.z() = std::max(box.min.z(), kTableTopM + 0.5 * request.run.resolution_m);
+  }
+  return box;
+}
+
+World world_around(const ReconstructRequest& request, const TriangleMesh& object, const Box& box) {
+  World world;
+  if (request.table) {
+    world = World::by_name("table");
+  } else {
+    const double reach_m = request.radius_m + 0.5 * box.extent().norm();
+    world.region = {box.centre().array() - reach_m, box.centre().array() + reach_m};
+  }
+  world.name = request.object;
+  world.mesh.append(object);
+  return world;
+}
+
+// The truth keeps a byte and more per cell of the region: a slip of the resolution must not fill the memory.
+void check_cells(const ReconstructRequest& request, const Box& region) {
+  constexpr double kMostCells = 1e9;
+  const double cells = (region.extent() / request.run.resolution_m).prod();
+  if (!(cells <= kMostCells)) {
+    std::ostringstream message;
+    message << "--resolution " << request.run.resolution_m << " makes " << cells
+            << " cells of the space around the object, must be at most " << kMostCells;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+// Rows of x y z.
+std::vector<Eigen::Vector3d> points_in(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<Eigen::Vector3d> points;
+  for (Eigen::Vector3d p; file >> p.x() >> p.y() >> p.z();) {
+    points.push_back(p);
+  }
+  if (points.empty() || !file.eof()) {
+    throw std::runtime_error(path + ": is not a list of points, x y z in every line");
+  }
+  return points;
+}
+
+// Points drawn evenly from the surface, always the same.
+std::vector<Eigen::Vector3d> surface_points(const TriangleMesh& mesh) {
+  constexpr std::size_t kPoints = 20'000;
+  std::vector<double> areas;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d corner = mesh.vertices[a].cast<double>();
+    const Eigen::Vector3d ab = mesh.vertices[b].cast<double>() - corner;
+    const Eigen::Vector3d ac = mesh.vertices[c].cast<double>() - corner;
+    areas.push_back((areas.empty() ? 0.0 : areas.back()) + 0.5 * ab.cross(ac).norm());
+  }
+  std::mt19937_64 engine(1);
+  const auto share = [&] { return static_cast<double>(engine() >> 11U) * 0x1.0p-53; };
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const auto at = std::upper_bound(areas.begin(), areas.end() - 1, share() * areas.back());
+    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(at - areas.begin())];
+    double u = share();
+    double v = share();
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    const Eigen::Vector3d corner = mesh.vertices[a].cast<double>();
+    points.emplace_back(corner + u * (mesh.vertices[b].cast<double>() - corner) +
+                        v * (mesh.vertices[c].cast<double>() - corner));
+  }
+  return points;
+}
+
+std::string text_of(const Box& box) {
+  std::ostringstream text;
+  text.precision(17);
+  text << box.min.x() << ',' << box.min.y() << ',' << box.min.z() << ',' << box.max.x() << ',' << box.max.y() << ','
+       << box.max.z();
+  return text.str();
+}
+
+// As many candidates as an icosahedron has faces, at some level, are its; any other number is drawn at random.
+PlannerSettings settings_for(const ReconstructRequest& request, const Box& box) {
+  int subdivisions = 0;
+  std::uint64_t faces = 20;
+  for (; subdivisions < 6 && faces < request.candidates; faces *= 4) {
+    ++subdivisions;
+  }
+  std::ostringstream radius;
+  radius.precision(17);
+  radius << request.radius_m;
+  PlannerSettings settings{
+      {"object", text_of(box)},
+      {"radius_m", radius.str()},
+      {"method", request.method},
+      {"subdivisions", faces == request.candidates ? std::to_string(subdivisions) : "-1"},
+      {"random_candidates", faces == request.candidates ? "0" : std::to_string(request.candidates)},
+      {"min_unknown_cells", "15"}};
+  for (const auto& [name, value] : settings_of(request.run)) {
+    settings.insert_or_assign(name, value);
+  }
+  return settings;
+}
+
+int reconstruct(const ReconstructRequest& request) {
+  const ExploreRequest& shared = request.run;
+  check_numbers(shared);
+  check_targets(shared.out, shared.json);
+  detail::require_option(request.candidates > 0, "--candidates", request.candidates, "> 0");
+  detail::require_option(request.radius_m > 0.0, "--radius", request.radius_m, "> 0 metres");
+  detail::require_option(request.gap_m >= 0.0, "--gap", request.gap_m, ">= 0 metres");
+  const RangeSensor sensor = sensor_of(shared);
+  const TriangleMesh object = placed_object(request);
+  const Box box = object_box_of(request, object);
+  const World world = world_around(request, object, box);
+  check_cells(request, world.region);
+  const auto platform = std::make_shared<const FreeFlyer>(
+      FreeFlyerOptions{.radius_m = shared.robot_radius_m, .yaw_only = shared.yaw_only});
+  const auto planner = make_planner(
+      shared.planner, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
+      settings_for(request, box));
+
+  ExplorationRunOptions options;
+  options.map.resolution_m = shared.resolution_m;
+  options.max_views = shared.max_views;
+  options.scan_spacing_m = 0.0;
+  options.seed = shared.seed;
+  options.noise.axial = shared.noise;
+  options.body_radius_m = shared.robot_radius_m;
+  options.threads = shared.threads;
+  options.measure_coverage = false;
+  options.unknown_box = box;
+  options.surface_samples = request.reference.empty() ? surface_points(object) : points_in(request.reference);
+  options.surface_gap_m = request.gap_m > 0.0         ? request.gap_m
+                          : request.reference.empty() ? shared.resolution_m
+                                                      : options.surface_gap_m;
+  const Eigen::Vector3d aside = box.centre() - Eigen::Vector3d(request.radius_m, 0.0, 0.0);
+  const Pose start = start_of(shared).value_or(pose_looking_along(aside, box.centre() - aside));
+  ExplorationRun run(world, sensor, platform, options);
+
+  const bool json_on_stdout = shared.json == "-";
+  std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
+  RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
+  RunRecord record = run.run(*planner, start, [&](const ViewRecord& view, const OccupancyMap&) {
+    if (view.view == 1) {
+      printer.head(shared.planner, request.object, shared.sensor, shared.resolution_m, shared.seed);
+    }
+    printer.view(view);
+  });
+  record.command = "reconstruct";
+  printer.summary(record);
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress);
+  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+}
+
+void add_object_options(CLI::App& command, ReconstructRequest& request) {
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->group("Object");
+  };
+  option("--object", request.object, "FILE", "The object, a mesh; must be given")->required();
+  option("--up", request.run.up, "y|z", "Axis of the file that points up")->capture_default_str();
+  option("--place", request.place, "scale,x,y,z,qx,qy,qz,qw",
+         "Where it stands; in the middle of the table, or where the file has it, unless given");
+  command
+      .add_flag("--table", request.table,
+                "On the table of Vasquez-Gomez et al. in their empty room; else it hangs in free space")
+      ->group("Object");
+  option("--object-box", request.object_box, "x0,y0,z0,x1,y1,z1",
+         "Box to be reconstructed, unknown at first, metres; all else is known. 3 cm around the object unless given");
+  option("--reference", request.reference, "FILE",
+         "Points of its surface, x y z in a line, to measure the coverage by; drawn from the mesh unless given");
+  option("--gap", request.gap_m, "M",
+         "A point counts as measured with a return this near; 0: a cell, or 5 mm with --reference")
+      ->check(a_number())
+      ->capture_default_str();
+}
+
+void add_view_options(CLI::App& command, ReconstructRequest& request) {
+  ExploreRequest& run = request.run;
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Views");
+  };
+  option("--method", request.method, "default|hierarchical|uniform", "How what a view would see is counted");
+  option("--candidates", request.candidates, "N",
+         "How many views are tried: 20, 80, 320, 1280 evenly all around; other numbers at random in the room")
+      ->check(a_whole_number());
+  option("--radius", request.radius_m, "M", "Their distance from the middle of the box, metres")->check(a_number());
+  option("--sensor", run.sensor, "NAME|FILE.json", "By name (vantage list) or from a file");
+  option("--start", run.start, "x,y,z[,yaw[,pitch]]",
+         "First pose of the sensor, metres and degrees; beside the object unless given");
+  option("--robot-radius", run.robot_radius_m, "M", "The robot is a sphere about its sensor, metres")
+      ->check(a_number());
+  option("--noise", run.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
+}
+
+void add_run_options(CLI::App& command, ReconstructRequest& request) {
+  ExploreRequest& run = request.run;
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Run");
+  };
+  option("--set", run.settings, "key=value", "A setting of the planner next-best-view; a wrong key lists them")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  option("--resolution", run.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
+  option("--max-views", run.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
+  option("--seed", run.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
+  option("--threads", run.threads, "N", "How many to use; the result is the same for any number")
+      ->check(a_whole_number(1024));
+  command.add_option("--out", run.out, "Folder for report.json, map.ot and pictures")
+      ->type_name("DIR")
+      ->group("Output");
+  command.add_option("--json", run.json, "The report; -: on stdout, and all else on stderr")
+      ->type_name("FILE|-")
+      ->group("Output");
+}
+
+}  // namespace
+
+void add_reconstruct_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("reconstruct", "Let a simulated sensor look at an object from all it needs");
+  const auto request = std::make_shared<ReconstructRequest>();
+  add_object_options(*command, *request);
+  add_view_options(*command, *request);
+  add_run_options(*command, *request);
+  command->footer(
+      "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written), 3 the views were "
+      "spent.");
+  command->callback([request, &exit_code] { exit_code = reconstruct(*request); });
+}
+
+}  // namespace vantage::apps

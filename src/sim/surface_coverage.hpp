@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <unordered_map>
+#include <vantage/geometry/voxel.hpp>
+#include <vantage/map/scan.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// Which points of a surface have been measured: those with a return within a gap. They lie in a hash of cells as
+/// wide as the gap, and leave it once met.
+class SurfaceCoverage {
+ public:
+  SurfaceCoverage(const std::vector<Eigen::Vector3d>& samples, double gap_m);
+
+  /// Counts the returns of a scan.
+  void add(const Scan& scan);
+  /// Share of the samples measured so far; 1 if there are none.
+  [[nodiscard]] double share() const {
+    return total_ == 0 ? 1.0 : static_cast<double>(measured_) / static_cast<double>(total_);
+  }
+
+ private:
+  VoxelFrame frame_;
+  double squared_gap_;
+  std::size_t total_;
+  std::size_t measured_ = 0;
+  std::unordered_map<VoxelIndex, std::vector<Eigen::Vector3d>> left_;
+};
+
+}  // namespace vantage
