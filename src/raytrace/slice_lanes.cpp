@@ -311,11 +311,12 @@ std::uint64_t skip_slices(SliceLanes& lanes, std::int64_t slices, std::uint64_t 
     std::int64_t* const ends = ended.data();
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      const auto is_active = static_cast<std::int64_t>(active >> i & 1U);
-      const std::int64_t forward = is_active * slices;
-      const std::int64_t enters = next_m[i] + (forward - 1) * delta_m[i];
-      const std::int64_t faces_u = is_active * crossed_by(enters - tie_u, next_u[i], delta_u[i]);
-      const std::int64_t faces_v = is_active * crossed_by(enters - tie_v, next_v[i], delta_v[i]);
+      // Where rays are that are not active is undefined: they count as nothing.
+      const std::int64_t mask = -static_cast<std::int64_t>(active >> i & 1U);
+      const std::int64_t forward = slices & mask;
+      const std::int64_t enters = (next_m[i] & mask) + (forward - 1) * (delta_m[i] & mask);
+      const std::int64_t faces_u = crossed_by(enters - tie_u, next_u[i] & mask, delta_u[i] & mask);
+      const std::int64_t faces_v = crossed_by(enters - tie_v, next_v[i] & mask, delta_v[i] & mask);
       ends[i] = static_cast<std::int64_t>(enters > kEnd);
       next_m[i] += forward * delta_m[i];
       next_u[i] += faces_u * delta_u[i];
