@@ -4,18 +4,10 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
+#include "frontier/brick_plane.hpp"
+
 namespace vantage {
 namespace {
-
-// Bits of a sub-brick (4 x 4 x 4, x fastest) with coordinate 0 along an axis; those with coordinate 3 lie `3 *
-// stride` bits higher.
-struct Axis {
-  std::uint64_t first;   // cells at coordinate 0
-  unsigned stride;       // bits between neighbours along the axis
-  std::size_t word_bit;  // which bit of the word number says "upper half of the brick"
-};
-constexpr std::array<Axis, 3> kAxes{
-    {{0x1111111111111111ULL, 1, 1}, {0x000F000F000F000FULL, 4, 2}, {0x000000000000FFFFULL, 16, 4}}};
 
 // Of four consecutive coordinates from `first`, those in [lo, hi), as bits.
 unsigned row_mask(std::int32_t first, std::int32_t lo, std::int32_t hi) {
@@ -53,41 +45,24 @@ BrickPlane unknown_plane(const OccupancyMap& map, const VoxelIndex& address, con
   return unknown;
 }
 
-// For every cell of `plane` the bit of its neighbour one step down `axis`; `below` is the plane of the brick there.
-std::uint64_t from_below(const BrickPlane& plane, const BrickPlane& below, const Axis& axis, std::size_t word) {
-  const std::size_t other = word ^ axis.word_bit;
-  const std::uint64_t neighbour = (word & axis.word_bit) != 0 ? plane[other] : below[other];
-  return (plane[word] << axis.stride & ~axis.first) | (neighbour >> (3 * axis.stride) & axis.first);
-}
-
-std::uint64_t from_above(const BrickPlane& plane, const BrickPlane& above, const Axis& axis, std::size_t word) {
-  const std::uint64_t last = axis.first << (3 * axis.stride);
-  const std::size_t other = word ^ axis.word_bit;
-  const std::uint64_t neighbour = (word & axis.word_bit) == 0 ? plane[other] : above[other];
-  return (plane[word] >> axis.stride & ~last) | (neighbour << (3 * axis.stride) & last);
-}
-
-bool any(const BrickPlane& plane) {
-  return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
-}
-
 BrickPlane frontier_plane_of(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick) {
   BrickPlane free;
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     free[word] = brick.free(word);
   }
-  if (!any(free)) {
+  if (!detail::any(free)) {
     return {};
   }
   const BrickPlane unknown = unknown_plane(map, address, &brick);
   BrickPlane beside_unknown{};
-  for (std::size_t a = 0; a < kAxes.size(); ++a) {
+  for (std::size_t a = 0; a < detail::kAxes.size(); ++a) {
     const VoxelIndex lower = address + kFaceNeighbours[2 * a];
     const VoxelIndex upper = address + kFaceNeighbours[2 * a + 1];
     const BrickPlane below = unknown_plane(map, lower, map.find_brick(lower));
     const BrickPlane above = unknown_plane(map, upper, map.find_brick(upper));
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      beside_unknown[word] |= from_below(unknown, below, kAxes[a], word) | from_above(unknown, above, kAxes[a], word);
+      beside_unknown[word] |= detail::from_below(unknown, below, detail::kAxes[a], word) |
+                              detail::from_above(unknown, above, detail::kAxes[a], word);
     }
   }
   for (std::size_t word = 0; word < Brick::kWords; ++word) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vantage/frontier/frontiers.hpp>
+
+namespace vantage::detail {
+
+/// Bits of a sub-brick (4 x 4 x 4, x fastest) with coordinate 0 along an axis; those with coordinate 3 lie `3 *
+/// stride` bits higher.
+struct Axis {
+  std::uint64_t first;   ///< cells at coordinate 0
+  unsigned stride;       ///< bits between neighbours along the axis
+  std::size_t word_bit;  ///< which bit of the word number says "upper half of the brick"
+};
+inline constexpr std::array<Axis, 3> kAxes{
+    {{0x1111111111111111ULL, 1, 1}, {0x000F000F000F000FULL, 4, 2}, {0x000000000000FFFFULL, 16, 4}}};
+
+/// For every cell of `plane` the bit of its neighbour one step down `axis`; `below` is the plane of the brick there.
+inline std::uint64_t from_below(const BrickPlane& plane, const BrickPlane& below, const Axis& axis,
+                                std::size_t word) {
+  const std::size_t other = word ^ axis.word_bit;
+  const std::uint64_t neighbour = (word & axis.word_bit) != 0 ? plane[other] : below[other];
+  return (plane[word] << axis.stride & ~axis.first) | (neighbour >> (3 * axis.stride) & axis.first);
+}
+
+inline std::uint64_t from_above(const BrickPlane& plane, const BrickPlane& above, const Axis& axis,
+                                std::size_t word) {
+  const std::uint64_t last = axis.first << (3 * axis.stride);
+  const std::size_t other = word ^ axis.word_bit;
+  const std::uint64_t neighbour = (word & axis.word_bit) == 0 ? plane[other] : above[other];
+  return (plane[word] >> axis.stride & ~last) | (neighbour << (3 * axis.stride) & last);
+}
+
+inline bool any(const BrickPlane& plane) {
+  return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vantage/frontier/frontier_tracker.hpp>
+#include <vantage/geometry/raster_order.hpp>
+
+#include "frontier/brick_plane.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+bool has(const BrickPlane& plane, std::size_t offset) { return (plane[offset >> 6U] >> (offset & 63U) & 1U) != 0; }
+
+std::size_t size_of(const BrickPlane& plane) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : plane) {
+    count += static_cast<std::size_t>(std::popcount(word));
+  }
+  return count;
+}
+
+void join(BrickPlane& plane, const BrickPlane& other) {
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    plane[word] |= other[word];
+  }
+}
+
+// The cells of a plane and their neighbours along one axis, within the brick.
+BrickPlane grown_along(const BrickPlane& plane, std::size_t axis) {
+  constexpr BrickPlane kOutside{};
+  BrickPlane grown = plane;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    grown[word] |= detail::from_below(plane, kOutside, detail::kAxes[axis], word) |
+                   detail::from_above(plane, kOutside, detail::kAxes[axis], word);
+  }
+  return grown;
+}
+
+BrickPlane grown(const BrickPlane& plane, Connectivity connectivity) {
+  BrickPlane result = plane;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const BrickPlane along = grown_along(plane, axis);
+    switch (connectivity) {
+      case Connectivity::Face6:
+        join(result, along);
+        break;
+      case Connectivity::Edge18:
+        join(result, grown_along(along, (axis + 1) % 3));
+        break;
+      case Connectivity::Corner26:
+        result = grown_along(result, axis);
+        break;
+    }
+  }
+  return result;
+}
+
+// The connected part of `plane` around the first of its cells.
+BrickPlane first_piece(const BrickPlane& plane, Connectivity connectivity) {
+  BrickPlane piece{};
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    if (plane[word] != 0) {
+      piece[word] = plane[word] & (~plane[word] + 1);
+      break;
+    }
+  }
+  for (BrickPlane before{}; piece != before;) {
+    before = piece;
+    piece = grown(piece, connectivity);
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      piece[word] &= plane[word];
+    }
+  }
+  return piece;
+}
+
+void append(const BrickPlane& plane, const VoxelIndex& address, std::vector<VoxelIndex>& cells) {
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    for_each_offset(plane[word], word, [&](std::size_t offset) {
+      cells.push_back(Brick::first_cell(address) + Brick::cell_at(offset));
+    });
+  }
+}
+
+// The cells on the surface of a brick, which alone have neighbours in others.
+constexpr BrickPlane kShell = [] {
+  BrickPlane shell{};
+  for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
+    const VoxelIndex cell = Brick::cell_at(offset);
+    const auto outermost = [](std::int32_t at) { return at == 0 || at == Brick::kSide - 1; };
+    if (outermost(cell.x) || outermost(cell.y) || outermost(cell.z)) {
+      shell[offset / 64] |= std::uint64_t{1} << (offset % 64);
+    }
+  }
+  return shell;
+}();
+
+// The steps of a connectivity.
+std::vector<VoxelIndex> steps_of(Connectivity connectivity) {
+  const int most = connectivity == Connectivity::Face6 ? 1 : connectivity == Connectivity::Edge18 ? 2 : 3;
+  std::vector<VoxelIndex> steps;
+  std::copy_if(kAllNeighbours.begin(), kAllNeighbours.end(), std::back_inserter(steps),
+               [most](const VoxelIndex& s) { return std::abs(s.x) + std::abs(s.y) + std::abs(s.z) <= most; });
+  return steps;
+}
+
+}  // namespace
+
+FrontierTracker::FrontierTracker(const OccupancyMap& map, Connectivity connectivity)
+    : map_(&map), connectivity_(connectivity), steps_(steps_of(connectivity)) {
+  update();
+}
+
+std::size_t FrontierTracker::update() {
+  // A brick's frontier depends on the brick and its face neighbours.
+  std::vector<VoxelIndex> touched = map_->changed_since(revision_);
+  revision_ = map_->revision();
+  for (std::size_t i = touched.size(); i-- > 0;) {
+    const VoxelIndex brick = touched[i];
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      touched.push_back(brick + step);
+    }
+  }
+  std::sort(touched.begin(), touched.end(), RasterOrder{});
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+
+  std::vector<Change> changes;
+  for (const VoxelIndex& address : touched) {
+    const auto known = numbers_.find(address);
+    const BrickPlane now = frontier_plane(*map_, address);
+    if (now != (known == numbers_.end() ? BrickPlane{} : bricks_[known->second].cells)) {
+      changes.push_back({address, now});
+    }
+  }
+  regroup(changes);
+  return changes.size();
+}
+
+// Takes the clusters that the changes touch apart and puts together what hangs together now.
+void FrontierTracker::regroup(const std::vector<Change>& changes) {
+  std::vector<PieceNumber> loose;
+  for (const Change& change : changes) {
+    if (const auto known = numbers_.find(change.brick); known != numbers_.end()) {
+      for (const Piece& piece : bricks_[known->second].pieces) {
+        dissolve(piece.cluster, loose);
+      }
+    }
+  }
+  for (const Change& change : changes) {
+    replace(change, loose);
+  }
+  // Of the loose pieces, those of replaced bricks may be gone; what is there in their place is loose as well.
+  for (const PieceNumber& number : loose) {
+    if (number.piece < bricks_[number.brick].pieces.size() && at(number).cluster == kNone) {
+      gather(number);
+    }
+  }
+}
+
+void FrontierTracker::dissolve(std::uint32_t cluster, std::vector<PieceNumber>& loose) {
+  if (cluster == kNone) {
+    return;
+  }
+  for (const PieceNumber& number : clusters_[cluster].pieces) {
+    at(number).cluster = kNone;
+    loose.push_back(number);
+  }
+  clusters_[cluster] = {};
+  unused_clusters_.push_back(cluster);
+}
+
+void FrontierTracker::replace(const Change& change, std::vector<PieceNumber>& loose) {
+  const auto [known, is_new] = numbers_.try_emplace(change.brick, static_cast<std::uint32_t>(bricks_.size()));
+  if (is_new && !unused_bricks_.empty()) {
+    known->second = unused_bricks_.back();
+    unused_bricks_.pop_back();
+  } else if (is_new) {
+    bricks_.emplace_back();
+  }
+  const std::uint32_t number = known->second;
+  BrickFrontier& brick = bricks_[number];
+  cell_count_ += size_of(change.cells) - size_of(brick.cells);
+  brick = {change.brick, change.cells, {}};
+  for (BrickPlane left = change.cells; detail::any(left);) {
+    const BrickPlane piece = first_piece(left, connectivity_);
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      left[word] &= ~piece[word];
+    }
+    loose.push_back({number, static_cast<std::uint32_t>(brick.pieces.size())});
+    brick.pieces.push_back({piece, kNone});
+  }
+  if (brick.pieces.empty()) {
+    unused_bricks_.push_back(number);
+    numbers_.erase(known);
+  }
+}
+
+// Grows a cluster from a loose piece over all that hang together with it; clusters it meets become one with it.
+void FrontierTracker::gather(const PieceNumber& first) {
+  std::uint32_t cluster = static_cast<std::uint32_t>(clusters_.size());
+  if (unused_clusters_.empty()) {
+    clusters_.emplace_back();
+  } else {
+    cluster = unused_clusters_.back();
+    unused_clusters_.pop_back();
+  }
+  std::vector<PieceNumber> open;
+  const auto take = [&](const PieceNumber& number) {
+    at(number).cluster = cluster;
+    clusters_[cluster].pieces.push_back(number);
+    clusters_[cluster].cells += size_of(at(number).cells);
+    open.push_back(number);
+  };
+  take(first);
+  while (!open.empty()) {
+    const PieceNumber here = open.back();
+    open.pop_back();
+    for (const PieceNumber& other : neighbours(here)) {
+      const std::uint32_t met = at(other).cluster;
+      if (met == kNone) {
+        take(other);
+      } else if (met != cluster) {
+        cluster = merge(cluster, met);
+      }
+    }
+  }
+}
+
+// Moves the pieces of the smaller cluster to the larger, which is returned.
+std::uint32_t FrontierTracker::merge(std::uint32_t a, std::uint32_t b) {
+  if (clusters_[a].pieces.size() < clusters_[b].pieces.size()) {
+    std::swap(a, b);
+  }
+  for (const PieceNumber& number : clusters_[b].pieces) {
+    at(number).cluster = a;
+    clusters_[a].pieces.push_back(number);
+  }
+  clusters_[a].cells += clusters_[b].cells;
+  clusters_[b] = {};
+  unused_clusters_.push_back(b);
+  return a;
+}
+
+// The pieces in other bricks that a piece touches, each once.
+std::vector<FrontierTracker::PieceNumber> FrontierTracker::neighbours(const PieceNumber& number) const {
+  const BrickFrontier& brick = bricks_[number.brick];
+  std::vector<PieceNumber> found;
+  const auto visit = [&](const VoxelIndex& cell) {
+    const auto known = numbers_.find(Brick::of_cell(cell));
+    const std::size_t offset = Brick::offset_of(cell);
+    if (known == numbers_.end() || !has(bricks_[known->second].cells, offset)) {
+      return;
+    }
+    const PieceNumber other{known->second, piece_at(known->second, offset)};
+    if (std::find(found.begin(), found.end(), other) == found.end()) {
+      found.push_back(other);
+    }
+  };
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    for_each_offset(brick.pieces[number.piece].cells[word] & kShell[word], word, [&](std::size_t offset) {
+      const VoxelIndex cell = Brick::first_cell(brick.address) + Brick::cell_at(offset);
+      for (const VoxelIndex& step : steps_) {
+        if (Brick::of_cell(cell + step) != brick.address) {
+          visit(cell + step);
+        }
+      }
+    });
+  }
+  return found;
+}
+
+std::uint32_t FrontierTracker::piece_at(std::uint32_t brick, std::size_t offset) const {
+  const std::vector<Piece>& pieces = bricks_[brick].pieces;
+  const auto found =
+      std::find_if(pieces.begin(), pieces.end(), [&](const Piece& piece) { return has(piece.cells, offset); });
+  return static_cast<std::uint32_t>(found - pieces.begin());
+}
+
+bool FrontierTracker::contains(const VoxelIndex& cell) const { return cluster_size(cell) > 0; }
+
+std::size_t FrontierTracker::cluster_size(const VoxelIndex& cell) const {
+  const auto known = numbers_.find(Brick::of_cell(cell));
+  const std::size_t offset = Brick::offset_of(cell);
+  if (known == numbers_.end() || !has(bricks_[known->second].cells, offset)) {
+    return 0;
+  }
+  return clusters_[bricks_[known->second].pieces[piece_at(known->second, offset)].cluster].cells;
+}
+
+std::vector<VoxelIndex> FrontierTracker::cells() const {
+  std::vector<VoxelIndex> cells;
+  cells.reserve(cell_count_);
+  for (const BrickFrontier& brick : bricks_) {
+    append(brick.cells, brick.address, cells);
+  }
+  std::sort(cells.begin(), cells.end(), RasterOrder{});
+  return cells;
+}
+
+std::vector<std::vector<VoxelIndex>> FrontierTracker::clusters() const {
+  std::vector<std::vector<VoxelIndex>> all;
+  for (const Cluster& cluster : clusters_) {
+    if (cluster.cells == 0) {
+      continue;
+    }
+    std::vector<VoxelIndex>& cells = all.emplace_back();
+    cells.reserve(cluster.cells);
+    for (const PieceNumber& number : cluster.pieces) {
+      const BrickFrontier& brick = bricks_[number.brick];
+      append(brick.pieces[number.piece].cells, brick.address, cells);
+    }
+    std::sort(cells.begin(), cells.end(), RasterOrder{});
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return RasterOrder{}(a.front(), b.front()); });
+  return all;
+}
+
+}  // namespace vantage
