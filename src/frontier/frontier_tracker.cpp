@@ -151,10 +151,15 @@ void FrontierTracker::regroup(const std::vector<Change>& changes) {
       for (const Piece& piece : bricks_[known->second].pieces) {
         dissolve(piece.cluster, loose);
       }
+      unlink(known->second);
     }
   }
+  const std::size_t old = loose.size();
   for (const Change& change : changes) {
     replace(change, loose);
+  }
+  for (std::size_t i = old; i < loose.size(); ++i) {
+    link(loose[i]);
   }
   // Of the loose pieces, those of replaced bricks may be gone; what is there in their place is loose as well.
   for (const PieceNumber& number : loose) {
@@ -176,6 +181,15 @@ void FrontierTracker::dissolve(std::uint32_t cluster, std::vector<PieceNumber>& 
   unused_clusters_.push_back(cluster);
 }
 
+// Makes the pieces around a brick forget those in it.
+void FrontierTracker::unlink(std::uint32_t brick) {
+  for (const Piece& piece : bricks_[brick].pieces) {
+    for (const PieceNumber& other : piece.touching) {
+      std::erase_if(at(other).touching, [brick](const PieceNumber& one) { return one.brick == brick; });
+    }
+  }
+}
+
 void FrontierTracker::replace(const Change& change, std::vector<PieceNumber>& loose) {
   const auto [known, is_new] = numbers_.try_emplace(change.brick, static_cast<std::uint32_t>(bricks_.size()));
   if (is_new && !unused_bricks_.empty()) {
@@ -194,11 +208,22 @@ void FrontierTracker::replace(const Change& change, std::vector<PieceNumber>& lo
       left[word] &= ~piece[word];
     }
     loose.push_back({number, static_cast<std::uint32_t>(brick.pieces.size())});
-    brick.pieces.push_back({piece, kNone});
+    brick.pieces.push_back({piece, {}, kNone});
   }
   if (brick.pieces.empty()) {
     unused_bricks_.push_back(number);
     numbers_.erase(known);
+  }
+}
+
+// Lets a new piece and those it touches know of each other; those that are new as well may do already.
+void FrontierTracker::link(const PieceNumber& number) {
+  for (const PieceNumber& other : neighbours(number)) {
+    std::vector<PieceNumber>& touching = at(other).touching;
+    if (std::find(touching.begin(), touching.end(), number) == touching.end()) {
+      touching.push_back(number);
+      at(number).touching.push_back(other);
+    }
   }
 }
 
@@ -222,7 +247,7 @@ void FrontierTracker::gather(const PieceNumber& first) {
   while (!open.empty()) {
     const PieceNumber here = open.back();
     open.pop_back();
-    for (const PieceNumber& other : neighbours(here)) {
+    for (const PieceNumber& other : at(here).touching) {
       const std::uint32_t met = at(other).cluster;
       if (met == kNone) {
         take(other);

@@ -44,20 +44,21 @@ class FrontierTracker {
   [[nodiscard]] std::vector<std::vector<VoxelIndex>> clusters() const;
 
  private:
+  struct PieceNumber {
+    std::uint32_t brick;
+    std::uint32_t piece;
+    friend bool operator==(const PieceNumber&, const PieceNumber&) = default;
+  };
   // A connected part of the frontier cells of one brick: what clusters are made of.
   struct Piece {
     BrickPlane cells{};
+    std::vector<PieceNumber> touching;  // in other bricks
     std::uint32_t cluster = 0;
   };
   struct BrickFrontier {
     VoxelIndex address;
     BrickPlane cells{};
     std::vector<Piece> pieces;
-  };
-  struct PieceNumber {
-    std::uint32_t brick;
-    std::uint32_t piece;
-    friend bool operator==(const PieceNumber&, const PieceNumber&) = default;
   };
   struct Cluster {
     std::vector<PieceNumber> pieces;
@@ -71,7 +72,9 @@ class FrontierTracker {
 
   void regroup(const std::vector<Change>& changes);
   void dissolve(std::uint32_t cluster, std::vector<PieceNumber>& loose);
+  void unlink(std::uint32_t brick);
   void replace(const Change& change, std::vector<PieceNumber>& loose);
+  void link(const PieceNumber& number);
   void gather(const PieceNumber& first);
   std::uint32_t merge(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] Piece& at(const PieceNumber& number) { return bricks_[number.brick].pieces[number.piece]; }

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// frontier/<way>/<world>: the frontier after one more scan of a depth camera, in a map that 60 scans from all over
+// the world have made. `incremental` keeps cells and clusters up to date; `full` finds both from nothing,
+// `full_cells` the cells alone.
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <vantage/frontier/frontier_tracker.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/sim/simulated_sensor.hpp>
+#include <vantage/sim/truth.hpp>
+#include <vantage/sim/world.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kBefore = 60;
+constexpr std::size_t kMeasured = 40;
+
+struct Sequence {
+  double resolution_m;
+  std::vector<Scan> scans;
+};
+
+Sequence record(const World& world, double resolution_m) {
+  const Truth truth(world, resolution_m, world.region);
+  SimulatedSensor camera(TriangleScene(world.mesh), RangeSensor::preset("realsense"));
+  const FreeFlyer flyer(FreeFlyerOptions{.radius_m = 0.2});
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  Sequence sequence{resolution_m, {}};
+  while (sequence.scans.size() < kBefore + kMeasured) {
+    const Eigen::Array3d place(share(engine), share(engine), share(engine));
+    const Pose pose = pose_looking(world.region.min + (place * world.region.extent().array()).matrix(),
+                                   6.28 * share(engine), 0.8 * share(engine) - 0.4);
+    if (flyer.admits(truth.map(), pose)) {
+      sequence.scans.push_back(camera.scan(pose));
+    }
+  }
+  return sequence;
+}
+
+const Sequence& sequence_of(const std::string& name) {
+  static std::map<std::string, Sequence> all;
+  if (const auto found = all.find(name); found != all.end()) {
+    return found->second;
+  }
+  const char* data = std::getenv("VANTAGE_DATA");
+  const std::filesystem::path folder = data == nullptr ? "" : data;
+  const World world = name == "house"
+                          ? World::from_file(folder / "environments/aws_small_house/small_house_visual.ply")
+                      : name == "geb079" ? World::from_file(folder / "octomaps/geb079.bt")
+                                         : World::by_name(name);
+  return all.emplace(name, record(world, 0.05)).first->second;
+}
+
+// Calls `measured(map)` after every scan to come, timed; `prepared(map)` before the first, not.
+template <class Prepared, class Measured>
+void after_every_scan(benchmark::State& state, const std::string& world, const Prepared& prepared,
+                      const Measured& measured) {
+  const Sequence& sequence = sequence_of(world);
+  OccupancyMap map({.resolution_m = sequence.resolution_m});
+  for (std::size_t i = 0; i < kBefore; ++i) {
+    map.insert(sequence.scans[i]);
+  }
+  prepared(map);
+  std::size_t next = kBefore;
+  for (auto _ : state) {
+    state.PauseTiming();
+    map.insert(sequence.scans[next++]);
+    state.ResumeTiming();
+    measured(map);
+  }
+  state.counters["known_cells"] = static_cast<double>(map.counts().free + map.counts().occupied);
+  state.counters["frontier_cells"] = static_cast<double>(count_frontier_cells(map));
+}
+
+void incremental(benchmark::State& state, const std::string& world) {
+  std::unique_ptr<FrontierTracker> tracker;
+  after_every_scan(
+      state, world, [&](const OccupancyMap& map) { tracker = std::make_unique<FrontierTracker>(map); },
+      [&](const OccupancyMap&) { benchmark::DoNotOptimize(tracker->update()); });
+  state.counters["clusters"] = static_cast<double>(tracker->cluster_count());
+}
+
+void full(benchmark::State& state, const std::string& world) {
+  after_every_scan(
+      state, world, [](const OccupancyMap&) {},
+      [](const OccupancyMap& map) { benchmark::DoNotOptimize(frontier_clusters(frontier_cells(map))); });
+}
+
+void full_cells(benchmark::State& state, const std::string& world) {
+  after_every_scan(
+      state, world, [](const OccupancyMap&) {},
+      [](const OccupancyMap& map) { benchmark::DoNotOptimize(frontier_cells(map)); });
+}
+
+const bool registered = [] {
+  std::vector<std::string> worlds{"office"};
+  if (std::getenv("VANTAGE_DATA") != nullptr) {
+    worlds.insert(worlds.end(), {"house", "geb079"});
+  }
+  const std::map<std::string, void (*)(benchmark::State&, const std::string&)> ways{
+      {"incremental", incremental}, {"full", full}, {"full_cells", full_cells}};
+  for (const std::string& world : worlds) {
+    for (const auto& [name, run] : ways) {
+      benchmark::RegisterBenchmark(("frontier/" + name + "/" + world).c_str(),
+                                   [run = run, world](benchmark::State& state) { run(state, world); })
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(kMeasured);
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace vantage
