@@ -92,6 +92,7 @@ for part in "${@:-paper baselines ablation}"; do
       paper)
         head_of_table panoramic
         row 'harmonic' harmonic --planner harmonic
+        row 'harmonic, scans on the way spared' spared --planner harmonic --set spare_scans=true
         row 'harmonic, faithful' faithful --planner harmonic --set faithful=true
         row 'frontier-gain, 100 hypotheses' gain-100 --planner frontier-gain
         row 'nearest-frontier' nearest --planner nearest-frontier
@@ -107,16 +108,15 @@ for part in "${@:-paper baselines ablation}"; do
       ablation)
         head_of_table panoramic
         row 'faithful' faithful --planner harmonic --set faithful=true
-        row '+ looks early' early --planner harmonic --set faithful=true --set look_early=true
-        row '+ shortest way' early-short --planner harmonic --set faithful=true --set look_early=true \
-          --set shortest_way=true
-        for detour in 2 1 0.5 0; do
-          row "+ nearest first, detour $detour m" "detour-$detour" --planner harmonic --set faithful=true \
+        row '+ looks early, takes the shortest way there' early --planner harmonic --set faithful=true \
+          --set look_early=true --set shortest_way=true
+        for detour in 2 0.5; do
+          row "+ near frontiers first, detour $detour m" "detour-$detour" --planner harmonic --set faithful=true \
             --set look_early=true --set shortest_way=true --set "detour_m=$detour"
         done
-        row '+ spared scans: the default' harmonic --planner harmonic
+        row '+ detour 0.2 m: the default' harmonic --planner harmonic
+        row 'default, scans on the way spared' spared --planner harmonic --set spare_scans=true
         row 'default, looks from beside the boundary' late --planner harmonic --set look_early=false
-        row 'default, along the streamline' stream --planner harmonic --set shortest_way=false
         ;;
       kinect | stereo)
         sensor_rows "$what"

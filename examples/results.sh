@@ -44,7 +44,7 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
         explore 'small house' 0.2 'harmonic nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4
         ;;
       house-fine)
-        explore 'small house' 0.1 'nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4 --max-views 2000
+        explore 'small house' 0.1 'harmonic nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4 --max-views 2000
         ;;
       collapsed-house)
         explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/collapsed_house.ply --max-views 2000
