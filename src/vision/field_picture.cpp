@@ -142,7 +142,7 @@ void draw_legend(MapSheet& sheet, const FieldContent& content, const Slice& slic
           canvas.line(at - cv::Point2d(12.0, 0.0), at + cv::Point2d(12.0, 0.0), drawing::kInk, 6.0);
           canvas.line(at - cv::Point2d(12.0, 0.0), at + cv::Point2d(12.0, 0.0), drawing::kPaper, 3.4);
         },
-        "way to the next scan");
+        "streamline, all heights");
   }
   sheet.legend_swatch(drawing::kOccupiedSpace, "occupied");
   sheet.legend_swatch(drawing::kUnknownSpace, "unknown");
@@ -163,7 +163,7 @@ Picture draw_field(const OccupancyMap& map, const FieldContent& content) {
   const Slice slice = slice_of(content, layer);
   MapSheet sheet(map.frame().box_of(layer), content.title,
                  "horizontal slice at z = " + drawing::write_number(z_m, 0.01) +
-                     " m: the sensor runs downhill from itself to the frontier");
+                     " m: downhill leads from the sensor to the frontier");
   sheet.canvas().image(image_of(map, content, slice), sheet.area());
   draw_arrows(sheet, slice, map.frame());
   sheet.draw_axes();
