@@ -50,7 +50,7 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
         explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/collapsed_house.ply --max-views 2000
         ;;
       office)
-        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/osrf_first_office.ply --max-views 2000
+        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/osrf_first_office.ply --max-views 8000
         ;;
       *)
         echo "results.sh: '$part' is none of house-coarse house-fine collapsed-house office" >&2
