@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -17,13 +16,10 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
+#include "apps/shared_options.hpp"
 
 namespace vantage::apps {
 namespace {
-
-// Truth keeps a byte and more per cell of the region: a slip of the resolution must not fill the memory.
-constexpr double kMostCells = 1e9;
-constexpr std::uint64_t kMostThreads = 1024;
 
 void check_region(const ExploreRequest& request, const World& world, const Box& region,
                   const std::optional<Pose>& start) {
@@ -35,13 +31,7 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
             << bounds.max.z();
     throw std::invalid_argument(message.str());
   }
-  const double cells = (region.extent() / request.resolution_m).prod();
-  if (!(cells <= kMostCells)) {
-    std::ostringstream message;
-    message << "--resolution " << request.resolution_m << " makes " << cells
-            << " cells of the region, must be at most " << kMostCells;
-    throw std::invalid_argument(message.str());
-  }
+  check_cell_count(region, request.resolution_m);
   if (start && !region.contains(start->translation())) {
     throw std::invalid_argument("--start " + request.start + " lies outside the region");
   }
@@ -132,69 +122,13 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
   command.add_option("--start", request.start, "First pose of the sensor, metres and degrees; drawn unless given")
       ->type_name("x,y,z[,yaw[,pitch]]")
       ->group("Robot");
-  command.add_option("--robot-radius", request.robot_radius_m, "The robot is a sphere about its sensor, metres")
-      ->type_name("M")
-      ->check(a_number())
-      ->capture_default_str()
-      ->group("Robot");
+  add_sensor_options(command, request, "Robot");
   command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
-  command.add_option("--sensor", request.sensor, "By name (vantage list) or from a file")
-      ->type_name("NAME|FILE.json")
-      ->capture_default_str()
-      ->group("Robot");
-  command.add_option("--noise", request.noise, "Depth noise, as a multiple of a Kinect's")
-      ->type_name("X")
-      ->check(a_number())
-      ->capture_default_str()
-      ->group("Robot");
   command.add_option("--scan-spacing", request.scan_spacing_m, "Metres between scans on the way; 0: at goals only")
       ->type_name("M")
       ->check(a_number())
       ->capture_default_str()
       ->group("Robot");
-}
-
-void add_run_options(CLI::App& command, ExploreRequest& request) {
-  command.add_option("--planner", request.planner, "By name (vantage list)")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->group("Run");
-  command
-      .add_option("--set", request.settings, "A setting of the planner, as often as needed; a wrong key lists them")
-      ->type_name("key=value")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->group("Run");
-  command.add_option("--resolution", request.resolution_m, "Edge of a cell of the map, metres")
-      ->type_name("M")
-      ->check(a_number())
-      ->capture_default_str()
-      ->group("Run");
-  command.add_option("--max-views", request.max_views, "Scans after which the run ends")
-      ->type_name("N")
-      ->check(a_whole_number())
-      ->capture_default_str()
-      ->group("Run");
-  command.add_option("--seed", request.seed, "Of everything that is drawn at random")
-      ->type_name("N")
-      ->check(a_whole_number())
-      ->capture_default_str()
-      ->group("Run");
-  command.add_option("--threads", request.threads, "How many to use; the result is the same for any number")
-      ->type_name("N")
-      ->check(a_whole_number(kMostThreads))
-      ->capture_default_str()
-      ->group("Run");
-}
-
-void add_output_options(CLI::App& command, ExploreRequest& request) {
-  command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")
-      ->type_name("DIR")
-      ->group("Output");
-  command.add_option("--json", request.json, "The report; -: on stdout, and all else on stderr")
-      ->type_name("FILE|-")
-      ->group("Output");
 }
 
 }  // namespace
@@ -204,6 +138,11 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   const auto request = std::make_shared<ExploreRequest>();
   add_world_options(*command, *request);
   add_robot_options(*command, *request);
+  command->add_option("--planner", request->planner, "By name (vantage list)")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group("Run");
+  add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);
   add_output_options(*command, *request);
   command->footer(

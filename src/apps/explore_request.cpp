@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <vantage/report/sensor_file.hpp>
@@ -54,6 +55,17 @@ void check_numbers(const ExploreRequest& request) {
   detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
   if (request.up != "y" && request.up != "z") {
     throw std::invalid_argument("--up is '" + request.up + "', must be y or z");
+  }
+}
+
+void check_cell_count(const Box& region, double resolution_m) {
+  constexpr double kMostCells = 1e9;
+  const double cells = (region.extent() / resolution_m).prod();
+  if (!(cells <= kMostCells)) {
+    std::ostringstream message;
+    message << "--resolution " << resolution_m << " makes " << cells << " cells of the region, must be at most "
+            << kMostCells;
+    throw std::invalid_argument(message.str());
   }
 }
 

@@ -46,5 +46,8 @@ struct ExploreRequest {
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
 /// Numbers and ranges that no file is needed for.
 void check_numbers(const ExploreRequest& request);
+/// That a region has no more cells than fit in memory: the truth keeps a byte and more for each, and a slip of the
+/// resolution must not fill it.
+void check_cell_count(const Box& region, double resolution_m);
 
 }  // namespace vantage::apps

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -22,6 +20,7 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
+#include "apps/shared_options.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage::apps {
@@ -111,18 +110,6 @@ World world_around(const ReconstructRequest& request, const TriangleMesh& object
   return world;
 }
 
-// The truth keeps a byte and more per cell of the region: a slip of the resolution must not fill the memory.
-void check_cells(const ReconstructRequest& request, const Box& region) {
-  constexpr double kMostCells = 1e9;
-  const double cells = (region.extent() / request.run.resolution_m).prod();
-  if (!(cells <= kMostCells)) {
-    std::ostringstream message;
-    message << "--resolution " << request.run.resolution_m << " makes " << cells
-            << " cells of the space around the object, must be at most " << kMostCells;
-    throw std::invalid_argument(message.str());
-  }
-}
-
 // Rows of x y z.
 std::vector<Eigen::Vector3d> points_in(const std::string& path) {
   std::ifstream file(path);
@@ -207,7 +194,7 @@ int reconstruct(const ReconstructRequest& request) {
   const TriangleMesh object = placed_object(request);
   const Box box = object_box_of(request, object);
   const World world = world_around(request, object, box);
-  check_cells(request, world.region);
+  check_cell_count(world.region, shared.resolution_m);
   const auto platform = std::make_shared<const FreeFlyer>(
       FreeFlyerOptions{.radius_m = shared.robot_radius_m, .yaw_only = shared.yaw_only});
   const auto planner = make_planner(
@@ -279,34 +266,9 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
          "How many views are tried: 20, 80, 320, 1280 evenly all around; other numbers at random in the room")
       ->check(a_whole_number());
   option("--radius", request.radius_m, "M", "Their distance from the middle of the box, metres")->check(a_number());
-  option("--sensor", run.sensor, "NAME|FILE.json", "By name (vantage list) or from a file");
   option("--start", run.start, "x,y,z[,yaw[,pitch]]",
          "First pose of the sensor, metres and degrees; beside the object unless given");
-  option("--robot-radius", run.robot_radius_m, "M", "The robot is a sphere about its sensor, metres")
-      ->check(a_number());
-  option("--noise", run.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
-}
-
-void add_run_options(CLI::App& command, ReconstructRequest& request) {
-  ExploreRequest& run = request.run;
-  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
-    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Run");
-  };
-  option("--set", run.settings, "key=value", "A setting of the planner next-best-view; a wrong key lists them")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  option("--resolution", run.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
-  option("--max-views", run.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
-  option("--seed", run.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
-  option("--threads", run.threads, "N", "How many to use; the result is the same for any number")
-      ->check(a_whole_number(1024));
-  command.add_option("--out", run.out, "Folder for report.json, map.ot and pictures")
-      ->type_name("DIR")
-      ->group("Output");
-  command.add_option("--json", run.json, "The report; -: on stdout, and all else on stderr")
-      ->type_name("FILE|-")
-      ->group("Output");
+  add_sensor_options(command, run, "Views");
 }
 
 }  // namespace
@@ -316,7 +278,9 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
   const auto request = std::make_shared<ReconstructRequest>();
   add_object_options(*command, *request);
   add_view_options(*command, *request);
-  add_run_options(*command, *request);
+  add_setting_option(*command, request->run, "A setting of the planner next-best-view; a wrong key lists them");
+  add_run_options(*command, request->run);
+  add_output_options(*command, request->run);
   command->footer(
       "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written), 3 the views were "
       "spent.");

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vantage/frontier/frontiers.hpp>
+#include <vector>
 
 namespace vantage::detail {
 
@@ -35,8 +37,26 @@ inline std::uint64_t from_above(const BrickPlane& plane, const BrickPlane& above
   return (plane[word] >> axis.stride & ~last) | (neighbour << (3 * axis.stride) & last);
 }
 
+/// Whether a plane has a cell.
 inline bool any(const BrickPlane& plane) {
   return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
+}
+
+/// How many cells a plane has.
+inline std::size_t size_of(const BrickPlane& plane) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : plane) {
+    count += static_cast<std::size_t>(std::popcount(word));
+  }
+  return count;
+}
+
+/// Adds the cells of a brick's plane to a list.
+inline void append(const BrickPlane& plane, const VoxelIndex& brick, std::vector<VoxelIndex>& cells) {
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    for_each_offset(plane[word], word,
+                    [&](std::size_t offset) { cells.push_back(Brick::first_cell(brick) + Brick::cell_at(offset)); });
+  }
 }
 
 }  // namespace vantage::detail

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -17,14 +16,6 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 bool has(const BrickPlane& plane, std::size_t offset) { return (plane[offset >> 6U] >> (offset & 63U) & 1U) != 0; }
-
-std::size_t size_of(const BrickPlane& plane) {
-  std::size_t count = 0;
-  for (const std::uint64_t word : plane) {
-    count += static_cast<std::size_t>(std::popcount(word));
-  }
-  return count;
-}
 
 void join(BrickPlane& plane, const BrickPlane& other) {
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -79,14 +70,6 @@ BrickPlane first_piece(const BrickPlane& plane, Connectivity connectivity) {
     }
   }
   return piece;
-}
-
-void append(const BrickPlane& plane, const VoxelIndex& address, std::vector<VoxelIndex>& cells) {
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    for_each_offset(plane[word], word, [&](std::size_t offset) {
-      cells.push_back(Brick::first_cell(address) + Brick::cell_at(offset));
-    });
-  }
 }
 
 // The cells on the surface of a brick, which alone have neighbours in others.
@@ -200,7 +183,7 @@ void FrontierTracker::replace(const Change& change, std::vector<PieceNumber>& lo
   }
   const std::uint32_t number = known->second;
   BrickFrontier& brick = bricks_[number];
-  cell_count_ += size_of(change.cells) - size_of(brick.cells);
+  cell_count_ += detail::size_of(change.cells) - detail::size_of(brick.cells);
   brick = {change.brick, change.cells, {}};
   for (BrickPlane left = change.cells; detail::any(left);) {
     const BrickPlane piece = first_piece(left, connectivity_);
@@ -240,7 +223,7 @@ void FrontierTracker::gather(const PieceNumber& first) {
   const auto take = [&](const PieceNumber& number) {
     at(number).cluster = cluster;
     clusters_[cluster].pieces.push_back(number);
-    clusters_[cluster].cells += size_of(at(number).cells);
+    clusters_[cluster].cells += detail::size_of(at(number).cells);
     open.push_back(number);
   };
   take(first);
@@ -323,7 +306,7 @@ std::vector<VoxelIndex> FrontierTracker::cells() const {
   std::vector<VoxelIndex> cells;
   cells.reserve(cell_count_);
   for (const BrickFrontier& brick : bricks_) {
-    append(brick.cells, brick.address, cells);
+    detail::append(brick.cells, brick.address, cells);
   }
   std::sort(cells.begin(), cells.end(), RasterOrder{});
   return cells;
@@ -339,7 +322,7 @@ std::vector<std::vector<VoxelIndex>> FrontierTracker::clusters() const {
     cells.reserve(cluster.cells);
     for (const PieceNumber& number : cluster.pieces) {
       const BrickFrontier& brick = bricks_[number.brick];
-      append(brick.pieces[number.piece].cells, brick.address, cells);
+      detail::append(brick.pieces[number.piece].cells, brick.address, cells);
     }
     std::sort(cells.begin(), cells.end(), RasterOrder{});
   }

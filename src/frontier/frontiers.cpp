@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <bit>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
@@ -81,12 +80,7 @@ BrickPlane frontier_plane(const OccupancyMap& map, const VoxelIndex& brick) {
 std::vector<VoxelIndex> frontier_cells(const OccupancyMap& map) {
   std::vector<VoxelIndex> cells;
   map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    const BrickPlane plane = frontier_plane_of(map, address, brick);
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(plane[word], word, [&](std::size_t offset) {
-        cells.push_back(Brick::first_cell(address) + Brick::cell_at(offset));
-      });
-    }
+    detail::append(frontier_plane_of(map, address, brick), address, cells);
   });
   std::sort(cells.begin(), cells.end(), RasterOrder{});
   return cells;
@@ -95,9 +89,7 @@ std::vector<VoxelIndex> frontier_cells(const OccupancyMap& map) {
 std::size_t count_frontier_cells(const OccupancyMap& map) {
   std::size_t count = 0;
   map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    for (const std::uint64_t word : frontier_plane_of(map, address, brick)) {
-      count += static_cast<std::size_t>(std::popcount(word));
-    }
+    count += detail::size_of(frontier_plane_of(map, address, brick));
   });
   return count;
 }

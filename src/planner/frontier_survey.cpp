@@ -35,19 +35,6 @@ VoxelGrid<std::uint8_t> clear_cells(const OccupancyMap& map) {
   return clear;
 }
 
-// Whether every cell before `target` on the straight line to its centre is clear; counts the cells visited.
-template <class IsClear>
-bool line_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& target, IsClear&& is_clear,
-                   std::uint64_t& operations) {
-  for (const VoxelIndex& cell : VoxelRay(frame, from, frame.centre_of(target))) {
-    ++operations;
-    if (cell != target && !is_clear(cell)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 // Finds a viewpoint for one unknown cell after another.
 class ViewpointSearch {
  public:
@@ -279,8 +266,13 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
 
 bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                     std::uint64_t& operations) {
-  return line_is_clear(
-      map.frame(), from, target, [&](const VoxelIndex& cell) { return map.is_clear(cell); }, operations);
+  for (const VoxelIndex& cell : VoxelRay(map.frame(), from, map.frame().centre_of(target))) {
+    ++operations;
+    if (cell != target && !map.is_clear(cell)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "apps/shared_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+#include "apps/help_format.hpp"
+
+namespace vantage::apps {
+
+void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* group) {
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group(group);
+  };
+  option("--sensor", request.sensor, "NAME|FILE.json", "By name (vantage list) or from a file");
+  option("--robot-radius", request.robot_radius_m, "M", "The robot is a sphere about its sensor, metres")
+      ->check(a_number());
+  option("--noise", request.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
+}
+
+void add_setting_option(CLI::App& command, ExploreRequest& request, const char* about) {
+  command.add_option("--set", request.settings, about)
+      ->type_name("key=value")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->group("Run");
+}
+
+void add_run_options(CLI::App& command, ExploreRequest& request) {
+  constexpr std::uint64_t kMostThreads = 1024;
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Run");
+  };
+  option("--resolution", request.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
+  option("--max-views", request.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
+  option("--seed", request.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
+  option("--threads", request.threads, "N", "How many to use; the result is the same for any number")
+      ->check(a_whole_number(kMostThreads));
+}
+
+void add_output_options(CLI::App& command, ExploreRequest& request) {
+  command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")
+      ->type_name("DIR")
+      ->group("Output");
+  command.add_option("--json", request.json, "The report; -: on stdout, and all else on stderr")
+      ->type_name("FILE|-")
+      ->group("Output");
+}
+
+}  // namespace vantage::apps
