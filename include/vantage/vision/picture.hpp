@@ -19,4 +19,7 @@ struct Picture {
 /// size, std::runtime_error naming the file if it cannot be written.
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
+/// Reads a picture file, PNG or JPEG, as colour. Throws std::runtime_error with the file and what is wrong with it.
+[[nodiscard]] Picture read_picture(const std::filesystem::path& file);
+
 }  // namespace vantage

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vantage/vision/recording.hpp>
+
+#include "map/option_rule.hpp"
+#include "vision/recording_reader.hpp"
+
+namespace vantage {
+namespace {
+
+using Opener = Recording (*)(RecordingReader);
+
+const std::vector<std::pair<std::string_view, Opener>>& openers() {
+  static const std::vector<std::pair<std::string_view, Opener>> all{
+      {"7scenes", open_seven_scenes},
+      {"apc", open_apc},
+      {"tum", open_tum},
+  };
+  return all;
+}
+
+void check(const RecordingOptions& options) {
+  detail::require_option(std::isfinite(options.max_stamp_gap_s) && options.max_stamp_gap_s > 0.0,
+                         "RecordingOptions::max_stamp_gap_s", options.max_stamp_gap_s, "> 0");
+}
+
+}  // namespace
+
+Recording Recording::open(std::string_view format, const std::filesystem::path& folder,
+                          const RecordingOptions& options) {
+  check(options);
+  for (const auto& [name, open] : openers()) {
+    if (name == format) {
+      if (!std::filesystem::is_directory(folder)) {
+        throw std::runtime_error(folder.string() + ": is not a folder");
+      }
+      return open(RecordingReader(folder, options));
+    }
+  }
+  std::string names;
+  for (const std::string_view name : formats()) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw std::invalid_argument("there is no format '" + std::string(format) + "'; there are: " + names);
+}
+
+const std::vector<std::string_view>& Recording::formats() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const auto& [name, open] : openers()) {
+      all.push_back(name);
+    }
+    return all;
+  }();
+  return names;
+}
+
+RecordedReading Recording::read(std::size_t frame) const {
+  const RecordedFrame& wanted = frames_.at(frame);
+  RecordedReading reading{read_depth_(wanted), {}};
+  if (reading.depth.width != camera_.width || reading.depth.height != camera_.height) {
+    throw std::runtime_error(wanted.depth.string() + ": is " + std::to_string(reading.depth.width) + " x " +
+                             std::to_string(reading.depth.height) + " pixels, the recording's first image is " +
+                             std::to_string(camera_.width) + " x " + std::to_string(camera_.height));
+  }
+  reading.scan = depth_scan(reading.depth, camera_, wanted.world_from_posed);
+  return reading;
+}
+
+void RecordingReader::read_depth_png_as(DepthEncoding encoding) {
+  read_depth_by(
+      [encoding = std::move(encoding)](const RecordedFrame& frame) { return read_depth_png(frame.depth, encoding); });
+}
+
+Recording RecordingReader::finish(DepthCamera camera, bool sized) {
+  if (recording_.frames_.empty()) {
+    const std::string why = recording_.skipped_.empty()
+                                ? std::string()
+                                : "; the first one left out is " + recording_.skipped_.front().name + ": " +
+                                      recording_.skipped_.front().reason;
+    throw std::runtime_error(folder_.string() + ": there is no frame to read in it" + why);
+  }
+  std::string unread;  // the first frame's file may be the damaged one
+  for (std::size_t i = 0; i < recording_.frames_.size() && !sized; ++i) {
+    try {
+      const DepthImage first = recording_.read_depth_(recording_.frames_[i]);
+      camera.width = first.width;
+      camera.height = first.height;
+      sized = true;
+    } catch (const std::runtime_error& error) {
+      unread = unread.empty() ? error.what() : unread;
+    }
+  }
+  if (!sized) {
+    throw std::runtime_error(folder_.string() + ": none of its images can be read; the first: " + unread);
+  }
+  if (options_.intrinsics) {
+    const Eigen::Vector4d& given = *options_.intrinsics;
+    camera.fx = given[0];
+    camera.fy = given[1];
+    camera.cx = given[2];
+    camera.cy = given[3];
+  }
+  camera.max_range_m = options_.max_range_m.value_or(camera.max_range_m);
+  camera.min_range_m = options_.min_range_m.value_or(camera.min_range_m);
+  camera.validate();
+  recording_.camera_ = camera;
+  return std::move(recording_);
+}
+
+std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder, const std::string& ending) {
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
+        files.push_back(entry.path());
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string name_without(const std::filesystem::path& file, const std::string& ending) {
+  const std::string name = file.filename().string();
+  return name.substr(0, name.size() - ending.size());
+}
+
+}  // namespace vantage

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vantage/vision/recording.hpp>
+
+namespace vantage {
+
+/// What the readers of the formats fill in.
+class RecordingReader {
+ public:
+  RecordingReader(std::filesystem::path folder, RecordingOptions options)
+      : folder_(std::move(folder)), options_(std::move(options)) {}
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const RecordingOptions& options() const { return options_; }
+
+  void add(RecordedFrame frame) { recording_.frames_.push_back(std::move(frame)); }
+  void skip(std::string name, std::string reason) {
+    recording_.skipped_.push_back({std::move(name), std::move(reason)});
+  }
+  void count_normalised() { ++recording_.normalised_; }
+  void read_depth_by(std::function<DepthImage(const RecordedFrame&)> read) {
+    recording_.read_depth_ = std::move(read);
+  }
+  /// Depth images as PNG files.
+  void read_depth_png_as(DepthEncoding encoding);
+  /// The camera, whose size the first frame's image decides unless `sized`; options override what it says.
+  [[nodiscard]] Recording finish(DepthCamera camera, bool sized = false);
+
+ private:
+  std::filesystem::path folder_;
+  RecordingOptions options_;
+  Recording recording_;
+};
+
+[[nodiscard]] Recording open_tum(RecordingReader reader);
+[[nodiscard]] Recording open_seven_scenes(RecordingReader reader);
+[[nodiscard]] Recording open_apc(RecordingReader reader);
+
+/// Files of the folder whose names end with `ending`, by name.
+[[nodiscard]] std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,
+                                                              const std::string& ending);
+/// A file name without `ending`.
+[[nodiscard]] std::string name_without(const std::filesystem::path& file, const std::string& ending);
+
+}  // namespace vantage

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// "7-Scenes", Shotton et al. 2013: a Kinect, its frames posed by KinectFusion.
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "vision/pose_text.hpp"
+#include "vision/recording_reader.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr const char* kDepth = ".depth.png";
+
+std::vector<double> rows_in(const std::filesystem::path& file) {
+  std::vector<double> rows;
+  for (const detail::TextLine& line : detail::lines_of(file)) {
+    const auto numbers = detail::numbers_in(line.text);
+    if (!numbers) {
+      throw std::runtime_error(file.string() + ": line " + std::to_string(line.number) + " is not a row of numbers");
+    }
+    rows.insert(rows.end(), numbers->begin(), numbers->end());
+  }
+  return rows;
+}
+
+DepthCamera camera_in(const std::filesystem::path& folder) {
+  DepthCamera camera{.fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
+  const std::filesystem::path file = folder / "camera-intrinsics.txt";
+  if (std::filesystem::exists(file)) {
+    const std::vector<double> rows = rows_in(file);
+    if (rows.size() != 9) {
+      throw std::runtime_error(file.string() + ": has " + std::to_string(rows.size()) +
+                               " numbers, must have 3 rows of 3");
+    }
+    camera.fx = rows[0];
+    camera.cx = rows[2];
+    camera.fy = rows[4];
+    camera.cy = rows[5];
+  }
+  camera.max_range_m = 4.0;  // what a Kinect measures well
+  camera.min_range_m = 0.4;
+  camera.noise = {.constant_m = 0.0012, .quadratic_per_m = 0.0019};  // Nguyen, Izadi & Lovell 2012, axial
+  return camera;
+}
+
+}  // namespace
+
+Recording open_seven_scenes(RecordingReader reader) {
+  for (const std::filesystem::path& depth : files_ending(reader.folder(), kDepth)) {
+    RecordedFrame frame{.name = name_without(depth, kDepth), .depth = depth};
+    const auto beside = [&](const char* ending) { return reader.folder() / (frame.name + ending); };
+    if (!std::filesystem::exists(beside(".pose.txt"))) {
+      reader.skip(frame.name, "there is no " + frame.name + ".pose.txt");
+      continue;
+    }
+    const std::vector<double> rows = rows_in(beside(".pose.txt"));
+    const std::optional<Pose> pose = detail::pose_of_rows(rows);
+    if (!pose || rows.size() != 16) {
+      reader.skip(frame.name, frame.name + ".pose.txt is not a rigid transform of 4 rows of 4 numbers");
+      continue;
+    }
+    frame.world_from_posed = detail::upright_from_camera_axes() * *pose;  // the y axis of this world points down
+    for (const char* ending : {".color.png", ".color.jpg"}) {
+      if (std::filesystem::exists(beside(ending))) {
+        frame.colour = beside(ending);
+      }
+    }
+    reader.add(std::move(frame));
+  }
+  for (const std::filesystem::path& pose : files_ending(reader.folder(), ".pose.txt")) {
+    const std::string name = name_without(pose, ".pose.txt");
+    if (!std::filesystem::exists(reader.folder() / (name + kDepth))) {
+      reader.skip(name, "there is no " + name + kDepth);
+    }
+  }
+  reader.read_depth_png_as({.units_per_m = 1000.0});
+  const DepthCamera camera = camera_in(reader.folder());
+  return reader.finish(camera);
+}
+
+}  // namespace vantage

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vantage/vision/recording.hpp>
+#include <vector>
+
+#include "support/depth_files.hpp"
+#include "support/real_data.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using test::message_of;
+using test::write_depth;
+using test::write_text;
+
+constexpr const char* kHere = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+
+std::vector<std::uint16_t> flat(std::uint16_t number) { return std::vector<std::uint16_t>(8 * 6, number); }
+
+std::string opening(std::string_view format, const fs::path& folder) {
+  return message_of<std::runtime_error>([&] { (void)Recording::open(format, folder); });
+}
+
+bool names(const Recording& recording, std::size_t index, const std::string& name, const std::string& reason) {
+  const SkippedFrame& skipped = recording.skipped().at(index);
+  return skipped.name.find(name) != std::string::npos && skipped.reason.find(reason) != std::string::npos;
+}
+
+TEST(Recording, RefusesWhatIsNoRecording) {
+  const test::TemporaryFolder folder;
+  EXPECT_NE(message_of<std::invalid_argument>([&] {
+              (void)Recording::open("rosbag", folder / ".");
+            }).find("there is no format 'rosbag'; there are: 7scenes, apc"),
+            std::string::npos);
+  for (const std::string_view format : Recording::formats()) {
+    EXPECT_NE(opening(format, folder / "nowhere").find("nowhere: is not a folder"), std::string::npos) << format;
+    EXPECT_NE(opening(format, folder / ".").find((folder / ".").string()), std::string::npos) << format;
+  }
+  EXPECT_THROW((void)Recording::open("tum", folder / ".", {.max_stamp_gap_s = 0.0}), std::invalid_argument);
+}
+
+TEST(SevenScenes, LeavesOutWhatIsIncompleteAndNamesIt) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"frame-000000", "frame-000001", "frame-000002", "frame-000003", "frame-000005"}) {
+    write_depth(folder / (std::string(name) + ".depth.png"), 8, 6, flat(2000));
+    write_text(folder / (std::string(name) + ".pose.txt"), kHere);
+  }
+  fs::remove(folder / "frame-000001.pose.txt");
+  write_text(folder / "frame-000002.pose.txt", "1 0 0 0\n0 nan 0 0\n0 0 1 0\n0 0 0 1\n");
+  write_text(folder / "frame-000003.pose.txt", "1 0 0 0\n0 2 0 0\n0 0 1 0\n0 0 0 1\n");
+  write_text(folder / "frame-000004.pose.txt", kHere);
+  const Recording recording = Recording::open("7scenes", folder / ".");
+  ASSERT_EQ(recording.frames().size(), 2U);
+  EXPECT_EQ(recording.frames()[1].name, "frame-000005");
+  ASSERT_EQ(recording.skipped().size(), 4U);
+  EXPECT_TRUE(names(recording, 0, "frame-000001", "no frame-000001.pose.txt"));
+  EXPECT_TRUE(names(recording, 1, "frame-000002", "not a rigid transform"));
+  EXPECT_TRUE(names(recording, 2, "frame-000003", "not a rigid transform"));
+  EXPECT_TRUE(names(recording, 3, "frame-000004", "no frame-000004.depth.png"));
+  EXPECT_EQ(recording.camera().width, 8U);
+  EXPECT_EQ(recording.camera().fx, 585.0);
+  EXPECT_EQ(recording.read(1).scan.report.used, 48U);
+
+  write_text(folder / "frame-000005.pose.txt", "1 0 0 0\n0 x 0 0\n");
+  EXPECT_NE(opening("7scenes", folder / ".").find("frame-000005.pose.txt: line 2 is not a row"), std::string::npos);
+  write_text(folder / "frame-000005.pose.txt", kHere);
+  write_text(folder / "camera-intrinsics.txt", "1 2 3");
+  EXPECT_NE(opening("7scenes", folder / ".").find("camera-intrinsics.txt: has 3 numbers"), std::string::npos);
+}
+
+// A host counts the damaged image and goes on: the frames before and after it are as they were.
+TEST(SevenScenes, ADamagedImageInTheMiddleSpoilsNoOther) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    write_depth(folder / (std::string(name) + ".depth.png"), 8, 6, flat(1500));
+    write_text(folder / (std::string(name) + ".pose.txt"), kHere);
+  }
+  write_text(folder / "a.depth.png", "not an image");
+  fs::resize_file(folder / "b.depth.png", fs::file_size(folder / "b.depth.png") - 20);
+  write_depth(folder / "c.depth.png", 6, 8, flat(1500));
+  write_depth(folder / "e.depth.png", 8, 6, flat(1500));
+  write_text(folder / "e.pose.txt", kHere);
+  const Recording recording = Recording::open("7scenes", folder / ".");
+  ASSERT_EQ(recording.frames().size(), 5U);
+  const auto reading = [&](std::size_t frame) {
+    return message_of<std::runtime_error>([&] { (void)recording.read(frame); });
+  };
+  // The size is that of the first image that can be read, the odd one out of this recording.
+  EXPECT_NE(reading(0).find("a.depth.png: is not a PNG"), std::string::npos);
+  EXPECT_NE(reading(1).find("b.depth.png: is a PNG file that was cut off"), std::string::npos);
+  EXPECT_EQ(reading(2), "");
+  EXPECT_NE(reading(3).find("d.depth.png: is 8 x 6 pixels, the recording's first image is 6 x 8"), std::string::npos);
+  EXPECT_THROW((void)recording.read(5), std::out_of_range);
+}
+
+class TumFolder : public testing::Test {
+ protected:
+  TumFolder() {
+    write_depth(folder_ / "1.png", 8, 6, flat(5000));
+    write_depth(folder_ / "2.png", 8, 6, flat(10000));
+    write_text(folder_ / "depth.txt", "# depth maps\n2.000 2.png\n1.000 1.png\n3.000 3.png\n4.000 1.png\n");
+    write_text(folder_ / "rgb.txt", "1.015 colour1.png\n0.99 colour0.png\n");
+    write_text(folder_ / "groundtruth.txt",
+               "# timestamp tx ty tz qx qy qz qw\n0.999 1 2 3 0 0 0 2\n1.5 9 9 9 0 0 0 1\n2.02 4 5 6 0 0 0.6 0.8\n"
+               "3.0 0 0 0 0 0 0 1\n3.999 nan 0 0 0 0 0 1\n4.001 0 0 0 0 0 0 0\n");
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(TumFolder, JoinsTheNearestStampsAndNamesThoseWithoutPartner) {
+  const Recording recording = Recording::open("tum", folder_ / ".", {.max_stamp_gap_s = 0.0201});
+  ASSERT_EQ(recording.frames().size(), 2U);
+  EXPECT_EQ(recording.frames()[0].name, "1.000");
+  EXPECT_EQ(recording.frames()[0].colour.filename(), "colour0.png") << "0.99 is nearer to 1 than 1.015";
+  EXPECT_TRUE(recording.frames()[1].colour.empty());
+  EXPECT_TRUE(recording.pose(0).translation().isApprox(Eigen::Vector3d(1, 2, 3)));
+  EXPECT_TRUE(recording.pose(0).linear().isIdentity(1e-12)) << "a quaternion of length 2 is normalised";
+  EXPECT_EQ(recording.normalised(), 1U);
+  EXPECT_TRUE(recording.pose(1).translation().isApprox(Eigen::Vector3d(4, 5, 6)));
+  ASSERT_EQ(recording.skipped().size(), 4U);
+  EXPECT_TRUE(names(recording, 0, "line 6 of groundtruth.txt", "not a pose"));
+  EXPECT_TRUE(names(recording, 1, "line 7 of groundtruth.txt", "not a pose"));
+  EXPECT_TRUE(names(recording, 2, "3.000", "there is no file"));
+  EXPECT_TRUE(names(recording, 3, "4.000", "no pose within"));
+  EXPECT_FLOAT_EQ(recording.read(0).depth.at(3, 3), 1.0F) << "5000 to a metre";
+  EXPECT_EQ(recording.camera().fx, 525.0);
+}
+
+TEST_F(TumFolder, TakesTheIntrinsicsOfIclNuim) {
+  const Recording recording = Recording::open(
+      "tum", folder_ / ".", {.max_range_m = 3.0, .intrinsics = Eigen::Vector4d(481.2, -480.0, 3.5, 2.5)});
+  const Scan scan = recording.read(0).scan.scan;
+  EXPECT_GT(scan.points.front().y(), 0.0F) << "the first row is the uppermost, and y points up";
+  EXPECT_GT(recording.sensor().fy, 0.0);
+  EXPECT_EQ(recording.sensor().max_range_m, 3.0);
+}
+
+TEST_F(TumFolder, SaysWhatIsWrong) {
+  EXPECT_EQ(Recording::open("tum", folder_ / ".").frames().size(), 1U) << "0.02 s by default";
+  write_text(folder_ / "depth.txt", "1.0 1.png\nlater 2.png\n");
+  EXPECT_NE(opening("tum", folder_ / ".").find("depth.txt: line 2 'later 2.png' must be a time stamp and a file"),
+            std::string::npos);
+  write_text(folder_ / "depth.txt", "7.0 1.png\n");
+  EXPECT_NE(opening("tum", folder_ / ".").find("there is no frame to read in it; the first one left out is line 6"),
+            std::string::npos);
+  write_text(folder_ / "groundtruth.txt", "1.0 0 0 0 0 0 0\n");
+  EXPECT_NE(opening("tum", folder_ / ".").find("groundtruth.txt: line 1"), std::string::npos);
+  fs::remove(folder_ / "groundtruth.txt");
+  EXPECT_NE(opening("tum", folder_ / ".").find("groundtruth.txt: cannot be opened"), std::string::npos);
+}
+
+TEST(Apc, SaysWhatIsWrong) {
+  const test::TemporaryFolder folder;
+  const std::string k = "# Depth camera intrinsic matrix\n500 0 3.5\n0 500 2.5\n0 0 1\n";
+  const std::string extrinsics = std::string("# Depth-to-color camera extrinsic matrix\n") + kHere;
+  const std::string pose = std::string("# Camera-to-world extrinsic matrix (camera pose) for f0\n") + kHere;
+  fs::create_directories(folder / "raw");
+  write_depth(folder / "raw/f0.depth.png", 8, 6, flat(0x4E20));  // 0x4E20 rotated back by 3 bits: 0x09C4 = 2500
+  write_depth(folder / "raw/f1.depth.png", 8, 6, flat(0x4E20));
+  write_text(folder / "cam.info.txt", k + extrinsics + pose);
+  const Recording recording = Recording::open("apc", folder / ".");
+  ASSERT_EQ(recording.frames().size(), 1U);
+  EXPECT_TRUE(names(recording, 0, "f1", "no pose"));
+  EXPECT_FLOAT_EQ(recording.read(0).depth.at(0, 0), 0.25F);
+  write_text(folder / "cam.info.txt", k + pose);
+  EXPECT_NE(opening("apc", folder / ".").find("'Depth-to-color camera extrinsic matrix'"), std::string::npos);
+  write_text(folder / "cam.info.txt", k + "five\n");
+  EXPECT_NE(opening("apc", folder / ".").find("cam.info.txt: line 5 is not a row of numbers"), std::string::npos);
+}
+
+// Median distance between what a frame measures and what another one does at the same place of its image.
+double median_gap_m(const Recording& recording, std::size_t from, std::size_t to) {
+  const DepthCamera& camera = recording.camera();
+  const Scan scan = recording.read(from).scan.scan;
+  const DepthImage target = recording.read(to).depth;
+  const Pose to_from = recording.pose(to).inverse() * recording.pose(from);
+  std::vector<double> gaps;
+  for (const Eigen::Vector3f& point : scan.points) {
+    const Eigen::Vector3d p = to_from * point.cast<double>();
+    const double u = std::round(camera.fx * p.x() / p.z() + camera.cx);
+    const double v = std::round(camera.fy * p.y() / p.z() + camera.cy);
+    if (p.allFinite() && p.z() > 0.0 && u >= 0.0 && v >= 0.0 && u < double(camera.width) &&
+        v < double(camera.height)) {
+      const double gap = std::abs(p.z() - double(target.at(std::size_t(u), std::size_t(v))));
+      if (gap < 0.1) {  // else: not measured, or hidden
+        gaps.push_back(gap);
+      }
+    }
+  }
+  EXPECT_GT(gaps.size(), 1000U);
+  std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
+  return gaps[gaps.size() / 2];
+}
+
+TEST(RealRecordings, SevenScenesFramesAgreeWithTheirNeighbours) {
+  VANTAGE_REAL_DATA(folder, "rgbd/7scenes_redkitchen_40");
+  const Recording recording = Recording::open("7scenes", folder);
+  ASSERT_EQ(recording.frames().size(), 40U);
+  EXPECT_TRUE(recording.skipped().empty());
+  const double gap_m = median_gap_m(recording, 3, 4);
+  EXPECT_LT(gap_m, 0.02);
+  const Picture picture = read_picture(recording.frames()[3].colour);
+  EXPECT_EQ(picture.width, 640U);
+}
+
+// Both kinds of file, each by the camera whose pixels it is in; the wrong camera doubles the gap of the decoded ones.
+TEST(RealRecordings, ApcFramesAgreeWithTheirNeighbours) {
+  VANTAGE_REAL_DATA(folder, "rgbd/apc_shelf_bin_15");
+  const Recording decoded = Recording::open("apc", folder);
+  ASSERT_EQ(decoded.frames().size(), 15U);
+  EXPECT_NEAR(double(decoded.read(7).depth.measured()) / (640.0 * 480.0), 0.27, 0.1);
+  EXPECT_LT(median_gap_m(decoded, 6, 7), 0.005);
+
+  const test::TemporaryFolder driver;  // as the driver left it, without the decoded images
+  fs::copy(folder / "cam.info.txt", driver / "cam.info.txt");
+  fs::copy(folder / "raw", driver / "raw");
+  const Recording raw = Recording::open("apc", driver / ".");
+  ASSERT_EQ(raw.frames().size(), 15U);
+  EXPECT_FALSE(raw.camera().posed_from_depth.isApprox(Pose::Identity()));
+  EXPECT_LT(median_gap_m(raw, 6, 7), 0.006);
+}
+
+}  // namespace
+}  // namespace vantage
