@@ -33,6 +33,8 @@ constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
     {"maze", "narrow passages with a few loops, made from the seed"},
     {"two-storey", "two floors of rooms joined by a stairwell"},
     {"table", "an object on a table in an otherwise empty room"},
+    {"crates-open", "a computer, open boxes and planks before a robot (Dornhege & Kleiner 2011)"},
+    {"crates-closed", "closed boxes and boxes with small openings, likewise"},
     {"frontier-gain", "the best of many random views, by the frontier seen from them; a baseline"},
     {"harmonic", "down the steepest way of a harmonic field (Shade & Newman 2011)"},
     {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},

@@ -7,6 +7,7 @@
 
 #include "map/option_rule.hpp"
 #include "sim/cell_worlds.hpp"
+#include "sim/crate_worlds.hpp"
 
 namespace vantage {
 namespace {
@@ -30,11 +31,16 @@ World table_world(const WorldOptions&) {
   return world;
 }
 
-constexpr std::array<Named, 5> kWorlds{{{"rooms", &rooms_world},
+World crates_open(const WorldOptions&) { return crates_open_world(); }
+World crates_closed(const WorldOptions&) { return crates_closed_world(); }
+
+constexpr std::array<Named, 7> kWorlds{{{"rooms", &rooms_world},
                                         {"office", &office_world},
                                         {"maze", &maze_world},
                                         {"two-storey", &two_storey_world},
-                                        {"table", &table_world}}};
+                                        {"table", &table_world},
+                                        {"crates-open", &crates_open},
+                                        {"crates-closed", &crates_closed}}};
 
 void validate(const WorldOptions& options) {
   const auto check = [](double metres, const char* option) {

@@ -35,8 +35,13 @@ struct World {
   /// - `maze`: passages 1.4 m wide and 2 m high with a few loops, 13 x 10 m unless told;
   /// - `two-storey`: two floors of rooms joined by a stairwell, 12 x 9 x 5.8 m;
   /// - `table`: a table (top at z = 0.427277 m, x +-0.4, y +-0.5) in an empty room, x +-1.8, y +-1.8, z 0..2 m, as in
-  ///   the reference data of Vasquez-Gomez et al.
-  /// All but the table are made of cells of 0.2 m, with surfaces 1 cm inside their cells (`surface_of_cells`). Throws
+  ///   the reference data of Vasquez-Gomez et al.;
+  /// - `crates-open`: a computer-sized block, two boxes open at the top and three two-by-fours on an open floor, x
+  ///   -0.5..2 m, y +-1.25 m, up to 1.5 m, before a robot at the origin that faces +x: the first scene of Dornhege &
+  ///   Kleiner 2011, in sizes of our own;
+  /// - `crates-closed`: two large closed boxes and three smaller ones with small openings there: their second scene.
+  /// The crates are made of cells of 0.025 m, with surfaces 2.5 mm inside them (planks lie askew); all others but the
+  /// table are made of cells of 0.2 m, with surfaces 1 cm inside their cells (`surface_of_cells`). Throws
   /// std::invalid_argument listing the names if there is no such world, or naming the option at fault.
   [[nodiscard]] static World by_name(std::string_view name, const WorldOptions& options = {});
   /// The names `by_name` knows.

@@ -66,8 +66,9 @@ TEST_F(MeshFile, SaysWhatIsWrongAndWhere) {
 }
 
 TEST(World, AnUnknownNameListsThoseThereAre) {
-  EXPECT_EQ(complaint([] { (void)World::by_name("moon"); }),
-            "there is no world \"moon\"; there are rooms, office, maze, two-storey, table");
+  EXPECT_EQ(
+      complaint([] { (void)World::by_name("moon"); }),
+      "there is no world \"moon\"; there are rooms, office, maze, two-storey, table, crates-open, crates-closed");
   EXPECT_EQ(complaint([] { (void)World::by_name("maze", {.length_m = 1.0}); }),
             "WorldOptions::length_m is 1, must be 0 or in [4, 200]");
 }
