@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vantage/robot/capability_map.hpp>
+
+// The file: a line that says what it is, twelve numbers of 64 bits (options, box of cells, count of words, checksum
+// of all else), the words. The least significant byte comes first.
+
+namespace vantage {
+namespace {
+
+constexpr std::string_view kTitle = "vantage capability map 1\n";
+
+std::uint64_t checksum(std::span<const std::uint64_t> numbers, std::uint64_t sum = 0xCBF29CE484222325ULL) {
+  for (const std::uint64_t number : numbers) {  // FNV-1a, by numbers instead of bytes
+    sum = (sum ^ number) * 0x100000001B3ULL;
+    sum ^= sum >> 29U;
+  }
+  return sum;
+}
+
+void append(std::string& text, std::uint64_t number) {
+  for (unsigned byte = 0; byte < 8; ++byte) {
+    text.push_back(static_cast<char>(number >> 8 * byte & 0xFFU));
+  }
+}
+
+std::uint64_t number_at(std::string_view text, std::size_t position) {
+  std::uint64_t number = 0;
+  for (unsigned byte = 0; byte < 8; ++byte) {
+    number |= std::uint64_t{static_cast<unsigned char>(text[position + byte])} << 8 * byte;
+  }
+  return number;
+}
+
+std::uint64_t packed(std::int32_t value) { return static_cast<std::uint64_t>(std::int64_t{value}); }
+
+std::int32_t coordinate(std::uint64_t number) {
+  const auto value = static_cast<std::int64_t>(number);
+  return value >= -kFurthestVoxel && value <= kFurthestVoxel ? static_cast<std::int32_t>(value) : kFurthestVoxel + 1;
+}
+
+bool plausible(const CapabilityMapOptions& options, const VoxelBox& cells) {
+  constexpr std::int32_t kMost = 1 << 16;  // along an axis: their product then fits 64 bits
+  const auto side = [](std::int32_t lo, std::int32_t hi) {
+    return lo < hi && hi <= kFurthestVoxel && std::int64_t{hi} - lo <= kMost;
+  };
+  return std::isfinite(options.cell_m) && options.cell_m > 0.0 && options.direction_bins_per_edge >= 1 &&
+         options.direction_bins_per_edge <= 32 && options.samples > 0 && side(cells.lo.x, cells.hi.x) &&
+         side(cells.lo.y, cells.hi.y) && side(cells.lo.z, cells.hi.z);
+}
+
+}  // namespace
+
+void CapabilityMap::save(const std::filesystem::path& path) const {
+  const std::array<std::uint64_t, 11> head{std::bit_cast<std::uint64_t>(options_.cell_m),
+                                           packed(options_.direction_bins_per_edge),
+                                           options_.samples,
+                                           options_.seed,
+                                           packed(cells_.lo.x),
+                                           packed(cells_.lo.y),
+                                           packed(cells_.lo.z),
+                                           packed(cells_.hi.x),
+                                           packed(cells_.hi.y),
+                                           packed(cells_.hi.z),
+                                           bits_.size()};
+  std::string text(kTitle);
+  for (const std::uint64_t number : head) {
+    append(text, number);
+  }
+  append(text, checksum(bits_, checksum(head)));
+  for (const std::uint64_t word : bits_) {
+    append(text, word);
+  }
+  std::ofstream file(path, std::ios::binary);
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.close();
+  if (!file) {
+    throw std::runtime_error(path.string() + ": cannot be written");
+  }
+}
+
+CapabilityMap CapabilityMap::load(const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& what) { throw std::runtime_error(path.string() + ": " + what); };
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    refuse("cannot be opened");
+  }
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!text.starts_with(kTitle)) {
+    refuse("is no capability map");
+  }
+  constexpr std::size_t kNumbers = 12;
+  const std::size_t body = kTitle.size() + 8 * kNumbers;
+  if (text.size() < body) {
+    refuse("is truncated: it ends after " + std::to_string(text.size()) + " bytes, in its head");
+  }
+  std::array<std::uint64_t, kNumbers> head{};
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    head[i] = number_at(text, kTitle.size() + 8 * i);
+  }
+  CapabilityMap map;
+  map.options_ = {std::bit_cast<double>(head[0]), coordinate(head[1]), head[2], head[3]};
+  map.cells_ = {{coordinate(head[4]), coordinate(head[5]), coordinate(head[6])},
+                {coordinate(head[7]), coordinate(head[8]), coordinate(head[9])}};
+  if (!plausible(map.options_, map.cells_) || head[10] != map.cells_.size() * map.words_per_cell()) {
+    refuse("its head makes no sense");
+  }
+  if ((text.size() - body) / 8 < head[10]) {
+    refuse("is truncated: it holds " + std::to_string((text.size() - body) / 8) + " of " + std::to_string(head[10]) +
+           " words");
+  }
+  if (text.size() != body + 8 * head[10]) {
+    refuse("goes on after its end");
+  }
+  map.bits_.reserve(head[10]);
+  for (std::size_t word = 0; word < head[10]; ++word) {
+    map.bits_.push_back(number_at(text, body + 8 * word));
+  }
+  if (checksum(map.bits_, checksum(std::span(head).first(kNumbers - 1))) != head[kNumbers - 1]) {
+    refuse("is damaged: its checksum does not fit");
+  }
+  return map;
+}
+
+}  // namespace vantage
