@@ -21,6 +21,7 @@ function(vantage_add_library component)
   list(TRANSFORM arg_GENERATED_HEADERS PREPEND "${PROJECT_BINARY_DIR}/include/")
   add_library(${target} ${arg_SOURCES})
   add_library(vantage::${component} ALIAS ${target})
+  vantage_unite_folders(${target})
   target_sources(
     ${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include"
                      FILES ${arg_HEADERS} ${arg_GENERATED_HEADERS})
@@ -42,6 +43,16 @@ function(vantage_add_library component)
       ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
       FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
   endif()
+endfunction()
+
+# What a unity build (CMAKE_UNITY_BUILD) compiles as one: the sources of a folder.
+function(vantage_unite_folders target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder "${source}" DIRECTORY)
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+  endforeach()
 endfunction()
 
 # Our own warnings, for our own targets, and only when we are the project that is being built.

@@ -9,8 +9,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
 // Eight blocks, bit 0 of their number for x, 1 for y, 2 for z; where the first lies in its brick.
 struct Octet {
   std::size_t first;
@@ -66,14 +64,14 @@ std::vector<VoxelIndex> even_first(const std::vector<VoxelIndex>& at, std::vecto
 
 std::vector<VoxelIndex> number_pieces(const FineLevel& fine, std::vector<std::uint32_t>& node) {
   std::vector<VoxelIndex> at;
-  node.assign(fine.brick_count * kBrickBlocks, kNone);
+  node.assign(fine.brick_count * kBrickBlocks, kNoNode);
   for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
     const std::uint32_t* packed = fine.blocks.data() + brick * kBrickBlocks;
     const VoxelIndex& address = fine.address[brick];
     for (std::size_t number = 0; number < 16; ++number) {
       const Octet octet(number);
       for (std::size_t i = 0; i < 8; ++i) {
-        if (packed[octet.block(i)] == 0 || node[brick * kBrickBlocks + octet.block(i)] != kNone) {
+        if (packed[octet.block(i)] == 0 || node[brick * kBrickBlocks + octet.block(i)] != kNoNode) {
           continue;
         }
         for (std::uint32_t piece = piece_of(packed, octet, i); piece != 0; piece &= piece - 1) {

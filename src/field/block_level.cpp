@@ -11,7 +11,7 @@ namespace {
 
 // Rows couple along x within themselves, which is relaxed with the old values (Jacobi): by a little less than fully,
 // so that it still smooths where a corridor leaves nothing but that.
-constexpr float kWeight = 0.95F;
+constexpr float kBlockWeight = 0.95F;
 
 struct BlockSums {
   Lanes<float> inflow;    // sum of conductance * neighbour
@@ -73,7 +73,7 @@ struct Smooth {
           const BlockSums sums = around.sums<kLine>();
           const Lanes<float> own = load(x + kLine * 8);
           const Lanes<float> step = (load(right + kLine * 8) + sums.inflow) / sums.diagonal - own;
-          store<float>(x + kLine * 8, sums.diagonal > 0.0F ? own + kWeight * step : own);
+          store<float>(x + kLine * 8, sums.diagonal > 0.0F ? own + kBlockWeight * step : own);
         },
         std::make_index_sequence<8>{});
   }

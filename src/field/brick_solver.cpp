@@ -10,7 +10,7 @@ namespace vantage::detail {
 namespace {
 
 // Relaxation of the black cells goes a little too far: their Schur complement has its spectrum in (0, 1].
-constexpr float kWeight = 1.15F;
+constexpr float kBlackWeight = 1.15F;
 
 template <class Field>
 auto* at(Field& field, std::size_t brick) {
@@ -33,7 +33,7 @@ double BrickSolver::advance(float step) {
       fine_,
       [&](std::size_t b) {
         run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b),
-                    at(z_, b), step, kWeight, &sums_[b]});
+                    at(z_, b), step, kBlackWeight, &sums_[b]});
       },
       [&](std::size_t b) {
         run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
@@ -58,7 +58,7 @@ double BrickSolver::correct() {
       },
       [&](std::size_t b) {
         run(BlackSmooth{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), Around<float>(fine_, red_, b),
-                        at(z_, b), kWeight, &sums_[b]});
+                        at(z_, b), kBlackWeight, &sums_[b]});
       });
   return total();
 }

@@ -10,9 +10,8 @@
 namespace vantage::detail {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 // Relaxation goes a little too far (SOR), which smooths better than Gauss-Seidel in three dimensions.
-constexpr float kWeight = 1.15F;
+constexpr float kNodeWeight = 1.15F;
 
 VoxelIndex halved(const VoxelIndex& at) { return {at.x >> 1, at.y >> 1, at.z >> 1}; }
 bool is_even(const VoxelIndex& at) { return ((at.x ^ at.y ^ at.z) & 1) == 0; }
@@ -96,7 +95,7 @@ inline float GraphLevel::inflow(std::size_t of) const {
 void GraphLevel::smooth(bool even_first) {
   const auto relax = [this](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      x[i] += kWeight * ((right[i] + inflow(i)) * inverse[i] - x[i]);
+      x[i] += kNodeWeight * ((right[i] + inflow(i)) * inverse[i] - x[i]);
     }
   };
   if (even_first) {
@@ -127,11 +126,11 @@ std::size_t GraphLevel::memory_bytes() const {
 }
 
 GraphLevel coarsen(GraphLevel& finer) {
-  finer.node.assign(finer.size, kNone);
+  finer.node.assign(finer.size, kNoNode);
   std::vector<VoxelIndex> at;
   std::vector<std::uint32_t> queue;
   for (const std::uint32_t seed : by_parent(finer.at)) {
-    if (finer.node[seed] != kNone) {
+    if (finer.node[seed] != kNoNode) {
       continue;
     }
     const auto number = static_cast<std::uint32_t>(at.size());
@@ -140,7 +139,7 @@ GraphLevel coarsen(GraphLevel& finer) {
     queue.assign(1, seed);
     for (std::size_t next = 0; next < queue.size(); ++next) {
       finer.for_each_edge(queue[next], [&](const GraphLevel::Edge& edge) {
-        if (finer.node[edge.to] == kNone && halved(finer.at[edge.to]) == at.back()) {
+        if (finer.node[edge.to] == kNoNode && halved(finer.at[edge.to]) == at.back()) {
           finer.node[edge.to] = number;
           queue.push_back(edge.to);
         }

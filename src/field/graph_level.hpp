@@ -11,6 +11,8 @@
 
 namespace vantage::detail {
 
+inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFU;  ///< the number of no node
+
 /// A coarse level without structure: nodes joined by conductances, each at the address of a cube of cells of which it
 /// is one connected piece. Nodes of even x + y + z come first, and only nodes of different parity are ever joined.
 struct GraphLevel {

@@ -2,11 +2,7 @@
 #include <raytrace/single_walk.hpp>
 
 namespace vantage {
-namespace {
-
-constexpr std::int64_t kEnd = FaceCrossings::kEnd;
-
-}  // namespace
+namespace {}  // namespace
 
 SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& first,
                        const Eigen::Vector3d& to, const VoxelIndex& last)
@@ -48,11 +44,12 @@ bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
   const std::array<std::int32_t, 3> least{lo.x, lo.y, lo.z};
   const std::array<std::int32_t, 3> most{last.x, last.y, last.z};
   std::size_t by = 0;
-  std::int64_t leaves = kEnd + 1;
+  std::int64_t leaves = FaceCrossings::kEnd + 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int32_t faces = sign_[axis] > 0 ? most[axis] - cell_[axis] : cell_[axis] - least[axis];
     const FaceCrossings& crossings = faces_[axis];
-    if (static_cast<double>(faces) * static_cast<double>(crossings.delta) > static_cast<double>(kEnd)) {
+    if (static_cast<double>(faces) * static_cast<double>(crossings.delta) >
+        static_cast<double>(FaceCrossings::kEnd)) {
       continue;  // after the end; and the product might not fit
     }
     const std::int64_t crosses = crossings.next + faces * crossings.delta;
@@ -61,11 +58,11 @@ bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
       by = axis;
     }
   }
-  const bool ends = leaves > kEnd;
+  const bool ends = leaves > FaceCrossings::kEnd;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     FaceCrossings& faces = faces_[axis];
     // Of faces crossed at the same time, that across the lower axis comes first.
-    const std::int64_t until = ends ? kEnd : leaves - (axis > by ? 1 : 0);
+    const std::int64_t until = ends ? FaceCrossings::kEnd : leaves - (axis > by ? 1 : 0);
     if (faces.next <= until) {
       const std::int64_t crossed = faces.crossed_by(until);
       cell_[axis] += sign_[axis] * static_cast<std::int32_t>(crossed);

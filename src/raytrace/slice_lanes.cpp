@@ -12,7 +12,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::int64_t kEnd = FaceCrossings::kEnd;
 constexpr double kLarge = std::numeric_limits<double>::max();
 
 // Of faces crossed at the same time, that across the lower axis comes first: those across a lateral axis above the
@@ -35,8 +34,8 @@ void walk_baseline(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t
     std::int64_t within = lanes.at[i] - windows.origin;
     for (std::size_t slice = 0; slice < windows.count; ++slice) {
       bool stopped = stops(windows, slice, within);
-      const bool crosses_u = next_u <= std::min(leaves - tie_u, kEnd);
-      const bool crosses_v = next_v <= std::min(leaves - tie_v, kEnd);
+      const bool crosses_u = next_u <= std::min(leaves - tie_u, FaceCrossings::kEnd);
+      const bool crosses_v = next_v <= std::min(leaves - tie_v, FaceCrossings::kEnd);
       const bool u_first = crosses_u && (!crosses_v || next_u <= next_v);
       if (!stopped && (crosses_u || crosses_v)) {
         within += u_first ? lanes.step_u[i] : lanes.step_v[i];
@@ -46,7 +45,7 @@ void walk_baseline(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t
           stopped = stops(windows, slice, within);
         }
       }
-      if (stopped || leaves > kEnd) {
+      if (stopped || leaves > FaceCrossings::kEnd) {
         (stopped ? hits.stopped : hits.ended) |= std::uint64_t{1} << i;
         hits.slice[i] = static_cast<std::int64_t>(slice);
         hits.within[i] = within;
@@ -76,7 +75,7 @@ VANTAGE_TARGET_AVX512 inline __mmask8 stops(__m512i window, __m512i within) {
 
 VANTAGE_TARGET_AVX512 void walk_avx512(SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
                                        __mmask8 active, SliceHits& hits) {
-  const __m512i end = _mm512_set1_epi64(kEnd);
+  const __m512i end = _mm512_set1_epi64(FaceCrossings::kEnd);
   const __m512i tie_u = _mm512_set1_epi64(tie(lanes.u, lanes.major));
   const __m512i tie_v = _mm512_set1_epi64(tie(lanes.v, lanes.major));
   const __m512i delta_m = _mm512_load_si512(&lanes.delta[lanes.major][first]);
@@ -179,7 +178,7 @@ VANTAGE_TARGET_AVX2 inline std::uint64_t bits(__m256i lanes) {
 
 VANTAGE_TARGET_AVX2 void walk_avx2(SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
                                    std::uint64_t active, SliceHits& hits) {
-  const __m256i end = _mm256_set1_epi64x(kEnd);
+  const __m256i end = _mm256_set1_epi64x(FaceCrossings::kEnd);
   const __m256i tie_u = _mm256_set1_epi64x(tie(lanes.u, lanes.major));
   const __m256i tie_v = _mm256_set1_epi64x(tie(lanes.v, lanes.major));
   const __m256i step_u = load(&lanes.step_u[first]);
@@ -317,7 +316,7 @@ std::uint64_t skip_slices(SliceLanes& lanes, std::int64_t slices, std::uint64_t 
       const std::int64_t enters = (next_m[i] & mask) + (forward - 1) * (delta_m[i] & mask);
       const std::int64_t faces_u = crossed_by(enters - tie_u, next_u[i] & mask, delta_u[i] & mask);
       const std::int64_t faces_v = crossed_by(enters - tie_v, next_v[i] & mask, delta_v[i] & mask);
-      ends[i] = static_cast<std::int64_t>(enters > kEnd);
+      ends[i] = static_cast<std::int64_t>(enters > FaceCrossings::kEnd);
       next_m[i] += forward * delta_m[i];
       next_u[i] += faces_u * delta_u[i];
       next_v[i] += faces_v * delta_v[i];

@@ -12,7 +12,6 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kRays = RayBlock::kRays;
-constexpr std::int64_t kEnd = FaceCrossings::kEnd;
 
 std::int32_t round_down(double value) {
   const auto towards_zero = static_cast<std::int32_t>(value);
@@ -49,7 +48,7 @@ struct Faces {
   std::int64_t wrong;
 };
 inline Faces faces_between(double from, double to, std::int32_t first, std::int32_t last, double size_m) {
-  constexpr auto kUnit = static_cast<double>(kEnd);
+  constexpr auto kUnit = static_cast<double>(FaceCrossings::kEnd);
   const auto up = static_cast<std::int32_t>(last > first);
   const auto crosses = static_cast<std::int64_t>(last != first);
   const double unlimited = kUnit / std::abs(to - from);
@@ -62,8 +61,8 @@ inline Faces faces_between(double from, double to, std::int32_t first, std::int3
   const auto delta = static_cast<std::int64_t>(step < 2.0 * kUnit ? step : 2.0 * kUnit);
   const std::int64_t faces = (last - first) * (2 * up - 1);
   const std::int64_t last_face = next + (faces - 1) * delta;
-  const auto too_late = static_cast<std::int64_t>(last_face > kEnd);
-  const auto too_early = static_cast<std::int64_t>(last_face + delta <= kEnd);
+  const auto too_late = static_cast<std::int64_t>(last_face > FaceCrossings::kEnd);
+  const auto too_early = static_cast<std::int64_t>(last_face + delta <= FaceCrossings::kEnd);
   return {crosses * next + (1 - crosses) * FaceCrossings::kNever, crosses * delta, crosses & (too_late | too_early)};
 }
 
@@ -262,7 +261,7 @@ TileWalk::Spread TileWalk::spread_of(std::uint64_t active) const {
 // The lateral cells that rays of this spread may be in from the first to the last slice.
 TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, std::int64_t last) const {
   constexpr double kRounding = 1e-6;  // far more than the clock of a walk and these sums can differ, in cells
-  constexpr auto kFar = static_cast<double>(kFurthestVoxel);
+  constexpr auto kFurthest = static_cast<double>(kFurthestVoxel);
   const double of_origin = up_ ? within_first_[lanes_.major] : 1.0 - within_first_[lanes_.major];
   const double enters = std::max(static_cast<double>(first) - of_origin, 0.0);
   const double leaves = static_cast<double>(last) + 1.0 - of_origin;
@@ -274,8 +273,8 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
     const double from = within_first_[axes[lateral]];
     const double lo = from + least * (least < 0.0 ? leaves : enters) - kRounding;
     const double hi = from + most * (most > 0.0 ? leaves : enters) + kRounding;
-    window.lo[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(lo, -kFar, kFar));
-    window.hi[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(hi, -kFar, kFar));
+    window.lo[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(lo, -kFurthest, kFurthest));
+    window.hi[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(hi, -kFurthest, kFurthest));
   }
   return window;
 }
