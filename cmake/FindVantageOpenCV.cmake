@@ -1,28 +1,29 @@
 # SPDX-License-Identifier: MIT
-# The targets opencv_core, opencv_imgproc and opencv_imgcodecs: from OpenCV's own package where that is installed, else
-# straight from headers and libraries. Debian ships OpenCV's package file only together with all of OpenCV and its 150
-# dependencies, while three small packages are all that pictures need.
+# The targets opencv_core, opencv_imgproc, opencv_imgcodecs and opencv_calib3d: from OpenCV's own package where that is
+# installed, else straight from headers and libraries. Debian ships OpenCV's package file only together with all of
+# OpenCV and its 150 dependencies, while a few small packages are all that pictures and stereo need.
 include(FindPackageHandleStandardArgs)
+set(VantageOpenCV_modules core imgproc imgcodecs calib3d)
 
-find_package(OpenCV 4 QUIET CONFIG COMPONENTS core imgproc imgcodecs)
+find_package(OpenCV 4 QUIET CONFIG COMPONENTS ${VantageOpenCV_modules})
 if(OpenCV_FOUND AND TARGET opencv_core)
-  set(VantageOpenCV_LIBRARIES opencv_core opencv_imgproc opencv_imgcodecs)
+  list(TRANSFORM VantageOpenCV_modules PREPEND opencv_ OUTPUT_VARIABLE VantageOpenCV_LIBRARIES)
   find_package_handle_standard_args(VantageOpenCV REQUIRED_VARS VantageOpenCV_LIBRARIES)
   return()
 endif()
 
 find_path(VantageOpenCV_INCLUDE_DIR opencv2/imgcodecs.hpp PATH_SUFFIXES opencv4)
-find_library(VantageOpenCV_core_LIBRARY opencv_core)
-find_library(VantageOpenCV_imgproc_LIBRARY opencv_imgproc)
-find_library(VantageOpenCV_imgcodecs_LIBRARY opencv_imgcodecs)
-mark_as_advanced(VantageOpenCV_INCLUDE_DIR VantageOpenCV_core_LIBRARY VantageOpenCV_imgproc_LIBRARY
-                 VantageOpenCV_imgcodecs_LIBRARY)
-find_package_handle_standard_args(
-  VantageOpenCV REQUIRED_VARS VantageOpenCV_core_LIBRARY VantageOpenCV_imgproc_LIBRARY VantageOpenCV_imgcodecs_LIBRARY
-                              VantageOpenCV_INCLUDE_DIR)
+mark_as_advanced(VantageOpenCV_INCLUDE_DIR)
+set(VantageOpenCV_required)
+foreach(module IN LISTS VantageOpenCV_modules)
+  find_library(VantageOpenCV_${module}_LIBRARY opencv_${module})
+  mark_as_advanced(VantageOpenCV_${module}_LIBRARY)
+  list(APPEND VantageOpenCV_required VantageOpenCV_${module}_LIBRARY)
+endforeach()
+find_package_handle_standard_args(VantageOpenCV REQUIRED_VARS ${VantageOpenCV_required} VantageOpenCV_INCLUDE_DIR)
 
 if(VantageOpenCV_FOUND)
-  foreach(module core imgproc imgcodecs)
+  foreach(module IN LISTS VantageOpenCV_modules)
     if(NOT TARGET opencv_${module})
       add_library(opencv_${module} UNKNOWN IMPORTED)
       set_target_properties(

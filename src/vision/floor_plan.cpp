@@ -85,6 +85,13 @@ void draw_legend(MapSheet& sheet, const FloorPlanContent& content) {
         },
         content.show_directions ? "scan, looking that way" : "scan, all around");
   }
+  if (content.next) {
+    sheet.legend(
+        [](Canvas& canvas, cv::Point2d at) {
+          draw_view(canvas, at - cv::Point2d(6.0, 0.0), {1.0, 0.0}, drawing::kEnd);
+        },
+        "view chosen next");
+  }
   if (content.travelled.size() > 1 || content.views.size() > 1) {
     sheet.legend_scale(journey_colour, "path and scans, in order", "first", "last");
   }
@@ -106,6 +113,10 @@ Picture draw_floor_plan(const OccupancyMap& map, const FloorPlanContent& content
   if (!content.travelled.empty()) {
     draw_end(sheet.canvas(), sheet.at(content.travelled.back()));
     draw_start(sheet.canvas(), sheet.at(content.travelled.front()));
+  }
+  if (content.next) {
+    const Eigen::Vector3d axis = optical_axis(*content.next);
+    draw_view(sheet.canvas(), sheet.at(content.next->translation()), {axis.x(), -axis.y()}, drawing::kEnd);
   }
   draw_legend(sheet, content);
   return sheet.canvas().finish();

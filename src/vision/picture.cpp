@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -9,6 +11,19 @@
 #include "vision/image_file.hpp"
 
 namespace vantage {
+namespace {
+
+bool is_whole(const Picture& picture) {
+  return picture.width > 0 && picture.height > 0 && picture.rgb.size() == 3 * picture.width * picture.height;
+}
+
+// The same bytes, not copied; OpenCV only reads them.
+cv::Mat mat_of(const Picture& picture) {
+  return {static_cast<int>(picture.height), static_cast<int>(picture.width), CV_8UC3,
+          const_cast<std::uint8_t*>(picture.rgb.data())};  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
+}  // namespace
 
 void write_png(const Picture& picture, const std::filesystem::path& file) {
   if (picture.width == 0 || picture.height == 0 || picture.rgb.size() != 3 * picture.width * picture.height) {
@@ -33,6 +48,22 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
   if (!out) {
     throw std::runtime_error(file.string() + ": cannot be written");
   }
+}
+
+Picture side_by_side(std::span<const Picture> pictures, std::size_t height) {
+  if (pictures.empty() || height == 0 || !std::all_of(pictures.begin(), pictures.end(), is_whole)) {
+    throw std::invalid_argument("side_by_side: there must be pictures, none of them empty, and a height");
+  }
+  std::vector<cv::Mat> scaled;
+  for (const Picture& picture : pictures) {
+    const double scale = static_cast<double>(height) / static_cast<double>(picture.height);
+    const int width = std::max(1, static_cast<int>(std::lround(scale * static_cast<double>(picture.width))));
+    cv::resize(mat_of(picture), scaled.emplace_back(), cv::Size(width, static_cast<int>(height)), 0.0, 0.0,
+               scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  }
+  cv::Mat row;
+  cv::hconcat(scaled, row);
+  return {static_cast<std::size_t>(row.cols), height, {row.datastart, row.dataend}};
 }
 
 Picture read_picture(const std::filesystem::path& file) {

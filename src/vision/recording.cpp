@@ -17,6 +17,7 @@ const std::vector<std::pair<std::string_view, Opener>>& openers() {
   static const std::vector<std::pair<std::string_view, Opener>> all{
       {"7scenes", open_seven_scenes},
       {"apc", open_apc},
+      {"kitti-stereo", open_kitti_stereo},
       {"tum", open_tum},
   };
   return all;
@@ -25,6 +26,8 @@ const std::vector<std::pair<std::string_view, Opener>>& openers() {
 void check(const RecordingOptions& options) {
   detail::require_option(std::isfinite(options.max_stamp_gap_s) && options.max_stamp_gap_s > 0.0,
                          "RecordingOptions::max_stamp_gap_s", options.max_stamp_gap_s, "> 0");
+  detail::require_option(std::isfinite(options.cell_m) && options.cell_m > 0.0, "RecordingOptions::cell_m",
+                         options.cell_m, "> 0");
 }
 
 }  // namespace

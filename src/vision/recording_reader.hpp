@@ -40,6 +40,7 @@ class RecordingReader {
 [[nodiscard]] Recording open_tum(RecordingReader reader);
 [[nodiscard]] Recording open_seven_scenes(RecordingReader reader);
 [[nodiscard]] Recording open_apc(RecordingReader reader);
+[[nodiscard]] Recording open_kitti_stereo(RecordingReader reader);
 
 /// Files of the folder whose names end with `ending`, by name.
 [[nodiscard]] std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,

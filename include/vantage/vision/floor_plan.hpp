@@ -18,6 +18,7 @@ struct FloorPlanContent {
   std::vector<Eigen::Vector3d> travelled = {};  ///< successive positions in the world, metres; the start first
   std::vector<Pose> views = {};                 ///< world_from_sensor of every scan, the first scan first
   bool show_directions = true;  ///< a short stroke along each view's optical axis (senseless for a full sphere)
+  std::optional<Pose> next = std::nullopt;  ///< a view that was chosen and is still to be taken, in red
   /// The part of the world to show; none: all that is known. Its heights matter too: only cells in it are drawn.
   std::optional<Box> extent = std::nullopt;
   /// Height of the horizontal slice to show, metres; none: the whole height seen from above.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace vantage {
@@ -18,6 +19,10 @@ struct Picture {
 /// Writes `picture` as a PNG file. Throws std::invalid_argument if the picture is empty or its bytes do not fit its
 /// size, std::runtime_error naming the file if it cannot be written.
 void write_png(const Picture& picture, const std::filesystem::path& file);
+
+/// The pictures side by side, each scaled to `height` rows. Throws std::invalid_argument if there is none, one is
+/// empty or the height is 0.
+[[nodiscard]] Picture side_by_side(std::span<const Picture> pictures, std::size_t height);
 
 /// Reads a picture file, PNG or JPEG, as colour. Throws std::runtime_error with the file and what is wrong with it.
 [[nodiscard]] Picture read_picture(const std::filesystem::path& file);

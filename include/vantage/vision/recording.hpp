@@ -37,6 +37,8 @@ struct RecordingOptions {
   /// fx, fy, cx, cy of the depth images, pixels: for formats whose files do not tell (tum).
   std::optional<Eigen::Vector4d> intrinsics = std::nullopt;
   double max_stamp_gap_s = 0.02;  ///< time stamps further apart than this have nothing to do with each other, > 0
+  double cell_m =
+      0.1;  ///< cells of the map to be made, metres: stereo is trusted as far as it lands in the right one
 };
 
 /// What a frame holds, read and turned into a scan.
@@ -52,6 +54,7 @@ struct RecordedReading {
 /// | tum | `depth.txt`, `groundtruth.txt`, `rgb.txt` or none: stamps, joined by the nearest; depth 5000 to a metre |
 /// | 7scenes | `frame-NNNNNN.depth.png` in mm, `.pose.txt` 4 x 4, `.color.png` or `.jpg`; `camera-intrinsics.txt` |
 /// | apc | `cam.info.txt`; `decoded/*.depth_dmm.png` in 0.1 mm, or as the driver wrote it, `raw/*.depth.png` |
+/// | kitti-stereo | `image_l`, `image_r` (or KITTI's own names), `calib.txt`, `poses.txt`, a row for every pair |
 ///
 ///     Recording recording = Recording::open("7scenes", folder);
 ///     for (std::size_t i = 0; i < recording.frames().size(); ++i)
@@ -59,7 +62,8 @@ struct RecordedReading {
 ///
 /// Opening reads lists and poses; images are read one by one. Frames that lack a pose, a partner or a file are left
 /// out and told in `skipped`; nothing else is lost. Poses are made exactly rigid where rounding has left them nearly
-/// so, quaternions are normalised, and worlds with the axes of a camera (7scenes) are turned until +z is up.
+/// so, quaternions are normalised, and worlds with the axes of a camera (7scenes, kitti-stereo) are turned until +z
+/// is up.
 class Recording {
  public:
   /// Throws std::runtime_error with the folder or file and what is wrong with it (nothing to read in it counts),

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// KITTI's odometry sequences, Geiger et al. 2012: rectified pairs from a car, posed by a laser and satellites.
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vantage/vision/stereo_matcher.hpp>
+
+#include "vision/pose_text.hpp"
+#include "vision/recording_reader.hpp"
+
+namespace vantage {
+namespace {
+
+std::pair<std::filesystem::path, std::filesystem::path> image_folders(const std::filesystem::path& folder) {
+  for (const auto& [left, right] :
+       {std::pair("image_l", "image_r"), std::pair("image_0", "image_1"), std::pair("image_2", "image_3")}) {
+    if (std::filesystem::is_directory(folder / left) && std::filesystem::is_directory(folder / right)) {
+      return {folder / left, folder / right};
+    }
+  }
+  throw std::runtime_error(folder.string() +
+                           ": there are no folders image_l and image_r, image_0 and image_1, or "
+                           "image_2 and image_3");
+}
+
+std::vector<std::optional<Pose>> poses_in(const std::filesystem::path& file) {
+  std::vector<std::optional<Pose>> poses;
+  for (const detail::TextLine& line : detail::lines_of(file)) {
+    const auto numbers = detail::numbers_in(line.text);
+    if (!numbers || numbers->size() != 12) {
+      throw std::runtime_error(file.string() + ": line " + std::to_string(line.number) +
+                               " is not a pose of 12 numbers");
+    }
+    poses.push_back(detail::pose_of_rows(*numbers));
+  }
+  return poses;
+}
+
+}  // namespace
+
+Recording open_kitti_stereo(RecordingReader reader) {
+  const auto [left, right] = image_folders(reader.folder());
+  const auto poses = poses_in(reader.folder() / "poses.txt");
+  const auto matcher = std::make_shared<const StereoMatcher>(read_kitti_calibration(reader.folder() / "calib.txt"));
+  std::size_t row = 0;
+  for (const char* ending : {".png", ".jpg"}) {
+    for (const std::filesystem::path& file : files_ending(left, ending)) {
+      const std::string name = name_without(file, ending);
+      const std::size_t number = row++;
+      if (number >= poses.size()) {
+        reader.skip(name, "poses.txt ends after " + std::to_string(poses.size()) + " poses");
+      } else if (!poses[number]) {
+        reader.skip(name, "row " + std::to_string(number + 1) + " of poses.txt is not a rigid transform");
+      } else if (!std::filesystem::exists(right / file.filename())) {
+        reader.skip(name, "there is no " + (right / file.filename()).string());
+      } else {
+        reader.add({.name = name,
+                    .world_from_posed = detail::upright_from_camera_axes() * *poses[number],
+                    .depth = file,
+                    .right = right / file.filename(),
+                    .colour = file});
+      }
+    }
+  }
+  reader.read_depth_by(
+      [matcher](const RecordedFrame& frame) { return matcher->match(frame.depth, frame.right).depth; });
+  return reader.finish(matcher->camera(reader.options().cell_m));
+}
+
+}  // namespace vantage

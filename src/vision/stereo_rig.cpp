@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+#include <map>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <string>
+#include <vantage/vision/stereo_rig.hpp>
+
+#include "map/option_rule.hpp"
+#include "vision/pose_text.hpp"
+#include "vision/rectify.hpp"
+
+namespace vantage {
+namespace {
+
+using detail::require_option;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+// As validate, but the file is to blame.
+StereoRig checked(const StereoRig& rig, const std::filesystem::path& file) {
+  try {
+    rig.validate();
+  } catch (const std::invalid_argument& error) {
+    refuse(file, error.what());
+  }
+  return rig;
+}
+
+cv::Mat matrix_in(const cv::FileStorage& storage, const char* name, int rows, int columns,
+                  const std::filesystem::path& file) {
+  cv::Mat matrix;
+  storage[name] >> matrix;
+  if (matrix.empty()) {
+    refuse(file, std::string("there is no matrix '") + name + "'");
+  }
+  matrix.convertTo(matrix, CV_64F);
+  const bool fits = rows > 0 ? matrix.rows == rows && matrix.cols == columns : matrix.total() >= 4;
+  if (!fits || !cv::checkRange(matrix)) {
+    refuse(file, std::string("the matrix '") + name + "' has a wrong size or a number that is not finite");
+  }
+  return matrix;
+}
+
+cv::FileStorage storage_of(const std::filesystem::path& file) {
+  try {
+    cv::FileStorage storage(file.string(), cv::FileStorage::READ);
+    if (storage.isOpened()) {
+      return storage;
+    }
+  } catch (const cv::Exception&) {  // said below in words of our own
+    refuse(file, "is not a file of OpenCV matrices (YAML or XML)");
+  }
+  refuse(file, "cannot be opened");
+}
+
+LensModel lens_of(const cv::Mat& k, const cv::Mat& distortion) {
+  LensModel lens;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      lens.k(row, column) = k.at<double>(row, column);
+    }
+  }
+  lens.distortion.assign(distortion.begin<double>(), distortion.end<double>());
+  return lens;
+}
+
+}  // namespace
+
+double StereoRig::depth_m(double disparity_px) const {
+  const double shift = disparity_px + offset_px;
+  return shift > 0.0 ? focal_px * baseline_m / shift : std::numeric_limits<double>::infinity();
+}
+
+void StereoRig::validate() const {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require_option(positive(focal_px), "StereoRig::focal_px", focal_px, "> 0");
+  require_option(positive(baseline_m), "StereoRig::baseline_m", baseline_m, "> 0");
+  require_option(std::isfinite(cx), "StereoRig::cx", cx, "finite");
+  require_option(std::isfinite(cy), "StereoRig::cy", cy, "finite");
+  require_option(std::isfinite(offset_px), "StereoRig::offset_px", offset_px, "finite");
+  if (rectification && !is_rigid(rectification->right_from_left)) {
+    throw std::invalid_argument("Rectification::right_from_left is not a rigid transform");
+  }
+}
+
+StereoRig read_kitti_calibration(const std::filesystem::path& file) {
+  std::vector<std::vector<double>> rows;
+  for (const detail::TextLine& line : detail::lines_of(file)) {
+    const std::size_t colon = line.text.find(':');
+    const std::string_view text = line.text;
+    const auto numbers = detail::numbers_in(colon == std::string::npos ? text : text.substr(colon + 1));
+    if (!numbers || numbers->size() != 12) {
+      refuse(file, "line " + std::to_string(line.number) + " is not a projection matrix of 12 numbers");
+    }
+    rows.push_back(*numbers);
+  }
+  if (rows.size() < 2) {
+    refuse(file, "has " + std::to_string(rows.size()) + " projection matrices, must have two");
+  }
+  StereoRig rig{.focal_px = rows[0][0], .cx = rows[0][2], .cy = rows[0][6]};
+  rig.baseline_m = (rows[0][3] - rows[1][3]) / rig.focal_px;  // the last column is -f b
+  rig.offset_px = rows[1][2] - rows[0][2];
+  return checked(rig, file);
+}
+
+StereoRig read_middlebury_calibration(const std::filesystem::path& file) {
+  std::map<std::string, std::vector<double>, std::less<>> values;
+  for (const detail::TextLine& line : detail::lines_of(file)) {
+    const std::size_t equals = line.text.find('=');
+    std::string text = equals == std::string::npos ? "" : line.text.substr(equals + 1);
+    for (char& c : text) {
+      c = c == '[' || c == ']' || c == ';' ? ' ' : c;
+    }
+    const auto numbers = detail::numbers_in(text);
+    if (equals == std::string::npos || !numbers) {
+      refuse(file, "line " + std::to_string(line.number) + " is not key=value with numbers");
+    }
+    values[line.text.substr(0, equals)] = *numbers;
+  }
+  const auto value = [&](const char* name, std::size_t size, std::size_t index) {
+    const auto found = values.find(name);
+    if (found == values.end() || found->second.size() != size) {
+      refuse(file, std::string("there is no '") + name + "' of " + std::to_string(size) + " numbers");
+    }
+    return found->second[index];
+  };
+  StereoRig rig;
+  rig.width = static_cast<std::size_t>(value("width", 1, 0));
+  rig.height = static_cast<std::size_t>(value("height", 1, 0));
+  if (values.contains("cam0")) {
+    rig.focal_px = value("cam0", 9, 0);
+    rig.cx = value("cam0", 9, 2);
+    rig.cy = value("cam0", 9, 5);
+    rig.offset_px = value("doffs", 1, 0);
+    rig.baseline_m = value("baseline", 1, 0) / 1000.0;
+  } else {
+    rig.focal_px = value("focal_px", 1, 0);
+    rig.cx = value("cx_left", 1, 0);
+    rig.cy = value("cy", 1, 0);
+    rig.offset_px = value("doffs_px", 1, 0);
+    rig.baseline_m = value("baseline_m", 1, 0);
+  }
+  return checked(rig, file);
+}
+
+StereoRig read_opencv_calibration(const std::filesystem::path& intrinsics, const std::filesystem::path& extrinsics,
+                                  std::size_t width, std::size_t height, double unit_m) {
+  require_option(std::isfinite(unit_m) && unit_m > 0.0, "unit_m", unit_m, "> 0");
+  const cv::FileStorage lenses = storage_of(intrinsics);
+  Rectification rectification;
+  rectification.left = lens_of(matrix_in(lenses, "M1", 3, 3, intrinsics), matrix_in(lenses, "D1", 0, 0, intrinsics));
+  rectification.right = lens_of(matrix_in(lenses, "M2", 3, 3, intrinsics), matrix_in(lenses, "D2", 0, 0, intrinsics));
+  const cv::FileStorage placement = storage_of(extrinsics);
+  const cv::Mat r = matrix_in(placement, "R", 3, 3, extrinsics);
+  const cv::Mat t = matrix_in(placement, "T", 3, 1, extrinsics);
+  std::vector<double> rows;
+  for (int row = 0; row < 3; ++row) {
+    rows.insert(rows.end(), r.ptr<double>(row), r.ptr<double>(row) + 3);
+    rows.push_back(t.at<double>(row) * unit_m);
+  }
+  const std::optional<Pose> pose = detail::pose_of_rows(rows);
+  if (!pose) {
+    refuse(extrinsics, "R and T are not a rigid transform");
+  }
+  rectification.right_from_left = *pose;
+  return checked(detail::rig_after(rectification, width, height), extrinsics);
+}
+
+}  // namespace vantage
