@@ -56,6 +56,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.failure_message(CLI::FailureMessage::simple);
   add_explore_command(app, exit_code);
   add_reconstruct_command(app, exit_code);
+  add_replay_command(app, exit_code);
   add_map_command(app, exit_code);
   add_list_command(app);
   // Not inherited by the commands, hence after them.

@@ -20,6 +20,7 @@ void add_commands(CLI::App& app, int& exit_code);
 void add_explore_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app);
 void add_reconstruct_command(CLI::App& app, int& exit_code);
+void add_replay_command(CLI::App& app, int& exit_code);
 
 /// `message` without line breaks.
 [[nodiscard]] std::string one_line(std::string message);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "apps/commands.hpp"
+#include "apps/help_format.hpp"
+#include "apps/replay_files.hpp"
+#include "apps/replay_request.hpp"
+#include "apps/replay_run.hpp"
+#include "apps/run_files.hpp"
+#include "apps/shared_options.hpp"
+
+namespace vantage::apps {
+namespace {
+
+std::string frame_line(const ReplayRecord& record, const Recording& recording, const Pose& pose) {
+  const ReplayedFrame& frame = record.frames.back();
+  char text[256];
+  std::snprintf(text, sizeof text, "%-20s %6zu pixels  %7zu frontier  %7zu void cells  insert %6.1f ms\n",
+                recording.frames()[frame.frame].name.c_str(), frame.depth.used, frame.frontier_cells,
+                frame.void_cells, record.run.views.back().insert_ms);
+  std::string lines = text;
+  for (const TimedPlan& timed : frame.plans) {
+    const std::string_view outcome = to_string(timed.plan.outcome);
+    const double away_m = (timed.plan.goal.pose.translation() - pose.translation()).norm();
+    std::snprintf(text, sizeof text, "    %-18s %-8.*s", timed.planner.c_str(), static_cast<int>(outcome.size()),
+                  outcome.data());
+    lines += text;
+    if (timed.plan.outcome == Outcome::Move) {
+      std::snprintf(text, sizeof text, " %5.2f m away, utility %-8.4g", away_m, timed.plan.goal.utility);
+      lines += text;
+    }
+    std::snprintf(text, sizeof text, "  plan %7.1f ms\n", timed.plan_ms);
+    lines += text;
+  }
+  return lines;
+}
+
+void print_summary(std::ostream& out, const ReplayRecord& record, const Recording& recording) {
+  char text[128];
+  std::snprintf(text, sizeof text, "\n  %-12s %zu, over a path of %.1f m\n", "frames", record.frames.size(),
+                record.run.path_length_m());
+  out << text << "  outcome      " << to_string(record.run.outcome) << ": " << record.run.reason << '\n'
+      << "  left out     " << record.skipped.size() << (record.skipped.size() == 1 ? " frame\n" : " frames\n");
+  for (const SkippedFrame& frame : record.skipped) {
+    out << "    " << frame.name << ": " << frame.reason << '\n';
+  }
+  if (recording.normalised() > 0) {
+    out << "  normalised   " << recording.normalised() << " quaternions\n";
+  }
+}
+
+void write_outputs(const ReplayRequest& request, const ReplayRecord& record, const Recording& recording,
+                   const OccupancyMap& map, std::ostream& progress) {
+  const std::string json = replay_json(record, recording, request.format);
+  if (!request.run.out.empty()) {
+    progress << "\nwrote\n";
+    for (const std::filesystem::path& file : write_replay_files(request.run.out, record, json, map)) {
+      progress << "  " << file.string() << '\n';
+    }
+    progress << "  " << (std::filesystem::path(request.run.out) / "frames").string() << "/*.png\n";
+  }
+  if (request.run.json == "-") {
+    std::cout << json << std::flush;
+  } else if (!request.run.json.empty()) {
+    write_text(request.run.json, json);
+  }
+}
+
+int replay(const ReplayRequest& request) {
+  check_numbers(request);
+  check_targets(request.run.out, request.run.json);
+  const Recording recording = recording_of(request);
+  const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
+  const auto planners = planners_of(request, recording.sensor(), platform);
+  OccupancyMap map(map_options_of(request));
+  std::ostream& progress = request.run.json == "-" ? std::cerr : std::cout;
+  progress << request.dataset << ": " << recording.frames().size() << " frames, cells of " << request.run.resolution_m
+           << " m, range " << recording.camera().trusted_range_m() << " m\n";
+
+  ReplayRecord record =
+      apps::replay(recording, {.every = request.every, .max_views = request.run.max_views}, map, *platform, planners,
+                   [&](const ReplayRecord& so_far, const RecordedReading& reading, const OccupancyMap& known) {
+                     progress << frame_line(so_far, recording, so_far.run.views.back().pose) << std::flush;
+                     if (!request.run.out.empty()) {
+                       const std::filesystem::path folder = std::filesystem::path(request.run.out) / "frames";
+                       make_folder(folder);
+                       write_png(frame_sheet(so_far, recording, reading, known),
+                                 folder / (recording.frames()[so_far.frames.back().frame].name + ".png"));
+                     }
+                   });
+  record.run.command = "replay";
+  record.run.world = request.dataset;
+  record.run.planner = planners.front()->name();
+  record.run.seed = request.run.seed;
+  record.run.threads = request.run.threads;
+  record.run.resolution_m = request.run.resolution_m;
+  print_summary(progress, record, recording);
+  write_outputs(request, record, recording, map, progress);
+  return record.to_the_end ? kDone : kBudget;
+}
+
+void add_recording_options(CLI::App& command, ReplayRequest& request) {
+  std::string formats;
+  for (const std::string_view format : Recording::formats()) {
+    formats += (formats.empty() ? "" : "|") + std::string(format);
+  }
+  const auto option = [&](const char* name, auto& value, const std::string& type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->group("Recording");
+  };
+  option("--dataset", request.dataset, "DIR", "Folder of the recording; must be given")->required();
+  option("--format", request.format, formats, "How its files are laid out; must be given")->required();
+  option("--every", request.every, "N", "Plays every Nth frame only")->check(a_whole_number())->capture_default_str();
+  option("--intrinsics", request.intrinsics, "fx,fy,cx,cy",
+         "Of the depth images, pixels, where the files do not tell");
+  option("--max-range", request.max_range_m, "M", "Returns further than this only clear, metres; 0: by the format")
+      ->check(a_number())
+      ->capture_default_str();
+  option("--region", request.run.region, "x0,y0,z0,x1,y1,z1", "What to map, metres; all that is seen unless given");
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("replay", "Map what a real camera recorded, and ask planners what they would do");
+  const auto request = std::make_shared<ReplayRequest>();
+  add_recording_options(*command, *request);
+  command->add_option("--planner", request->run.planner, "By name (vantage list), several with commas between")
+      ->type_name("NAME,...")
+      ->capture_default_str()
+      ->group("Run");
+  command->add_option("--robot-radius", request->run.robot_radius_m, "The robot is a sphere about its sensor, metres")
+      ->type_name("M")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("Run");
+  add_setting_option(*command, request->run, "A setting of every planner named, as often as needed");
+  add_run_options(*command, request->run);
+  add_output_options(*command, request->run);
+  command->footer(
+      "Exit codes: 0 the recording was played to its end, 2 bad input (nothing was written), 3 the views were "
+      "spent.");
+  command->callback([request, &exit_code] { exit_code = replay(*request); });
+}
+
+}  // namespace vantage::apps

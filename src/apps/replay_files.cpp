@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "apps/replay_files.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/map/octomap_bridge.hpp>
+#include <vantage/vision/floor_plan.hpp>
+#include <vantage/vision/line_plot.hpp>
+
+namespace vantage::apps {
+namespace {
+
+FloorPlanContent journey(const RunRecord& run) {
+  FloorPlanContent content;
+  content.travelled = run.travelled;
+  for (const ViewRecord& view : run.views) {
+    content.views.push_back(view.pose);
+  }
+  return content;
+}
+
+std::string words_of(const TimedPlan& timed, const Pose& pose) {
+  std::ostringstream words;
+  words << timed.planner << ": " << to_string(timed.plan.outcome);
+  if (timed.plan.outcome == Outcome::Move) {
+    words.precision(2);
+    words << std::fixed << ", " << (timed.plan.goal.pose.translation() - pose.translation()).norm() << " m away";
+  }
+  return words.str();
+}
+
+}  // namespace
+
+Picture frame_sheet(const ReplayRecord& record, const Recording& recording, const RecordedReading& reading,
+                    const OccupancyMap& map) {
+  const ReplayedFrame& frame = record.frames.back();
+  const RecordedFrame& recorded = recording.frames()[frame.frame];
+  std::vector<Picture> pictures;
+  if (!recorded.colour.empty()) {
+    try {
+      pictures.push_back(read_picture(recorded.colour));
+    } catch (const std::runtime_error&) {  // a sheet without colours is still one
+    }
+  }
+  pictures.push_back(draw_depth(reading.depth, recording.camera().min_range_m, recording.camera().trusted_range_m()));
+  const Pose& pose = record.run.views.back().pose;
+  for (const TimedPlan& timed : frame.plans) {
+    FloorPlanContent content = journey(record.run);
+    content.title = words_of(timed, pose);
+    content.slice_z_m = pose.translation().z();
+    if (timed.plan.outcome == Outcome::Move) {
+      content.next = timed.plan.goal.pose;
+    }
+    pictures.push_back(draw_floor_plan(map, content));
+  }
+  constexpr std::size_t kHeight = 480;
+  return side_by_side(pictures, kHeight);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
+  }
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  out.close();
+  if (!out) {
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
+                                                      const std::string& json, const OccupancyMap& map) {
+  make_folder(folder);
+  std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
+                                           folder / "known.png"};
+  write_text(files[0], json);
+  save_octomap(map, files[1]);
+  FloorPlanContent content = journey(record.run);
+  content.title = std::filesystem::path(record.run.world).filename().string() + ": map and frames";
+  write_png(draw_floor_plan(map, content), files[2]);
+
+  LineSeries free{.name = "free"};
+  LineSeries occupied{.name = "occupied"};
+  const double cell_m3 = map.resolution_m() * map.resolution_m() * map.resolution_m();
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    for (LineSeries* series : {&free, &occupied}) {
+      series->x.push_back(static_cast<double>(i + 1));
+    }
+    free.y.push_back(cell_m3 * static_cast<double>(record.frames[i].free_cells));
+    occupied.y.push_back(static_cast<double>(record.frames[i].occupied_cells) / 1000.0);
+  }
+  const std::vector<LinePlot> plots{
+      {.title = "free volume", .x_label = "frames", .y_label = "m^3", .series = {free}},
+      {.title = "occupied cells", .x_label = "frames", .y_label = "thousands of cells", .series = {occupied}}};
+  write_png(draw_line_plots(plots), files[3]);
+  return files;
+}
+
+}  // namespace vantage::apps

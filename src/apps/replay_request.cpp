@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "apps/replay_request.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/planner/make_planner.hpp>
+
+#include "map/option_rule.hpp"
+
+namespace vantage::apps {
+
+void check_numbers(const ReplayRequest& request) {
+  check_numbers(request.run);
+  detail::require_option(request.max_range_m >= 0.0, "--max-range", request.max_range_m, ">= 0 metres");
+  detail::require_option(request.every > 0, "--every", request.every, "> 0");
+}
+
+Recording recording_of(const ReplayRequest& request) {
+  RecordingOptions options;
+  options.cell_m = request.run.resolution_m;
+  if (request.max_range_m > 0.0) {
+    options.max_range_m = request.max_range_m;
+  }
+  if (!request.intrinsics.empty()) {
+    const std::vector<double> n = numbers_of("--intrinsics", request.intrinsics);
+    if (n.size() != 4) {
+      throw std::invalid_argument("--intrinsics has " + std::to_string(n.size()) + " numbers, must be fx,fy,cx,cy");
+    }
+    options.intrinsics = Eigen::Vector4d(n[0], n[1], n[2], n[3]);
+  }
+  return Recording::open(request.format, request.dataset, options);
+}
+
+OccupancyMapOptions map_options_of(const ReplayRequest& request) {
+  return {.resolution_m = request.run.resolution_m, .region = region_of(request.run)};
+}
+
+std::vector<std::unique_ptr<ExplorationPlanner>> planners_of(const ReplayRequest& request, const RangeSensor& sensor,
+                                                             const std::shared_ptr<const Platform>& platform) {
+  std::vector<std::unique_ptr<ExplorationPlanner>> planners;
+  std::istringstream names(request.run.planner);
+  for (std::string name; std::getline(names, name, ',');) {
+    planners.push_back(make_planner(
+        name, {.sensor = sensor, .platform = platform, .seed = request.run.seed, .threads = request.run.threads},
+        settings_of(request.run)));
+  }
+  if (planners.empty()) {
+    throw std::invalid_argument("--planner names no planner");
+  }
+  return planners;
+}
+
+}  // namespace vantage::apps

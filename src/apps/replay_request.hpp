@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/vision/recording.hpp>
+#include <vector>
+
+#include "apps/explore_request.hpp"
+
+namespace vantage::apps {
+
+/// `vantage replay` as it was typed.
+struct ReplayRequest {
+  std::string dataset;
+  std::string format;
+  std::string intrinsics;
+  double max_range_m = 0.0;  // 0: as the format has it
+  std::size_t every = 1;
+  bool select = false;
+  ExploreRequest run;  // what the commands share
+
+  ReplayRequest() {
+    run.planner = "harmonic,next-best-view";
+    run.resolution_m = 0.05;
+    run.robot_radius_m = 0.1;
+  }
+};
+
+// What the words mean; each throws std::invalid_argument or std::runtime_error naming the flag or file at fault.
+void check_numbers(const ReplayRequest& request);
+[[nodiscard]] Recording recording_of(const ReplayRequest& request);
+[[nodiscard]] OccupancyMapOptions map_options_of(const ReplayRequest& request);
+/// The planners by their names, in the order asked for.
+[[nodiscard]] std::vector<std::unique_ptr<ExplorationPlanner>> planners_of(
+    const ReplayRequest& request, const RangeSensor& sensor, const std::shared_ptr<const Platform>& platform);
+
+}  // namespace vantage::apps

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/depth_files.hpp"
+#include "support/real_data.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Drives the real program on recordings of its own.
+class ReplayProgram : public testing::Test {
+ protected:
+  // A camera that goes along a wall 2 m away and turns a little.
+  ReplayProgram() {
+    fs::create_directories(data());
+    for (int i = 0; i < 5; ++i) {
+      const std::string name = data() / ("frame-00000" + std::to_string(i));
+      test::write_depth(name + ".depth.png", 64, 48, std::vector<std::uint16_t>(64 * 48, 2000));
+      cv::imwrite(name + ".color.png", cv::Mat(48, 64, CV_8UC3, cv::Scalar(40 * i, 90, 200)));
+      test::write_text(name + ".pose.txt", "1 0 0 " + std::to_string(0.2 * i) + "\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    }
+    test::write_text(data() / "camera-intrinsics.txt", "55 0 32\n0 55 24\n0 0 1\n");
+  }
+  [[nodiscard]] fs::path data() const { return folder_ / "data"; }
+  [[nodiscard]] int run(const std::string& arguments) {
+    const fs::path out = folder_ / "stdout.txt";
+    const fs::path err = folder_ / "stderr.txt";
+    const int status = std::system(
+        ("'" VANTAGE_PROGRAM "' replay " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'").c_str());
+    out_ = test::bytes_in(out);
+    err_ = test::bytes_in(err);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string on_data() const {
+    return "--dataset '" + data().string() + "' --format 7scenes --resolution 0.1 ";
+  }
+  void expect_refused(const std::string& arguments, const std::string& words) {
+    EXPECT_EQ(run(arguments + " --out '" + (folder_ / "out").string() + "'"), 2) << arguments;
+    EXPECT_EQ(err_.rfind("vantage: ", 0), 0U) << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    EXPECT_NE(err_.find(words), std::string::npos) << err_;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << arguments;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string out_;
+  std::string err_;
+};
+
+TEST_F(ReplayProgram, PlaysARecordingAndTellsWhatEveryPlannerWouldDo) {
+  fs::resize_file(data() / "frame-000002.depth.png", 60);
+  const fs::path out = folder_ / "out";
+  ASSERT_EQ(run(on_data() + "--planner nearest-frontier,harmonic --json - --out '" + out.string() + "'"), 0) << err_;
+  const auto report = nlohmann::json::parse(out_);
+  EXPECT_EQ(report.at("command"), "replay");
+  EXPECT_EQ(report.at("planner"), "nearest-frontier");
+  EXPECT_EQ(report.at("views"), 4);
+  EXPECT_EQ(report.at("cycles").size(), 4U);
+  EXPECT_NEAR(report.at("path_length_m").get<double>(), 0.8, 1e-9);
+  const auto& replay = report.at("replay");
+  EXPECT_EQ(replay.at("frames").size(), 4U);
+  EXPECT_EQ(replay.at("frames")[1].at("plans").size(), 2U);
+  EXPECT_EQ(replay.at("frames")[1].at("plans")[1].at("planner"), "harmonic");
+  ASSERT_EQ(replay.at("skipped").size(), 1U);
+  EXPECT_EQ(replay.at("skipped")[0].at("frame"), "frame-000002");
+  EXPECT_NE(replay.at("skipped")[0].at("reason").get<std::string>().find("cut off"), std::string::npos);
+  EXPECT_NE(err_.find("frame-000002: "), std::string::npos);
+  for (const char* name : {"report.json", "map.ot", "floor_plan.png", "known.png", "frames/frame-000004.png"}) {
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(out / "frames/frame-000002.png"));
+  EXPECT_EQ(nlohmann::json::parse(test::bytes_in(out / "report.json")).at("replay").at("format"), "7scenes");
+}
+
+TEST_F(ReplayProgram, ABudgetEndsIt) {
+  EXPECT_EQ(run(on_data() + "--max-views 2 --planner nearest-frontier --json -"), 3);
+  EXPECT_EQ(nlohmann::json::parse(out_).at("views"), 2);
+  EXPECT_EQ(run(on_data() + "--every 2 --planner nearest-frontier --json -"), 0);
+  EXPECT_EQ(nlohmann::json::parse(out_).at("views"), 3);
+}
+
+TEST_F(ReplayProgram, RefusesBadInput) {
+  expect_refused("--format tum", "--dataset");
+  expect_refused("--dataset '" + (folder_ / "no").string() + "' --format tum", "no: is not a folder");
+  expect_refused("--dataset '" + data().string() + "' --format tum", "groundtruth.txt: cannot be opened");
+  expect_refused("--dataset '" + data().string() + "' --format bag", "there is no format 'bag'");
+  expect_refused(on_data() + "--planner magic", "there is no planner 'magic'");
+  expect_refused(on_data() + "--planner ,", "there is no planner ''");
+  expect_refused(on_data() + "--intrinsics 1,2,3", "--intrinsics has 3 numbers");
+  expect_refused(on_data() + "--every 0", "--every is 0");
+  expect_refused(on_data() + "--max-range -1", "--max-range is -1");
+  expect_refused("--dataset '" + data().string() + "' --format 7scenes --resolution 0", "--resolution is 0");
+  for (const auto& entry : fs::directory_iterator(data())) {
+    if (entry.path().extension() == ".png") {
+      test::write_text(entry.path(), "no image");
+    }
+  }
+  expect_refused(on_data(), "none of its images can be read; the first: ");
+}
+
+}  // namespace
+}  // namespace vantage
