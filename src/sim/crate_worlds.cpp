@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 constexpr VoxelFrame kCells{0.025};
-constexpr double kInsetM = 0.0025;
+constexpr double kCrateInsetM = 0.0025;
 // What is searched: the floor's layer and 1.5 m above it, out to where a floor of 2.5 m by 2.5 m ends.
 constexpr VoxelBox kPlace{{-20, -50, -1}, {80, 50, 60}};
 
@@ -45,7 +45,7 @@ class CrateScene {
   [[nodiscard]] World world(std::string name) const {
     World world;
     world.name = std::move(name);
-    world.mesh = surface_of_cells(solid_, kCells, kInsetM, false);
+    world.mesh = surface_of_cells(solid_, kCells, kCrateInsetM, false);
     world.mesh.append(planks_);
     world.region = kCells.box_of(kPlace);
     return world;
