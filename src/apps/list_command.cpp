@@ -36,6 +36,7 @@ constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
     {"crates-open", "a computer, open boxes and planks before a robot (Dornhege & Kleiner 2011)"},
     {"crates-closed", "closed boxes and boxes with small openings, likewise"},
     {"frontier-gain", "the best of many random views, by the frontier seen from them; a baseline"},
+    {"frontier-void", "the view of most void cells, through frontiers (Dornhege & Kleiner 2011)"},
     {"harmonic", "down the steepest way of a harmonic field (Shade & Newman 2011)"},
     {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},
     {"next-best-view", "the view of most unknown cells, nearness counted (Vasquez-Gomez et al. 2013)"},

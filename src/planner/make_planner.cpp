@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
@@ -126,6 +127,30 @@ std::unique_ptr<ExplorationPlanner> make_frontier_gain(const PlannerSetup& setup
   return std::make_unique<FrontierGainPlanner>(setup, options);
 }
 
+std::unique_ptr<ExplorationPlanner> make_frontier_void(const PlannerSetup& setup, SettingReader& read) {
+  FrontierVoidOptions options;
+  bool faithful = false;
+  if (read.flag("faithful", faithful); faithful) {
+    options.strategy = FrontierVoidStrategy::faithful();
+  }
+  read_survey(read, options.survey)
+      .choice("score", options.clusters.score,
+              {{"volume-ratio", FitScore::VolumeRatio}, {"literal", FitScore::Literal}})
+      .number("min_score", options.clusters.min_score)
+      .number("most_vectors", options.most_vectors)
+      .number("views", options.views)
+      .choice("share", options.strategy.share,
+              {{"touching-cells", FrontierShare::TouchingCells}, {"whole-clusters", FrontierShare::WholeClusters}})
+      .number("orientations_per_place", options.strategy.orientations_per_place)
+      .number("place_spacing_m", options.strategy.place_spacing_m)
+      .flag("aimed", options.strategy.aimed)
+      .number("cost_per_m", options.strategy.cost_per_m)
+      .number("finalists", options.strategy.finalists)
+      .flag("beyond_voids", options.strategy.beyond_voids)
+      .done();
+  return std::make_unique<FrontierVoidPlanner>(setup, options);
+}
+
 std::unique_ptr<ExplorationPlanner> make_nearest_frontier(const PlannerSetup& setup, SettingReader& read) {
   FrontierSurveyOptions options;
   read_survey(read, options).done();
@@ -183,6 +208,7 @@ using Maker = std::unique_ptr<ExplorationPlanner> (*)(const PlannerSetup&, Setti
 const std::vector<std::pair<std::string_view, Maker>>& makers() {
   static const std::vector<std::pair<std::string_view, Maker>> all{
       {"frontier-gain", make_frontier_gain},
+      {"frontier-void", make_frontier_void},
       {"harmonic", make_harmonic},
       {"nearest-frontier", make_nearest_frontier},
       {"next-best-view", make_next_best_view},

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <atomic>
 #include <bit>
-#include <exception>
-#include <mutex>
 #include <raytrace/view_placer.hpp>
-#include <thread>
 #include <utility>
 #include <vantage/raytrace/evaluate_view.hpp>
 
 #include "map/option_rule.hpp"
+#include "raytrace/shared_work.hpp"
 
 namespace vantage {
 
@@ -26,29 +23,8 @@ std::vector<ViewEvaluation> evaluate_views(const RayCaster& caster, std::span<co
                                            const VoxelBox& object, std::size_t threads) {
   detail::require_option(threads > 0, "evaluate_views: threads", threads, "> 0");
   std::vector<ViewEvaluation> evaluations(views.size());
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failing;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < views.size(); i = next++) {
-        evaluations[i] = evaluate_view(caster, views[i], rays, object);
-      }
-    } catch (...) {
-      const std::scoped_lock lock(failing);
-      failure = std::current_exception();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min(threads, views.size()); ++i) {
-      others.emplace_back(work);
-    }
-    work();
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+  detail::share_work(views.size(), threads,
+                     [&](std::size_t i) { evaluations[i] = evaluate_view(caster, views[i], rays, object); });
   return evaluations;
 }
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vantage/frontier/frontier_voids.hpp>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/planner/failed_views.hpp>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/target_view.hpp>
+#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/view/utility_vectors.hpp>
+#include <vector>
+
+namespace vantage {
+
+/// What FrontierVoidPlanner does that the paper leaves open or does otherwise; docs/frontier_void.md says what each
+/// part earns.
+struct FrontierVoidStrategy {
+  /// Which frontier cells a void is looked into through.
+  FrontierShare share = FrontierShare::TouchingCells;
+  /// Orientations tried at a place, >= 1; a sensor that sees all around has one.
+  std::size_t orientations_per_place = 5;
+  /// Places are at least so far apart, metres, >= 0: those of most utility lie side by side and see the same.
+  double place_spacing_m = 0.3;
+  /// Orientations look at the frontier of a void, drawn by its utility, instead of anywhere.
+  bool aimed = true;
+  /// Places and views are ranked by void cells / (1 + this * metres to the place, straight), >= 0; 0: void cells
+  /// alone count (eq. 3).
+  double cost_per_m = 0.3;
+  /// All views are counted by a sixteenth of the rays first, and the best so many of them by all, >= 1.
+  std::size_t finalists = 5;
+  /// When no view sees a void any more, frontiers that border none are explored, the nearest first.
+  bool beyond_voids = true;
+
+  /// The paper's plain method, which ends when the best utility is 0: Explored where nothing observable is left,
+  /// else Blocked.
+  [[nodiscard]] static FrontierVoidStrategy faithful() {
+    return {.share = FrontierShare::WholeClusters,
+            .place_spacing_m = 0.0,
+            .aimed = false,
+            .cost_per_m = 0.0,
+            .finalists = std::numeric_limits<std::size_t>::max(),
+            .beyond_voids = false};
+  }
+};
+
+/// Options of FrontierVoidPlanner.
+struct FrontierVoidOptions {
+  VoidClusterOptions clusters = {};    ///< how void cells are clustered; its seed is the setup's
+  std::size_t most_vectors = 200'000;  ///< see utility_vectors, > 0
+  std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, >= 1
+  FrontierVoidStrategy strategy = {};  ///< what to make of the voids
+  FrontierSurveyOptions survey = {};   ///< what counts as observable
+};
+
+/// What a plan of FrontierVoidPlanner was made from, for pictures and for those who want to look.
+struct VoidSearch {
+  VoidClusters voids;                        ///< all void cells
+  std::vector<FrontierVoid> frontier_voids;  ///< those with an observable frontier
+  std::vector<VoxelIndex> frontier;          ///< the observable frontier cells
+  std::vector<VoxelIndex> places;            ///< reachable cells with a utility
+  std::vector<std::uint64_t> utility;        ///< and what each has accumulated (Algorithm 1), in void cells
+};
+
+/// The search of voids of Dornhege & Kleiner 2011: voids, the frontiers through which they can be seen, places from
+/// which many of them can be (Algorithm 1), and of N views from the best places the one that sees most void cells
+/// (eq. 3).
+///
+/// The utility of a view is the number of distinct void cells that its rays end in, counted exactly. Of the frontier
+/// only what the survey that all planners share finds observable is looked through, so the search ends when
+/// everything is seen that can be, and what is left is reported by cause. docs/frontier_void.md names the place of
+/// every equation.
+class FrontierVoidPlanner final : public ExplorationPlanner {
+ public:
+  /// Throws std::invalid_argument naming the option or the part of the setup at fault.
+  explicit FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options = {});
+
+  /// "frontier-void".
+  [[nodiscard]] std::string_view name() const override { return "frontier-void"; }
+  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+
+  /// The options it was made with.
+  [[nodiscard]] const FrontierVoidOptions& options() const { return options_; }
+  /// What the last plan was made from; empty where nothing observable was left.
+  [[nodiscard]] const VoidSearch& search() const { return search_; }
+
+ private:
+  struct Candidate {
+    Pose pose;
+    std::size_t void_cells = 0;
+    double value = 0.0;
+  };
+  struct Choice {
+    TargetView view;
+    std::vector<Pose> path;
+  };
+
+  template <class Visit>
+  void for_each_void_cell_seen(const Pose& view, const ViewRays& rays, Visit&& visit) const;
+  void follow(const OccupancyMap& map);
+  void extract(const OccupancyMap& map, const FrontierSurvey& survey);
+  void accumulate(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
+  [[nodiscard]] std::vector<Pose> sample_views(const OccupancyMap& map, const Pose& current,
+                                               PlanStatistics& statistics) const;
+  [[nodiscard]] double discounted(double utility, const Pose& current, const Eigen::Vector3d& place) const;
+  [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
+                                            const Pose& current) const;
+  [[nodiscard]] std::optional<Choice> choose(const OccupancyMap& map, const Pose& current,
+                                             const FrontierSurvey& survey, const std::vector<Pose>& views,
+                                             PlanStatistics& statistics) const;
+  [[nodiscard]] std::vector<Pose> views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
+                                                 PlanStatistics& statistics) const;
+  [[nodiscard]] std::optional<Choice> nearest_frontier(const OccupancyMap& map, const Pose& current,
+                                                       const FrontierSurvey& survey,
+                                                       PlanStatistics& statistics) const;
+
+  PlannerSetup setup_;
+  FrontierVoidOptions options_;
+  FailedViews failed_;
+  VoidSearch search_;
+  std::optional<RayCaster> caster_;  // of the map that was planned in last
+  std::optional<ViewRays> rays_;     // as dense as its cells ask for
+  std::optional<ViewRays> sparse_rays_;
+  const OccupancyMap* followed_ = nullptr;
+  OccupancyMap::Revision revision_ = 0;
+};
+
+}  // namespace vantage

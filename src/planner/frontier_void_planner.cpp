@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+//
+// Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
+#include <vantage/robot/grid_path.hpp>
+
+#include "geometry/dice.hpp"
+#include "map/option_rule.hpp"
+#include "planner/frontier_cycle.hpp"
+#include "raytrace/shared_work.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kSparse = 4.0;  // times the distance between rays, where many views are told apart
+
+void validate(const FrontierVoidOptions& options) {
+  const FrontierVoidStrategy& strategy = options.strategy;
+  detail::require_option(options.clusters.min_score > 0.0, "VoidClusterOptions::min_score",
+                         options.clusters.min_score, "> 0");
+  detail::require_option(options.most_vectors > 0, "FrontierVoidOptions::most_vectors", options.most_vectors, "> 0");
+  detail::require_option(options.views >= 1, "FrontierVoidOptions::views", options.views, ">= 1");
+  detail::require_option(strategy.orientations_per_place >= 1, "FrontierVoidStrategy::orientations_per_place",
+                         strategy.orientations_per_place, ">= 1");
+  detail::require_option(std::isfinite(strategy.place_spacing_m) && strategy.place_spacing_m >= 0.0,
+                         "FrontierVoidStrategy::place_spacing_m", strategy.place_spacing_m, ">= 0");
+  detail::require_option(std::isfinite(strategy.cost_per_m) && strategy.cost_per_m >= 0.0,
+                         "FrontierVoidStrategy::cost_per_m", strategy.cost_per_m, ">= 0");
+  detail::require_option(strategy.finalists >= 1, "FrontierVoidStrategy::finalists", strategy.finalists, ">= 1");
+  detail::validate(options.survey);
+}
+
+bool sees_all_around(const RangeSensor& sensor) {
+  constexpr double kRounding = 1e-6;
+  return sensor.horizontal_angle_rad() >= 2.0 * std::numbers::pi - kRounding &&
+         sensor.vertical_angle_rad() >= std::numbers::pi - kRounding;
+}
+
+std::string volume(std::size_t cells, double cell_m) {
+  const double litres = static_cast<double>(cells) * std::pow(10.0 * cell_m, 3);
+  const std::string tenths = std::to_string(std::llround(10.0 * litres));
+  return std::to_string(cells) + " void cells (" + (tenths.size() > 1 ? tenths.substr(0, tenths.size() - 1) : "0") +
+         "." + tenths.back() + " dm^3)";
+}
+
+// Gives the places of most value first, as long as they are asked for; ties by number.
+class BestPlaces {
+ public:
+  explicit BestPlaces(std::vector<double> values) : before_{std::move(values)}, heap_(before_.values.size()) {
+    std::iota(heap_.begin(), heap_.end(), std::size_t{0});
+    std::make_heap(heap_.begin(), heap_.end(), std::cref(before_));
+  }
+  [[nodiscard]] bool empty() const { return heap_.empty(); }
+  std::size_t next() {
+    std::pop_heap(heap_.begin(), heap_.end(), std::cref(before_));
+    const std::size_t best = heap_.back();
+    heap_.pop_back();
+    return best;
+  }
+
+ private:
+  struct Before {
+    std::vector<double> values;
+    bool operator()(std::size_t a, std::size_t b) const {
+      return values[a] != values[b] ? values[a] < values[b] : a > b;
+    }
+  };
+  Before before_;
+  std::vector<std::size_t> heap_;
+};
+
+// Draws directions to look in from a place.
+class DirectionDraw {
+ public:
+  DirectionDraw(const OccupancyMap& map, const RangeSensor& sensor, const std::vector<FrontierVoid>& voids,
+                Dice& dice)
+      : map_(map), sensor_(sensor), voids_(voids), dice_(dice) {
+    for (const FrontierVoid& one : voids) {
+      total_ += one.utility;
+      up_to_.push_back(total_);
+    }
+  }
+
+  // Anywhere.
+  Eigen::Vector3d anywhere() { return dice_.direction(); }
+  // To a frontier cell in plain sight and range, of a void drawn by its utility; anywhere if none is found.
+  Eigen::Vector3d at_a_void(const Eigen::Vector3d& place, std::uint64_t& operations) {
+    constexpr int kDraws = 8;
+    for (int i = 0; i < kDraws; ++i) {
+      const auto drawn = std::upper_bound(up_to_.begin(), up_to_.end(), dice_.below(total_));
+      const std::vector<VoxelIndex>& frontier = voids_[static_cast<std::size_t>(drawn - up_to_.begin())].frontier;
+      const VoxelIndex cell = frontier[dice_.below(frontier.size())];
+      const Eigen::Vector3d line = map_.frame().centre_of(cell) - place;
+      if (line.norm() >= sensor_.min_range_m && line.norm() <= sensor_.max_range_m && line.norm() > 0.0 &&
+          in_plain_sight(map_, place, cell, operations)) {
+        return line;
+      }
+    }
+    return anywhere();
+  }
+
+ private:
+  const OccupancyMap& map_;
+  const RangeSensor& sensor_;
+  const std::vector<FrontierVoid>& voids_;
+  Dice& dice_;
+  std::vector<std::size_t> up_to_;
+  std::size_t total_ = 0;
+};
+
+}  // namespace
+
+FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options)
+    : setup_(setup), options_(options) {
+  detail::validate(setup);
+  validate(options);
+  options_.clusters.seed = setup.seed;
+  failed_ = FailedViews(options.survey.patience);
+}
+
+Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
+  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_);
+  PlanStatistics& statistics = cycle.plan().statistics;
+  search_ = {};
+  if (cycle.over()) {
+    statistics.void_cells = count_void_cells(map);
+    return cycle.plan();
+  }
+  const FrontierSurvey& survey = cycle.survey();
+  follow(map);
+  extract(map, survey);
+  statistics.void_cells = 0;
+  for (const VoidCluster& one : search_.voids.clusters()) {
+    statistics.void_cells += one.size;
+  }
+  accumulate(map, survey, statistics);
+
+  std::optional<Choice> choice = choose(map, current, survey, sample_views(map, current, statistics), statistics);
+  if (!choice) {
+    choice = choose(map, current, survey, views_of_voids(map, survey, statistics), statistics);
+  }
+  if (choice) {
+    const auto seen = static_cast<std::size_t>(choice->view.view.utility);
+    Plan plan = cycle.go(std::move(choice->view), std::move(choice->path));
+    plan.reason = "a view of " + volume(seen, map.resolution_m());
+    return plan;
+  }
+  if (!options_.strategy.beyond_voids) {
+    return cycle.blocked("no view sees a void (the best utility is 0); " + std::to_string(survey.targets.size()) +
+                         " observable frontier cells are left");
+  }
+  choice = nearest_frontier(map, current, survey, statistics);
+  if (!choice) {
+    return cycle.blocked("there is no way to any place that sees a frontier");
+  }
+  Plan plan = cycle.go(std::move(choice->view), std::move(choice->path));
+  plan.reason = "no view sees a void; " + plan.reason;
+  return plan;
+}
+
+void FrontierVoidPlanner::follow(const OccupancyMap& map) {
+  // At the same address another map may lie now; one that has moved on since is taken for the same.
+  if (!caster_ || followed_ != &map || revision_ >= map.revision()) {
+    caster_.emplace(map);
+    rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
+    sparse_rays_.emplace(setup_.sensor.rays_for(kSparse * map.resolution_m()));
+    followed_ = &map;
+  } else {
+    caster_->update();
+  }
+  revision_ = map.revision();
+}
+
+// IV-A and IV-B: frontier clusters, voids and what they have to do with each other.
+void FrontierVoidPlanner::extract(const OccupancyMap& map, const FrontierSurvey& survey) {
+  for (const FrontierTarget& target : survey.targets) {
+    search_.frontier.push_back(target.frontier);
+  }
+  search_.voids = cluster_void_cells(void_cells(map), map.frame(), options_.clusters);
+  search_.frontier_voids =
+      combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), options_.strategy.share);
+}
+
+// Algorithm 1, over what the platform can reach.
+void FrontierVoidPlanner::accumulate(const OccupancyMap& map, const FrontierSurvey& survey,
+                                     PlanStatistics& statistics) {
+  const std::vector<UtilityVector> vectors =
+      utility_vectors(search_.voids, search_.frontier_voids, map.frame(), options_.most_vectors);
+  const AccumulatedUtility utility =
+      accumulate_utility(map, survey.reachable, vectors, setup_.sensor.min_range_m, setup_.sensor.max_range_m);
+  statistics.ray_operations += utility.operations;
+  for (std::size_t i = 0; i < utility.cells.size(); ++i) {
+    if (utility.cells[i] > 0) {
+      search_.places.push_back(survey.reachable.cells()[i]);
+      search_.utility.push_back(utility.cells[i]);
+    }
+  }
+}
+
+double FrontierVoidPlanner::discounted(double utility, const Pose& current, const Eigen::Vector3d& place) const {
+  return utility / (1.0 + options_.strategy.cost_per_m * (place - current.translation()).norm());
+}
+
+// IV-C: orientations sampled at the places in the order of their utility, until there are N valid views.
+std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, const Pose& current,
+                                                    PlanStatistics& statistics) const {
+  const FrontierVoidStrategy& strategy = options_.strategy;
+  Dice dice(setup_.seed, map.revision());
+  DirectionDraw draw(map, setup_.sensor, search_.frontier_voids, dice);
+  std::vector<double> values(search_.places.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] =
+        discounted(static_cast<double>(search_.utility[i]), current, map.frame().centre_of(search_.places[i]));
+  }
+  const std::size_t orientations = sees_all_around(setup_.sensor) ? 1 : strategy.orientations_per_place;
+  std::vector<Pose> views;
+  std::vector<Eigen::Vector3d> taken;
+  for (BestPlaces best(std::move(values)); !best.empty() && views.size() < options_.views;) {
+    const Eigen::Vector3d place = map.frame().centre_of(search_.places[best.next()]);
+    if (std::any_of(taken.begin(), taken.end(),
+                    [&](const auto& other) { return (place - other).norm() < strategy.place_spacing_m; })) {
+      continue;
+    }
+    taken.push_back(place);
+    for (std::size_t i = 0; i < orientations && views.size() < options_.views; ++i) {
+      const Eigen::Vector3d direction =
+          strategy.aimed ? draw.at_a_void(place, statistics.ray_operations) : draw.anywhere();
+      const Pose view = setup_.platform->facing(place, direction);
+      if (setup_.platform->admits(map, view)) {
+        views.push_back(view);
+      }
+    }
+  }
+  return views;
+}
+
+// Views of what the survey knows to be observable: where sampling finds no view of a void, these tell whether there
+// is one.
+std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
+                                                      PlanStatistics& statistics) const {
+  std::vector<const FrontierTarget*> targets;
+  for (const FrontierTarget& target : survey.targets) {
+    if (search_.voids.number_at(target.unknown) != VoidClusters::kNone) {
+      targets.push_back(&target);
+    }
+  }
+  std::vector<Pose> views;
+  const std::size_t stride = targets.size() / options_.views + 1;
+  for (std::size_t i = 0; i < targets.size(); i += stride) {
+    const TargetView view =
+        view_of_target(map, *setup_.platform, setup_.sensor, survey, *targets[i], statistics.ray_operations);
+    if (setup_.platform->admits(map, view.view.pose)) {
+      views.push_back(view.view.pose);
+    }
+  }
+  return views;
+}
+
+// What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere
+// too often.
+template <class Visit>
+void FrontierVoidPlanner::for_each_void_cell_seen(const Pose& view, const ViewRays& rays, Visit&& visit) const {
+  const VoxelIndex place = caster_->frame().cell_of(view.translation());
+  caster_->visible_cells(view, rays, search_.voids.box()).for_each([&](const VoxelIndex& cell) {
+    if (search_.voids.number_at(cell) != VoidClusters::kNone && !failed_.gave_up(cell) &&
+        !failed_.failed_from(cell, place)) {
+      visit(cell);
+    }
+  });
+}
+
+// The void cells that each view sees; the best first.
+std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vector<Candidate> candidates,
+                                                                      const ViewRays& rays,
+                                                                      const Pose& current) const {
+  detail::share_work(candidates.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
+    Candidate& candidate = candidates[i];
+    candidate.void_cells = 0;
+    for_each_void_cell_seen(candidate.pose, rays, [&](const VoxelIndex&) { ++candidate.void_cells; });
+    candidate.value = discounted(static_cast<double>(candidate.void_cells), current, candidate.pose.translation());
+  });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  return candidates;
+}
+
+// Equation (3): the best of the views to which there is a way. One that resolves no frontier worth a view does not
+// count: unknown cells behind surfaces worn away are not.
+std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const OccupancyMap& map, const Pose& current,
+                                                                       const FrontierSurvey& survey,
+                                                                       const std::vector<Pose>& views,
+                                                                       PlanStatistics& statistics) const {
+  statistics.views_scored += views.size();
+  std::vector<Candidate> candidates(views.size());
+  std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{pose}; });
+  if (views.size() > options_.strategy.finalists) {
+    candidates = rank(std::move(candidates), *sparse_rays_, current);
+    candidates.resize(options_.strategy.finalists);
+  }
+  for (const Candidate& candidate : rank(std::move(candidates), *rays_, current)) {
+    if (candidate.void_cells == 0) {
+      break;
+    }
+    TargetView view = targets_seen_from(map, setup_.sensor, survey, candidate.pose, statistics.ray_operations);
+    if (view.unknown.empty()) {
+      continue;
+    }
+    view.view.utility = static_cast<double>(candidate.void_cells);
+    for_each_void_cell_seen(candidate.pose, *rays_, [&](const VoxelIndex& cell) { view.unknown.push_back(cell); });
+    if (auto path = setup_.platform->path(map, current, candidate.pose)) {
+      return Choice{std::move(view), std::move(*path)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::nearest_frontier(const OccupancyMap& map,
+                                                                                 const Pose& current,
+                                                                                 const FrontierSurvey& survey,
+                                                                                 PlanStatistics& statistics) const {
+  std::vector<VoxelIndex> viewpoints;
+  for (const FrontierTarget& target : survey.targets) {
+    viewpoints.push_back(target.viewpoint);
+  }
+  const GridPaths ways(survey.reachable);
+  for (const double detour_m : {0.0, std::numeric_limits<double>::max()}) {
+    for (const VoxelIndex& viewpoint : ways.nearest_within(viewpoints, detour_m, map.resolution_m())) {
+      const auto target = std::find_if(survey.targets.begin(), survey.targets.end(),
+                                       [&](const FrontierTarget& one) { return one.viewpoint == viewpoint; });
+      TargetView view =
+          view_of_target(map, *setup_.platform, setup_.sensor, survey, *target, statistics.ray_operations);
+      if (auto path = setup_.platform->path(map, current, view.view.pose)) {
+        view.view.utility = 0.0;
+        return Choice{std::move(view), std::move(*path)};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace vantage

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", Algorithm 1.
+#include <algorithm>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/view/utility_vectors.hpp>
+
+#include "map/option_rule.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kCorners = 7;
+
+// Of how many frontier cells one has its lines.
+std::size_t stride_for(std::span<const FrontierVoid> frontier_voids, std::size_t most) {
+  std::size_t lines = 0;
+  for (const FrontierVoid& one : frontier_voids) {
+    lines += kCorners * one.frontier.size();
+  }
+  return (lines + most - 1) / most;
+}
+
+}  // namespace
+
+std::vector<UtilityVector> utility_vectors(const VoidClusters& voids, std::span<const FrontierVoid> frontier_voids,
+                                           const VoxelFrame& frame, std::size_t most) {
+  detail::require_option(most > 0, "utility_vectors: most", most, "> 0");
+  const std::size_t stride = stride_for(frontier_voids, most);
+  std::vector<UtilityVector> vectors;
+  for (const FrontierVoid& one : frontier_voids) {
+    const auto corners = voids.clusters()[one.cluster].ellipsoid.corners();
+    for (std::size_t i = 0; i < one.frontier.size(); i += stride) {
+      const Eigen::Vector3d position = frame.centre_of(one.frontier[i]);
+      for (const Eigen::Vector3d& corner : corners) {
+        const Eigen::Vector3d line = position - corner;
+        if (const double length = line.norm(); length > 0.0) {
+          vectors.push_back({one.frontier[i], line / length, one.utility * stride});
+        }
+      }
+    }
+  }
+  return vectors;
+}
+
+AccumulatedUtility accumulate_utility(const OccupancyMap& map, const ReachableSpace& reachable,
+                                      std::span<const UtilityVector> vectors, double min_range_m,
+                                      double max_range_m) {
+  const VoxelFrame& frame = map.frame();
+  // No further than the known part of the map can reach: a sensor's range may be without bound.
+  const double furthest_m = std::min(max_range_m, frame.box_of(map.bounds()).extent().norm() + frame.size_m);
+  AccumulatedUtility utility{std::vector<std::uint64_t>(reachable.size(), 0)};
+  for (const UtilityVector& vector : vectors) {
+    const Eigen::Vector3d from = frame.centre_of(vector.frontier);
+    for (const VoxelIndex& cell : VoxelRay(frame, from, from + furthest_m * vector.direction)) {
+      ++utility.operations;
+      const std::uint32_t number = reachable.number_of(cell);
+      if (number == ReachableSpace::kOutside) {
+        if (!map.is_clear(cell)) {
+          break;
+        }
+      } else if ((frame.centre_of(cell) - from).squaredNorm() >= min_range_m * min_range_m) {
+        utility.cells[number] += vector.utility;
+      }
+    }
+  }
+  return utility;
+}
+
+}  // namespace vantage

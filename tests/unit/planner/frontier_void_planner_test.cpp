@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
+#include <vantage/raytrace/evaluate_view.hpp>
+#include <vantage/robot/free_flyer.hpp>
+
+#include "contract/cell_world.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::CellWorld;
+
+constexpr std::int32_t kX = 34;
+constexpr std::int32_t kY = 28;
+constexpr std::int32_t kZ = 18;
+const VoxelBox kChest{{18, 12, 4}, {26, 20, 12}};
+
+// A closed room with a chest in it whose side away from the start is open.
+CellWorld chest_world() {
+  CellWorld world{VoxelFrame{0.1}, VoxelGrid<std::uint8_t>({{0, 0, 0}, {kX, kY, kZ}}, 1), {4, 4, 8}};
+  const auto fill = [&](const VoxelBox& box, std::uint8_t value) {
+    for_each_cell(box, [&](const VoxelIndex& cell) { world.solid[cell] = value; });
+  };
+  fill({{1, 1, 1}, {kX - 1, kY - 1, kZ - 1}}, 0);
+  fill(kChest.grown(1), 1);
+  fill({kChest.lo, {kChest.hi.x + 1, kChest.hi.y, kChest.hi.z}}, 0);
+  return world;
+}
+
+struct Robot {
+  explicit Robot(bool yaw_only = false)
+      : platform(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1, .yaw_only = yaw_only})) {
+    map.assume_free(platform->body_box(pose));
+    for (const double yaw : {2.0, 3.6, 5.2, 0.5}) {
+      pose = pose_looking(pose.translation(), yaw);
+      look();
+    }
+  }
+
+  void look() { map.insert(testing::scan_cells_of(world, sensor, pose)); }
+  [[nodiscard]] PlannerSetup setup() const { return {sensor, platform, 3, 1}; }
+  [[nodiscard]] std::size_t unknown_in_the_chest() const {
+    std::size_t unknown = 0;
+    for_each_cell(kChest, [&](const VoxelIndex& cell) { unknown += map.at(cell) == Occupancy::Unknown ? 1U : 0U; });
+    return unknown;
+  }
+  // Plans and goes until the planner says that it is done; the last plan.
+  Plan run(FrontierVoidPlanner& planner) {
+    Plan plan = planner.plan(map, pose);
+    for (views = 1; plan.outcome == Outcome::Move && views < 150; ++views) {
+      pose = plan.goal.pose;
+      look();
+      plan = planner.plan(map, pose);
+    }
+    return plan;
+  }
+
+  CellWorld world = chest_world();
+  RangeSensor sensor = [] {
+    RangeSensor camera = RangeSensor::pinhole(96, 72, 1.2, 0.95, 0.2, 4.0);
+    camera.reports_no_return = true;
+    return camera;
+  }();
+  std::shared_ptr<const FreeFlyer> platform;
+  OccupancyMap map{{.resolution_m = 0.1, .region = world.frame.box_of(world.solid.box())}};
+  Pose pose = pose_looking(world.frame.centre_of(world.start), 0.5);
+  std::size_t views = 0;
+};
+
+TEST(FrontierVoidPlanner, LooksIntoTheChest) {
+  Robot robot;
+  FrontierVoidPlanner planner(robot.setup());
+  EXPECT_GT(robot.unknown_in_the_chest(), kChest.size() * 9 / 10);
+  const Plan last = robot.run(planner);
+  EXPECT_EQ(last.outcome, Outcome::Explored) << last.reason;
+  EXPECT_LT(robot.views, 40U);
+  EXPECT_EQ(robot.unknown_in_the_chest(), 0U);
+}
+
+TEST(FrontierVoidPlanner, SaysWhatAViewSeesExactly) {
+  Robot robot;
+  const auto fresh_plan = [&] { return FrontierVoidPlanner(robot.setup()).plan(robot.map, robot.pose); };
+  std::size_t compared = 0;
+  for (Plan plan = fresh_plan(); plan.outcome == Outcome::Move && compared < 12; plan = fresh_plan()) {
+    const std::vector<VoxelIndex> voids = void_cells(robot.map);
+    EXPECT_EQ(plan.statistics.void_cells, voids.size());
+    EXPECT_EQ(plan.statistics.frontier_cells, count_frontier_cells(robot.map));
+    CellSet seen;
+    (void)UniformRayTracer(robot.map).evaluate(plan.goal.pose, ViewRays(robot.sensor.rays_for(0.1)),
+                                               robot.map.bounds(), &seen);
+    const auto count =
+        std::count_if(voids.begin(), voids.end(), [&](const VoxelIndex& cell) { return seen.contains(cell); });
+    EXPECT_EQ(plan.goal.utility, static_cast<double>(count));
+    EXPECT_EQ(count == 0, plan.reason.find("no view sees a void") != std::string::npos) << plan.reason;
+    ++compared;
+    robot.pose = plan.goal.pose;
+    robot.look();
+  }
+  EXPECT_GE(compared, 6U);
+}
+
+TEST(FrontierVoidPlanner, ShowsWhatThePlanWasMadeFrom) {
+  const Robot robot;
+  FrontierVoidPlanner planner(robot.setup());
+  const Plan plan = planner.plan(robot.map, robot.pose);
+  ASSERT_EQ(plan.outcome, Outcome::Move);
+  const VoidSearch& search = planner.search();
+  EXPECT_EQ(search.frontier.size(), plan.statistics.observable_cells);
+  EXPECT_FALSE(search.frontier_voids.empty());
+  EXPECT_EQ(search.places.size(), search.utility.size());
+  EXPECT_GT(search.places.size(), 100U);
+  EXPECT_TRUE(std::all_of(search.utility.begin(), search.utility.end(), [](auto u) { return u > 0; }));
+  for (const VoxelIndex& cell : void_cells(robot.map)) {
+    ASSERT_NE(search.voids.number_at(cell), VoidClusters::kNone);
+  }
+}
+
+TEST(FrontierVoidPlanner, ALevelPlatformStaysLevel) {
+  Robot robot(true);
+  FrontierVoidPlanner planner(robot.setup());
+  const Plan last = robot.run(planner);
+  EXPECT_EQ(last.outcome, Outcome::Explored) << last.reason;
+  EXPECT_NEAR(optical_axis(robot.pose).z(), 0.0, 1e-9);
+  EXPECT_LT(robot.unknown_in_the_chest(), kChest.size() / 10);
+}
+
+// Free space without any obstacle: there is no hull, and so no void.
+TEST(FrontierVoidPlanner, EndsAsThePaperDoesOnlyWhenAsked) {
+  Robot robot;
+  OccupancyMap open({.resolution_m = 0.1});
+  open.assume_free({{-1, -1, -1}, {1, 1, 1}});
+  const Pose here = pose_looking({0.05, 0.05, 0.05}, 0.0);
+  const Plan on = FrontierVoidPlanner(robot.setup()).plan(open, here);
+  EXPECT_EQ(on.outcome, Outcome::Move);
+  EXPECT_EQ(on.goal.utility, 0.0);
+  EXPECT_NE(on.reason.find("no view sees a void"), std::string::npos) << on.reason;
+  const Plan end =
+      FrontierVoidPlanner(robot.setup(), {.strategy = FrontierVoidStrategy::faithful()}).plan(open, here);
+  EXPECT_EQ(end.outcome, Outcome::Blocked);
+  EXPECT_NE(end.reason.find("the best utility is 0"), std::string::npos) << end.reason;
+  EXPECT_GT(end.statistics.observable_cells, 0U);
+}
+
+TEST(FrontierVoidPlanner, ThePapersMethodLooksIntoTheChestToo) {
+  Robot robot;
+  FrontierVoidPlanner planner(robot.setup(), {.strategy = FrontierVoidStrategy::faithful()});
+  const Plan last = robot.run(planner);
+  EXPECT_NE(last.outcome, Outcome::Move);
+  EXPECT_EQ(robot.unknown_in_the_chest(), 0U) << last.reason;
+}
+
+TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
+  const Robot robot;
+  const auto message = [&](const FrontierVoidOptions& options) -> std::string {
+    try {
+      const FrontierVoidPlanner planner(robot.setup(), options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({}), "");
+  EXPECT_EQ(message({.clusters = {.min_score = -1.0}}), "VoidClusterOptions::min_score is -1, must be > 0");
+  EXPECT_EQ(message({.most_vectors = 0}), "FrontierVoidOptions::most_vectors is 0, must be > 0");
+  EXPECT_EQ(message({.views = 0}), "FrontierVoidOptions::views is 0, must be >= 1");
+  EXPECT_EQ(message({.strategy = {.orientations_per_place = 0}}),
+            "FrontierVoidStrategy::orientations_per_place is 0, must be >= 1");
+  EXPECT_EQ(message({.strategy = {.place_spacing_m = -1.0}}),
+            "FrontierVoidStrategy::place_spacing_m is -1, must be >= 0");
+  EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidStrategy::cost_per_m is -1, must be >= 0");
+  EXPECT_EQ(message({.strategy = {.finalists = 0}}), "FrontierVoidStrategy::finalists is 0, must be >= 1");
+}
+
+}  // namespace
+}  // namespace vantage
