@@ -19,7 +19,7 @@ using drawing::Canvas;
 using drawing::Colour;
 using drawing::MapSheet;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kFrontier{226, 38, 45};
 
 /// One layer of the field: phi, NaN where there is none, and its rank in [0, 1].
@@ -37,7 +37,7 @@ struct Slice {
 };
 
 Slice slice_of(const FieldContent& content, const VoxelBox& layer) {
-  Slice slice{VoxelGrid<double>(layer, kNone), {}};
+  Slice slice{VoxelGrid<double>(layer, kNoValue), {}};
   for (std::size_t i = 0; i < content.cells.size(); ++i) {
     if (layer.contains(content.cells[i])) {
       slice.phi[content.cells[i]] = content.phi[i];
@@ -77,7 +77,7 @@ cv::Mat image_of(const OccupancyMap& map, const FieldContent& content, const Sli
 Eigen::Vector2d downhill(const Slice& slice, const VoxelIndex& cell) {
   const double here = slice.phi[cell];
   const auto phi = [&](std::int32_t dx, std::int32_t dy) {
-    const double value = slice.phi.value_or(cell + VoxelIndex{dx, dy, 0}, kNone);
+    const double value = slice.phi.value_or(cell + VoxelIndex{dx, dy, 0}, kNoValue);
     return std::isnan(value) ? here : value;
   };
   return {phi(-1, 0) - phi(1, 0), phi(0, -1) - phi(0, 1)};
