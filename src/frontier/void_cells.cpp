@@ -5,11 +5,10 @@
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 
+#include "frontier/on_facet.hpp"
+
 namespace vantage {
 namespace {
-
-// The centre of a cell on a facet belongs to the hull; this is what rounding may do to it, in cells.
-constexpr double kOnFacet = 1e-6;
 
 Eigen::Vector3d point_of(const VoxelIndex& cell) { return Eigen::Vector3d(cell.x, cell.y, cell.z); }
 
@@ -20,7 +19,7 @@ std::pair<std::int32_t, std::int32_t> row_span(const ConvexHull& hull, const Vox
   double hi = box.hi.x - 1;
   for (const ConvexHull::Plane& plane : hull.planes()) {
     const double slope = plane.normal.x();
-    const double rest = plane.distance({0.0, static_cast<double>(y), static_cast<double>(z)}) - kOnFacet;
+    const double rest = plane.distance({0.0, static_cast<double>(y), static_cast<double>(z)}) - detail::kOnFacet;
     if (std::abs(slope) < 1e-12) {
       if (rest > 0.0) {
         return {box.lo.x, box.lo.x};

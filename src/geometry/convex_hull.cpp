@@ -96,6 +96,10 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
     const Eigen::Vector3d normal(facet->normal[0], facet->normal[1], facet->normal[2]);
     planes_.push_back({normal, facet->offset - normal.dot(origin)});
   }
+  for (const vertexT* vertex = qhull->vertex_list; vertex != nullptr && vertex->next != nullptr;
+       vertex = vertex->next) {
+    corners_.push_back(points[static_cast<std::size_t>(qh_pointid(qhull.get(), vertex->point))]);
+  }
 }
 
 bool ConvexHull::contains(const Eigen::Vector3d& point, double tolerance) const {

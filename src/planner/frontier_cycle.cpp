@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vantage/frontier/frontiers.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 #include "map/option_rule.hpp"
@@ -12,21 +13,24 @@ namespace vantage::detail {
 namespace {
 
 FrontierSurvey checked_survey(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
-                              const FrontierSurveyOptions& options, FailedViews& failed) {
+                              const FrontierSurveyOptions& options, FailedViews& failed,
+                              std::optional<std::vector<VoxelIndex>> frontier) {
   validate(map, current);
   failed.review(map, current);
-  return survey_frontiers(map, *setup.platform, setup.sensor, current, options, failed);
+  return survey_frontiers(map, *setup.platform, setup.sensor, current, options, failed,
+                          frontier ? std::move(*frontier) : frontier_cells(map));
 }
 
 }  // namespace
 
 FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
-                             const FrontierSurveyOptions& options, FailedViews& failed)
+                             const FrontierSurveyOptions& options, FailedViews& failed,
+                             std::optional<std::vector<VoxelIndex>> frontier)
     : map_(map),
       current_(current),
       setup_(setup),
       failed_(failed),
-      survey_(checked_survey(map, current, setup, options, failed)) {
+      survey_(checked_survey(map, current, setup, options, failed, std::move(frontier))) {
   plan_.leftover = survey_.leftover;
   plan_.statistics.frontier_cells = survey_.frontier_cells;
   plan_.statistics.observable_cells = survey_.targets.size();

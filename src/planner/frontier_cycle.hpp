@@ -9,6 +9,7 @@
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
+#include <vector>
 
 namespace vantage::detail {
 
@@ -29,8 +30,10 @@ class Stopwatch {
 class FrontierCycle {
  public:
   /// Surveys; throws std::invalid_argument if `current` is not a pose in the map. `failed` outlives the cycle.
+  /// Whoever knows the frontier cells of the map already hands them over.
   FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
-                const FrontierSurveyOptions& options, FailedViews& failed);
+                const FrontierSurveyOptions& options, FailedViews& failed,
+                std::optional<std::vector<VoxelIndex>> frontier = std::nullopt);
 
   [[nodiscard]] const FrontierSurvey& survey() const { return survey_; }
   [[nodiscard]] Plan& plan() { return plan_; }

@@ -216,8 +216,13 @@ bool body_comes_near(const OccupancyMap& map, const Platform& platform, const Re
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                                 const Pose& current, const FrontierSurveyOptions& options,
                                 const FailedViews& failed) {
+  return survey_frontiers(map, platform, sensor, current, options, failed, frontier_cells(map));
+}
+
+FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
+                                const Pose& current, const FrontierSurveyOptions& options, const FailedViews& failed,
+                                std::vector<VoxelIndex> frontier) {
   FrontierSurvey survey{.reachable = ReachableSpace(map, platform, current)};
-  std::vector<VoxelIndex> frontier = frontier_cells(map);
   survey.frontier_cells = frontier.size();
 
   std::vector<VoxelIndex> hidden;

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
-#include <vantage/frontier/void_cells.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
@@ -129,20 +128,16 @@ FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setup, const Fronti
 }
 
 Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_);
+  follow(map);
+  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_, frontier_->cells());
   PlanStatistics& statistics = cycle.plan().statistics;
+  statistics.void_cells = void_cells_->cell_count();
   search_ = {};
   if (cycle.over()) {
-    statistics.void_cells = count_void_cells(map);
     return cycle.plan();
   }
   const FrontierSurvey& survey = cycle.survey();
-  follow(map);
   extract(map, survey);
-  statistics.void_cells = 0;
-  for (const VoidCluster& one : search_.voids.clusters()) {
-    statistics.void_cells += one.size;
-  }
   accumulate(map, survey, statistics);
 
   std::optional<Choice> choice = choose(map, current, survey, sample_views(map, current, statistics), statistics);
@@ -172,11 +167,15 @@ void FrontierVoidPlanner::follow(const OccupancyMap& map) {
   // At the same address another map may lie now; one that has moved on since is taken for the same.
   if (!caster_ || followed_ != &map || revision_ >= map.revision()) {
     caster_.emplace(map);
+    frontier_.emplace(map);
+    void_cells_.emplace(map);
     rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
     sparse_rays_.emplace(setup_.sensor.rays_for(kSparse * map.resolution_m()));
     followed_ = &map;
   } else {
     caster_->update();
+    frontier_->update();
+    void_cells_->update();
   }
   revision_ = map.revision();
 }
@@ -186,7 +185,7 @@ void FrontierVoidPlanner::extract(const OccupancyMap& map, const FrontierSurvey&
   for (const FrontierTarget& target : survey.targets) {
     search_.frontier.push_back(target.frontier);
   }
-  search_.voids = cluster_void_cells(void_cells(map), map.frame(), options_.clusters);
+  search_.voids = cluster_void_cells(void_cells_->unordered_cells(), map.frame(), options_.clusters);
   search_.frontier_voids =
       combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), options_.strategy.share);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// frontier/<way>/<world>: the frontier after one more scan of a depth camera, in a map that 60 scans from all over
-// the world have made. `incremental` keeps cells and clusters up to date; `full` finds both from nothing,
-// `full_cells` the cells alone.
+// frontier/<way>/<world> and void/<way>/<world>: frontier and void cells after one more scan of a depth camera, in a
+// map that 60 scans from all over the world have made. `incremental` keeps cells and clusters up to date; `full`
+// finds both from nothing, `full_cells` the cells alone. plan/<planner>/<world>: a whole plan in that map.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -10,7 +10,11 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vantage/frontier/frontier_tracker.hpp>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/frontier/void_tracker.hpp>
+#include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/truth.hpp>
@@ -21,6 +25,9 @@ namespace {
 
 constexpr std::size_t kBefore = 60;
 constexpr std::size_t kMeasured = 40;
+constexpr std::size_t kPlanned = 10;
+
+const FreeFlyerOptions kRobot{.radius_m = 0.2};
 
 struct Sequence {
   double resolution_m;
@@ -30,7 +37,7 @@ struct Sequence {
 Sequence record(const World& world, double resolution_m) {
   const Truth truth(world, resolution_m, world.region);
   SimulatedSensor camera(TriangleScene(world.mesh), RangeSensor::preset("realsense"));
-  const FreeFlyer flyer(FreeFlyerOptions{.radius_m = 0.2});
+  const FreeFlyer flyer(kRobot);
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   Sequence sequence{resolution_m, {}};
@@ -94,6 +101,36 @@ void full(benchmark::State& state, const std::string& world) {
       [](const OccupancyMap& map) { benchmark::DoNotOptimize(frontier_clusters(frontier_cells(map))); });
 }
 
+void voids_incremental(benchmark::State& state, const std::string& world) {
+  std::unique_ptr<VoidTracker> tracker;
+  std::size_t new_hulls = 0;
+  after_every_scan(
+      state, world, [&](const OccupancyMap& map) { tracker = std::make_unique<VoidTracker>(map); },
+      [&](const OccupancyMap&) { new_hulls += tracker->update() ? 1U : 0U; });
+  state.counters["void_cells"] = static_cast<double>(tracker->cell_count());
+  state.counters["new_hulls"] = static_cast<double>(new_hulls);
+}
+
+void voids_full(benchmark::State& state, const std::string& world) {
+  after_every_scan(
+      state, world, [](const OccupancyMap&) {},
+      [](const OccupancyMap& map) { benchmark::DoNotOptimize(void_cells(map)); });
+}
+
+void plan(benchmark::State& state, std::string_view name, const std::string& world) {
+  const auto flyer = std::make_shared<const FreeFlyer>(kRobot);
+  const auto planner = make_planner(name, {.sensor = RangeSensor::preset("realsense"), .platform = flyer});
+  const Sequence& sequence = sequence_of(world);
+  std::size_t next = kBefore;
+  Plan latest;
+  after_every_scan(
+      state, world,
+      [&](const OccupancyMap& map) { latest = planner->plan(map, sequence.scans[next - 1].world_from_sensor); },
+      [&](const OccupancyMap& map) { latest = planner->plan(map, sequence.scans[next++].world_from_sensor); });
+  state.counters["reachable_cells"] = static_cast<double>(latest.statistics.reachable_cells);
+  state.counters["void_cells"] = static_cast<double>(latest.statistics.void_cells);
+}
+
 void full_cells(benchmark::State& state, const std::string& world) {
   after_every_scan(
       state, world, [](const OccupancyMap&) {},
@@ -106,13 +143,23 @@ const bool registered = [] {
     worlds.insert(worlds.end(), {"house", "geb079"});
   }
   const std::map<std::string, void (*)(benchmark::State&, const std::string&)> ways{
-      {"incremental", incremental}, {"full", full}, {"full_cells", full_cells}};
+      {"frontier/incremental", incremental},
+      {"frontier/full", full},
+      {"frontier/full_cells", full_cells},
+      {"void/incremental", voids_incremental},
+      {"void/full", voids_full}};
+  const auto add = [](const std::string& name, std::size_t iterations, auto run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(static_cast<benchmark::IterationCount>(iterations));
+  };
   for (const std::string& world : worlds) {
     for (const auto& [name, run] : ways) {
-      benchmark::RegisterBenchmark(("frontier/" + name + "/" + world).c_str(),
-                                   [run = run, world](benchmark::State& state) { run(state, world); })
-          ->Unit(benchmark::kMillisecond)
-          ->Iterations(kMeasured);
+      add(name + "/" + world, kMeasured, [run = run, world](benchmark::State& state) { run(state, world); });
+    }
+    for (const std::string_view planner : planner_names()) {
+      add("plan/" + std::string(planner) + "/" + world, kPlanned,
+          [planner, world](benchmark::State& state) { plan(state, planner, world); });
     }
   }
   return true;

@@ -33,11 +33,14 @@ class ConvexHull {
   [[nodiscard]] const std::string& reason() const { return reason_; }
   /// The planes that bound it.
   [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
+  /// Those of the points that span it: their hull is the same. None where it is empty.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& corners() const { return corners_; }
   /// Whether `point` lies in the hull or at most `tolerance` beyond one of its planes.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point, double tolerance = 1e-9) const;
 
  private:
   std::vector<Plane> planes_;
+  std::vector<Eigen::Vector3d> corners_;
   std::string reason_ = "there are no points";
 };
 

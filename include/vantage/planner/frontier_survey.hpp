@@ -61,6 +61,11 @@ struct FrontierSurvey {
 [[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
                                               const RangeSensor& sensor, const Pose& current,
                                               const FrontierSurveyOptions& options, const FailedViews& failed);
+/// The same for those who know the frontier cells of the map already (FrontierTracker), in raster order.
+[[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
+                                              const RangeSensor& sensor, const Pose& current,
+                                              const FrontierSurveyOptions& options, const FailedViews& failed,
+                                              std::vector<VoxelIndex> frontier);
 
 /// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free
 /// and not contested.

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
+#include <vantage/frontier/void_tracker.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
@@ -122,8 +124,11 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   FrontierVoidOptions options_;
   FailedViews failed_;
   VoidSearch search_;
-  std::optional<RayCaster> caster_;  // of the map that was planned in last
-  std::optional<ViewRays> rays_;     // as dense as its cells ask for
+  // Of the map that was planned in last:
+  std::optional<RayCaster> caster_;
+  std::optional<FrontierTracker> frontier_;
+  std::optional<VoidTracker> void_cells_;
+  std::optional<ViewRays> rays_;  // as dense as its cells ask for
   std::optional<ViewRays> sparse_rays_;
   const OccupancyMap* followed_ = nullptr;
   OccupancyMap::Revision revision_ = 0;

@@ -75,6 +75,7 @@ TEST(ConvexHull, AGridOfPointsIsABox) {
   }
   const ConvexHull hull(points);
   EXPECT_EQ(hull.planes().size(), 6U);
+  EXPECT_EQ(ConvexHull(hull.corners()).planes().size(), 6U);
   EXPECT_TRUE(hull.contains({4.0, 5.0, 6.0}));
   EXPECT_FALSE(hull.contains({4.0, 5.0, 6.001}));
   EXPECT_TRUE(hull.contains({4.0, 5.0, 6.001}, 0.01));

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/frontier/void_tracker.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr std::int32_t kExtent = 20;
+
+// What happens to a map: scans come in, from ever further away, cells at the rim of all that is occupied become
+// free, and boxes become free or unknown again.
+void change(OccupancyMap& map, int step, std::mt19937& engine) {
+  std::uniform_int_distribution<std::int32_t> coordinate(-kExtent, kExtent);
+  const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
+  const std::size_t kind = engine() % 8;
+  if (kind < 5) {
+    Scan scan;
+    scan.world_from_sensor = pose_looking(map.frame().centre_of(lo), 0.0);
+    scan.max_range_m = 3.0;
+    std::normal_distribution<float> metre(0.0F, 0.03F * static_cast<float>(step));
+    for (int i = 0; i < 40; ++i) {
+      scan.points.emplace_back(metre(engine), metre(engine), metre(engine));
+    }
+    map.insert(scan);
+  } else if (kind == 5) {
+    const ConvexHull hull = occupied_hull(map);
+    if (!hull.empty()) {
+      const Eigen::Vector3d& corner = hull.corners()[engine() % hull.corners().size()];
+      const auto whole = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
+      map.set({whole(corner.x()), whole(corner.y()), whole(corner.z())}, Occupancy::Free);
+    }
+  } else {
+    const auto edge = static_cast<std::int32_t>(1 + engine() % 14);
+    for_each_cell({lo, lo + VoxelIndex{edge, edge, edge}},
+                  [&](const VoxelIndex& cell) { map.set(cell, static_cast<Occupancy>(kind == 6 ? 0 : 1)); });
+  }
+}
+
+// Against extraction from nothing, after every one of many changes.
+TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
+  std::mt19937 engine(71);
+  std::size_t compared = 0;
+  std::size_t cells = 0;
+  std::size_t hulls_kept = 0;
+  std::size_t hulls_grown = 0;
+  std::size_t hulls_shrunk = 0;
+  for (int world = 0; world < 10; ++world) {
+    OccupancyMapOptions options{.resolution_m = 0.1};
+    if (world % 3 == 2) {
+      options.region = Box{{-1.35, -1.85, -2.0}, {2.2, 1.45, 1.95}};
+    }
+    OccupancyMap map(options);
+    VoidTracker tracker(map);
+    EXPECT_EQ(tracker.cell_count(), 0U);
+    for (int step = 0; step < 30; ++step) {
+      const ConvexHull before = tracker.hull();
+      change(map, step, engine);
+      const bool hull_changed = tracker.update();
+      const std::vector<VoxelIndex> expected = void_cells(map);
+      ASSERT_EQ(tracker.cells(), expected) << "world " << world << ", step " << step;
+      ASSERT_EQ(tracker.cell_count(), expected.size());
+      const ConvexHull hull = occupied_hull(map);
+      for (const Eigen::Vector3d& corner : hull.corners()) {
+        ASSERT_TRUE(tracker.hull().contains(corner, 1e-6));
+      }
+      hulls_kept += !hull_changed && !before.empty() ? 1U : 0U;
+      const auto& corners = tracker.hull().corners();
+      const bool shrunk = !before.empty() && !std::all_of(before.corners().begin(), before.corners().end(),
+                                                          [&](auto& c) { return tracker.hull().contains(c, 1e-6); });
+      hulls_shrunk += shrunk ? 1U : 0U;
+      hulls_grown +=
+          !shrunk && std::any_of(corners.begin(), corners.end(), [&](auto& c) { return !before.contains(c, 1e-6); })
+              ? 1U
+              : 0U;
+      ++compared;
+      cells += expected.size();
+    }
+    EXPECT_FALSE(tracker.update()) << "nothing has changed";
+  }
+  EXPECT_EQ(compared, 10U * 30U);
+  EXPECT_GT(cells, 1'000'000U);
+  EXPECT_GT(hulls_kept, 50U);
+  EXPECT_GT(hulls_grown, 50U);
+  EXPECT_GT(hulls_shrunk, 10U);
+}
+
+// Points, lines and planes of occupied cells span nothing, until one lies beside them; and then they may again.
+TEST(VoidTracker, KeepsUpWithCloudsWithoutVolume) {
+  OccupancyMap map({.resolution_m = 0.1});
+  VoidTracker tracker(map);
+  for (std::int32_t i = 0; i < 40; ++i) {
+    map.set({i % 8, i / 8 * 3, 5}, Occupancy::Occupied);
+    tracker.update();
+    ASSERT_TRUE(tracker.hull().empty());
+    ASSERT_EQ(tracker.cell_count(), 0U);
+  }
+  map.set({3, 3, 17}, Occupancy::Occupied);
+  EXPECT_TRUE(tracker.update());
+  EXPECT_GT(tracker.cell_count(), 100U);
+  EXPECT_EQ(tracker.cells(), void_cells(map));
+  map.set({3, 3, 17}, Occupancy::Free);
+  EXPECT_TRUE(tracker.update());
+  EXPECT_EQ(tracker.cell_count(), 0U);
+  map.set({3, 3, -9}, Occupancy::Occupied);
+  EXPECT_TRUE(tracker.update());
+  EXPECT_EQ(tracker.cells(), void_cells(map));
+  EXPECT_TRUE(tracker.contains({3, 3, 0}));
+  EXPECT_FALSE(tracker.contains({3, 3, 10}));
+}
+
+}  // namespace
+}  // namespace vantage
