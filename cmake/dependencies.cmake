@@ -13,6 +13,14 @@ if(VANTAGE_BUILD_VISION)
 endif()
 if(VANTAGE_BUILD_SIM)
   vantage_find(report PRIVATE nlohmann_json 3.10)
+  vantage_find(report PRIVATE ZLIB)
+  # Built into the library. A classic build, with THREE as a global: releases up to 147 have one.
+  find_file(VANTAGE_THREE_JS three.min.js PATHS /usr/share/javascript/three PATH_SUFFIXES build)
+  find_file(VANTAGE_ORBIT_CONTROLS_JS OrbitControls.js PATHS /usr/share/javascript/three/examples/js/controls)
+  if(NOT VANTAGE_THREE_JS OR NOT VANTAGE_ORBIT_CONTROLS_JS)
+    message(FATAL_ERROR "vantage::report needs three.js for its page, which was not found; install libjs-three, or set "
+                        "VANTAGE_THREE_JS and VANTAGE_ORBIT_CONTROLS_JS to three.min.js and OrbitControls.js")
+  endif()
 endif()
 if(VANTAGE_BUILD_SIM AND VANTAGE_BUILD_VISION)
   find_package(CLI11 2.1 REQUIRED)  # the program only: no component needs it

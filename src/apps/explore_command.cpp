@@ -16,6 +16,7 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
+#include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
 
 namespace vantage::apps {
@@ -76,12 +77,14 @@ int explore(const ExploreRequest& request) {
   std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
   FieldKeeper field;
+  RunRecording recording(*planner, request.out, recorder_setup(request, "explore", request.world, sensor));
   RunRecord record =
-      run.run(*planner, start_in(run, *platform, request), [&](const ViewRecord& view, const OccupancyMap& map) {
+      run.run(recording, start_in(run, *platform, request), [&](const ViewRecord& view, const OccupancyMap& map) {
         if (view.view == 1) {
           printer.head(request.planner, request.world, request.sensor, request.resolution_m, request.seed);
         }
         printer.view(view);
+        recording.look(view, map);
         if (view.plan_ms > 0.0 && !request.out.empty()) {
           field.look(*planner, map, view.view);
         }
@@ -93,6 +96,7 @@ int explore(const ExploreRequest& request) {
   record.threads = request.threads;
   record.resolution_m = request.resolution_m;
   printer.summary(record);
+  recording.finish(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, field.picture(), progress);
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }

@@ -114,6 +114,16 @@ std::optional<Pose> start_of(const ExploreRequest& request) {
   return pose_looking({n[0], n[1], n[2]}, n.size() > 3 ? n[3] * kRadians : 0.0, n.size() > 4 ? n[4] * kRadians : 0.0);
 }
 
+RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command, const std::string& world,
+                                const RangeSensor& sensor) {
+  return {.command = command,
+          .world = world,
+          .planner = request.planner,
+          .seed = request.seed,
+          .threads = request.threads,
+          .sensor = sensor};
+}
+
 PlannerSettings settings_of(const ExploreRequest& request) {
   PlannerSettings settings;
   for (const std::string& setting : request.settings) {

@@ -9,6 +9,7 @@
 #include <vantage/geometry/pose.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/report/run_recorder.hpp>
 #include <vantage/sim/world.hpp>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct ExploreRequest {
 [[nodiscard]] RangeSensor sensor_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
+[[nodiscard]] RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command,
+                                              const std::string& world, const RangeSensor& sensor);
 [[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
 /// The numbers of a list "1,2.5,-3" that `flag` was given.
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);

@@ -20,6 +20,7 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
+#include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
 #include "map/option_rule.hpp"
 
@@ -222,14 +223,17 @@ int reconstruct(const ReconstructRequest& request) {
   const bool json_on_stdout = shared.json == "-";
   std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
-  RunRecord record = run.run(*planner, start, [&](const ViewRecord& view, const OccupancyMap&) {
+  RunRecording recording(*planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
+  RunRecord record = run.run(recording, start, [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       printer.head(shared.planner, request.object, shared.sensor, shared.resolution_m, shared.seed);
     }
     printer.view(view);
+    recording.look(view, map);
   });
   record.command = "reconstruct";
   printer.summary(record);
+  recording.finish(record);
   write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress);
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }

@@ -88,14 +88,18 @@ void FieldKeeper::look(const ExplorationPlanner& planner, const OccupancyMap& ma
   picture_ = draw_field(map, content);
 }
 
-std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
-                                                   const OccupancyMap& map, const RangeSensor& sensor,
-                                                   const std::optional<Picture>& field) {
+void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
   }
+}
+
+std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
+                                                   const OccupancyMap& map, const RangeSensor& sensor,
+                                                   const std::optional<Picture>& field) {
+  make_folder(folder);
   std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
                                            folder / "coverage.png"};
   write_report_json(record, files[0]);

@@ -27,6 +27,9 @@ class FieldKeeper {
   std::optional<Picture> picture_;
 };
 
+/// Makes a folder and those above it where they are missing. Throws std::runtime_error naming it.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes report.json, map.ot and the pictures into `folder`, which is made; returns the files in order. Throws
 /// std::runtime_error naming what cannot be written.
 std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,

@@ -44,6 +44,9 @@ Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {
     ++statistics.views_scored;
     const double value =
         candidate.view.utility - options_.cost_per_m * platform.distance_m(current, candidate.view.pose);
+    if (candidate.view.utility > 0.0) {
+      cycle.plan().candidates.push_back(candidate.view);
+    }
     if (candidate.view.utility > 0.0 && (!best || value > best_value)) {
       best_value = value;
       best = std::move(candidate);

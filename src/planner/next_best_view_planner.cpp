@@ -73,6 +73,17 @@ std::vector<Pose> candidates_for(const OccupancyMap& map, const PlannerSetup& se
   return views;
 }
 
+// Those of any use, for whoever wants to look.
+std::vector<View> views_of(const std::vector<ScoredView>& scored) {
+  std::vector<View> views;
+  for (const ScoredView& view : scored) {
+    if (view.utility > 0.0) {
+      views.push_back({view.pose, view.utility});
+    }
+  }
+  return views;
+}
+
 // Line 4: straight there or around the object where the platform can go that way, for that is soon known; else by the
 // platform's own search.
 std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Platform& platform, const Pose& from,
@@ -195,6 +206,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     }
   }
   plan.statistics.views_scored = scored.size();
+  plan.candidates = views_of(scored);
 
   // Line 21. Cells given up only ever lower a utility, so the first exact one at the top is the best.
   CellSet left(object);
@@ -263,6 +275,7 @@ Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) 
   const std::vector<ScoredView> scored = score_views(*caster_, candidates, *rays_, cells_of_interest(map), factors,
                                                      static_cast<std::size_t>(setup_.threads));
   statistics.views_scored = scored.size();
+  cycle.plan().candidates = views_of(scored);
   std::priority_queue<Rank> ranks;
   for (std::size_t i = 0; i < scored.size(); ++i) {
     ranks.push({scored[i].utility, i, false});

@@ -67,6 +67,7 @@ struct ExplorationRun::Progress {
   double body_radius_m = 0.0;
   double path_length_m = 0.0;
   double since_scan_m = 0.0;
+  std::vector<Eigen::Vector3d> passed;  // since the scan before
   std::vector<VoxelIndex> observable;
   SurfaceCoverage surface;
   RunRecord record;
@@ -145,6 +146,7 @@ void ExplorationRun::scan(Progress& progress) {
   record.integration_operations += report.cells_hit + report.cells_cleared;
   view.view = record.views.size() + 1;
   view.pose = progress.pose;
+  view.passed = std::exchange(progress.passed, {});
   view.path_length_m = progress.path_length_m;
   if (options_.measure_coverage) {
     view.coverage = truth_.coverage(map_, progress.observable);
@@ -177,6 +179,7 @@ void ExplorationRun::move(Progress& progress, const Pose& to) {
     const bool hit = scene_.touches(progress.pose.translation(), to.translation(), progress.body_radius_m);
     progress.record.collisions += hit ? 1U : 0U;
     progress.record.travelled.push_back(to.translation());
+    progress.passed.push_back(to.translation());
   }
   progress.path_length_m += length_m;
   progress.since_scan_m += length_m;
@@ -226,8 +229,12 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
   map_ = OccupancyMap(options_.map);
-  Progress progress{SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),   start, 0.0, 0.0, 0.0, {},
-                    SurfaceCoverage(options_.surface_samples, options_.surface_gap_m), {}};
+  Progress progress{.sensor = SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),
+                    .pose = start,
+                    .passed = {start.translation()},
+                    .observable = {},
+                    .surface = SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
+                    .record = {}};
   if (options_.measure_coverage) {
     progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
   }

@@ -69,6 +69,9 @@ struct Plan {
   /// have made all of them known, the rest of the way is not worth following: plan again. Empty if the planner cannot
   /// say.
   std::vector<VoxelIndex> sought;
+  /// The views that were weighed against the goal, itself included, with their utilities; for whoever wants to look.
+  /// Empty for planners that weigh none.
+  std::vector<View> candidates;
   bool scan_on_the_way =
       true;           ///< false: before the goal none of `sought` is in sight, so a scan there can be spared
   Leftover leftover;  ///< what was given up

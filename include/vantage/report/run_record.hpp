@@ -39,6 +39,8 @@ struct ViewRecord {
   std::size_t frontier_cells = 0;          ///< after this scan; as last counted where no plan was made
   std::size_t void_cells = 0;              ///< after this scan; planners that look for voids
   Outcome outcome = Outcome::Move;         ///< of the plan made after this scan
+  /// Successive sensor positions since the scan before, this scan's the last; may be empty where nothing has moved.
+  std::vector<Eigen::Vector3d> passed = {};
 };
 
 /// The record of a run, by whatever host: enough for the report, the pictures and the tables.

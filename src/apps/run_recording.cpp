@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "apps/run_recording.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+#include <vantage/planner/harmonic_planner.hpp>
+
+#include "apps/run_files.hpp"
+
+namespace vantage::apps {
+namespace {
+
+const HarmonicField* field_of(const ExplorationPlanner& planner) {
+  const auto* harmonic = dynamic_cast<const HarmonicPlanner*>(&planner);
+  return harmonic == nullptr || !harmonic->field() ? nullptr : &*harmonic->field();
+}
+
+}  // namespace
+
+RunRecording::RunRecording(ExplorationPlanner& planner, std::filesystem::path folder, RunRecorderSetup setup)
+    : planner_(planner), folder_(std::move(folder)), setup_(std::move(setup)) {}
+
+Plan RunRecording::plan(const OccupancyMap& map, const Pose& current) {
+  Plan plan = planner_.plan(map, current);
+  if (!folder_.empty()) {
+    plan_ = plan;
+  }
+  return plan;
+}
+
+void RunRecording::look(const ViewRecord& view, const OccupancyMap& map) {
+  if (folder_.empty()) {
+    return;
+  }
+  if (!recorder_) {
+    make_folder(folder_);
+    recorder_.emplace(folder_ / "run.record", setup_);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  recorder_->record(map, view, plan_ ? &*plan_ : nullptr, plan_ ? field_of(planner_) : nullptr);
+  plan_.reset();
+  milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void RunRecording::finish(const RunRecord& run) {
+  if (recorder_) {
+    recorder_->finish(run);
+  }
+}
+
+std::optional<std::filesystem::path> RunRecording::file() const {
+  return recorder_ ? std::optional(folder_ / "run.record") : std::nullopt;
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// One run in three dimensions.
+
+// The bytes of a string in base64 that were packed by deflate.
+async function unpacked(text) {
+  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(stream).arrayBuffer();
+}
+
+function poseParts([x, y, z, qx, qy, qz, qw]) {
+  const turn = new THREE.Quaternion(qx, qy, qz, qw);
+  const along = (a, b, c) => new THREE.Vector3(a, b, c).applyQuaternion(turn);
+  return { at: new THREE.Vector3(x, y, z), right: along(1, 0, 0), down: along(0, 1, 0), ahead: along(0, 0, 1) };
+}
+
+class Scene {
+  constructor(container, run) {
+    this.container = container;
+    this.run = run;
+    this.replay = run.replay;
+    this.views = run.report.cycles;
+    this.layers = {};
+    this.slice = 0;
+    this.dirty = true;
+  }
+
+  async build() {
+    const { cell_m: cell, lo, hi } = this.replay;
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setClearColor(kColours.ground);
+    this.container.appendChild(this.renderer.domElement);
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(38, 1, 0.05, 1000);
+    this.camera.up.set(0, 0, 1);
+    const vector = (v) => new THREE.Vector3(...v);
+    this.low = vector(lo).multiplyScalar(cell);
+    this.high = vector(hi).multiplyScalar(cell);
+    this.reach = Math.max(this.high.distanceTo(this.low), 0.1);
+    this.common = {
+      lo: { value: vector(lo) }, cell: { value: cell }, now: { value: 1 }, last: { value: this.views.length },
+      cut: { value: 1e9 }, bottom: { value: this.low.z }, top: { value: this.high.z }, byTime: { value: 0 },
+      ramp: { value: null }, ground: { value: new THREE.Color(kColours.ground) },
+      glow: { value: new THREE.Color(0xffd98a) }, fogFrom: { value: 1 }, fogTo: { value: 2 },
+      pixels: { value: 1000 }, size: { value: new THREE.Vector2(1, 1) },
+    };
+    this.ramps = { height: rampTexture("height"), time: rampTexture("time") };
+    this.common.ramp.value = this.ramps.height;
+    await this.addCells();
+    this.addWays();
+    this.addField(await unpacked(this.replay.field.data));
+    this.placeCamera();
+    new ResizeObserver(() => this.resize()).observe(this.container);
+    this.resize();
+  }
+
+  async addCells() {
+    const { surfaces, voids, frontiers } = this.replay;
+    this.add("surfaces", new QuadLayer(await unpacked(surfaces.data), surfaces.counts, this.common, null).group);
+    if (voids.counts.some((n) => n > 0)) {
+      this.add("voids", new QuadLayer(await unpacked(voids.data), voids.counts, this.common, kColours.voids).group);
+    }
+    this.add("frontiers",
+      new PointLayer(await unpacked(frontiers.data), frontiers.count, this.common, kColours.frontier).group);
+  }
+
+  addWays() {
+    this.path = new LineLayer(this.common, kColours.path, 2.6, false);
+    this.path.setWay(this.replay.travelled);
+    this.plan = new LineLayer(this.common, kColours.plan, 2.2, true);
+    this.frustum = new LineLayer(this.common, kColours.sensor, 1.6, false);
+    this.candidates = new ArrowLayer(this.common);
+    this.add("path", this.path.group);
+    this.add("plan", this.plan.group);
+    this.add("sensor", this.frustum.group);
+    const cycles = this.replay.cycles;
+    if (cycles.some((cycle) => cycle.candidates && cycle.candidates.length > 0)) {
+      this.add("candidates", this.candidates.group);
+    }
+  }
+
+  // Columns of all samples: places in cells, directions, ranks of the potential.
+  addField(blob) {
+    const n = this.replay.field.count;
+    if (n === 0) return;
+    this.field = {
+      cell: new Uint16Array(blob, 0, 3 * n), way: new Int8Array(blob, 6 * n, 3 * n),
+      rank: new Uint8Array(blob, 9 * n, n), arrows: new ArrowLayer(this.common),
+    };
+    this.add("field", this.field.arrows.group);
+  }
+
+  // A layer is an object within a group, so that being switched off and having nothing to show do not mix.
+  add(name, object) {
+    this.layers[name] = new THREE.Group();
+    this.layers[name].add(object);
+    this.scene.add(this.layers[name]);
+  }
+
+  placeCamera() {
+    const middle = this.low.clone().add(this.high).multiplyScalar(0.5);
+    const extent = this.high.clone().sub(this.low);
+    this.camera.near = this.reach / 2000;
+    this.camera.far = this.reach * 20;
+    this.camera.position.copy(middle).add(new THREE.Vector3(-0.42, -0.8, 0.95).multiplyScalar(1.18 * this.reach));
+    if (extent.z < 0.35 * Math.max(extent.x, extent.y)) this.camera.position.z += 0.25 * this.reach;
+    this.camera.updateProjectionMatrix();
+    this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.target.copy(middle);
+    this.controls.screenSpacePanning = true;
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.12;
+    this.controls.minDistance = this.reach / 100;
+    this.controls.maxDistance = this.reach * 6;
+    this.controls.addEventListener("change", () => { this.dirty = true; });
+    this.controls.update();
+  }
+
+  resize() {
+    const [width, height] = [this.container.clientWidth, this.container.clientHeight];
+    if (width === 0 || height === 0) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.common.size.value.set(width, height);
+    this.common.pixels.value = height * ratio / Math.tan(THREE.Math.degToRad(this.camera.fov) / 2) * 0.5;
+    this.dirty = true;
+  }
+
+  // Shows the run as it was after view number `now`.
+  seek(now) {
+    this.now = Math.min(Math.max(now, 1), this.views.length);
+    this.common.now.value = this.now;
+    const view = this.views[this.now - 1];
+    this.path.uniforms.until.value = view.path_length_m;
+    const planned = this.replay.cycles.slice(0, this.now).reverse().find((cycle) => cycle.planned);
+    this.plan.setWay(planned && planned.path ? planned.path : []);
+    this.showSensor(poseParts(view.pose));
+    this.showCandidates(planned);
+    this.showField();
+    this.dirty = true;
+  }
+
+  showSensor({ at, right, down, ahead }) {
+    const sensor = this.replay.sensor;
+    const size = Math.min(sensor.max_range_m, 0.13 * this.reach);
+    const point = (x, y, z) =>
+      at.clone().addScaledVector(right, x).addScaledVector(down, y).addScaledVector(ahead, z).toArray().concat(0);
+    const segments = [];
+    if (sensor.pinhole) {
+      const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) =>
+        point(x * Math.tan(sensor.horizontal_rad / 2) * size, y * Math.tan(sensor.vertical_rad / 2) * size, size));
+      corners.forEach((corner, i) => segments.push([point(0, 0, 0), corner], [corner, corners[(i + 1) % 4]]));
+      segments.push([corners[0], point(0, -1.35 * Math.tan(sensor.vertical_rad / 2) * size, size)],
+        [corners[1], point(0, -1.35 * Math.tan(sensor.vertical_rad / 2) * size, size)]);
+    } else {
+      const steps = 40;
+      const half = sensor.horizontal_rad / 2;
+      const radius = 0.3 * size;
+      const ring = (tilt) => Array.from({ length: steps + 1 }, (_, i) => {
+        const turn = -half + 2 * half * i / steps;
+        return point(radius * Math.sin(turn) * Math.cos(tilt), -radius * Math.sin(tilt),
+          radius * Math.cos(turn) * Math.cos(tilt));
+      });
+      for (const tilt of [-sensor.vertical_rad / 3, 0, sensor.vertical_rad / 3]) {
+        const points = ring(tilt);
+        points.slice(1).forEach((p, i) => segments.push([points[i], p]));
+      }
+      segments.push([point(0, 0, 0), point(0, 0, 1.5 * radius)]);
+    }
+    this.frustum.setSegments(segments);
+  }
+
+  showCandidates(planned) {
+    const views = planned && planned.candidates ? planned.candidates : [];
+    const best = Math.max(...views.map((view) => view[6]), 1e-9);
+    const size = 0.016 * this.reach;
+    this.candidates.setArrows(views.map((view) => ({
+      at: view.slice(0, 3), way: view.slice(3, 6), colour: rampAt("utility", view[6] / best),
+      size: size * (0.55 + 0.75 * view[6] / best),
+    })));
+  }
+
+  // The samples in the layer next to the slice, of the last plan that has a field.
+  showField() {
+    if (!this.field) return;
+    const block = this.replay.field.blocks.filter((b) => b.view <= this.now).pop();
+    const arrows = [];
+    if (block) {
+      const { cell_m: cell, lo } = this.replay;
+      const { cell: places, way, rank } = this.field;
+      const zOf = (i) => (lo[2] + places[3 * i + 2] + 0.5) * cell;
+      let layer = Infinity;
+      for (let i = block.from; i < block.to; ++i) {
+        if (Math.abs(zOf(i) - this.slice) < Math.abs(layer - this.slice)) layer = zOf(i);
+      }
+      for (let i = block.from; i < block.to; ++i) {
+        const length = Math.hypot(way[3 * i], way[3 * i + 1], way[3 * i + 2]);
+        if (Math.abs(zOf(i) - layer) > 0.01 * cell || length === 0) continue;
+        arrows.push({
+          at: [0, 1, 2].map((k) => (lo[k] + places[3 * i + k] + 0.5) * cell),
+          way: [0, 1, 2].map((k) => way[3 * i + k] / length),
+          colour: rampAt("field", rank[i] / 255), size: 0.9 * block.step * cell,
+        });
+      }
+    }
+    this.field.arrows.setArrows(arrows);
+  }
+
+  setSlice(z) {
+    this.slice = z;
+    this.showField();
+    this.dirty = true;
+  }
+
+  setCut(z) {
+    this.common.cut.value = z;
+    this.dirty = true;
+  }
+
+  setColouring(byTime) {
+    this.common.byTime.value = byTime ? 1 : 0;
+    this.common.ramp.value = byTime ? this.ramps.time : this.ramps.height;
+    this.dirty = true;
+  }
+
+  setShown(name, shown) {
+    if (this.layers[name]) this.layers[name].visible = shown;
+    this.dirty = true;
+  }
+
+  draw() {
+    this.controls.update();
+    if (!this.dirty) return;
+    this.dirty = false;
+    const far = this.camera.position.distanceTo(this.controls.target);
+    this.common.fogFrom.value = far;
+    this.common.fogTo.value = far + 1.2 * this.reach;
+    this.renderer.render(this.scene, this.camera);
+  }
+}

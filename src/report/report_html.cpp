@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vantage/report/report_html.hpp>
+#include <vantage/report/report_json.hpp>
+#include <vector>
+
+#include "report/page_files.hpp"
+#include "report/replay.hpp"
+#include "report/replay_json.hpp"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+
+// A run as the page's script reads it. No "<", which could end that script.
+std::string run_script(const json& run) {
+  const std::string text = run.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return "<script type=\"application/json\" class=\"run\">" + safe + "</script>\n";
+}
+
+json parsed_report(const std::string& text) {
+  json report = json::parse(text, nullptr, false);
+  if (!report.is_object() || !report.contains("cycles") || !report.at("cycles").is_array() ||
+      !report.contains("time_ms") || !report.contains("planner")) {
+    throw std::invalid_argument("write_report_html: what is given is no report of a run");
+  }
+  return report;
+}
+
+// Surface coverage view by view is in the record only.
+json surface_json(const RunRecord& run) {
+  json shares = json::array();
+  for (const ViewRecord& view : run.views) {
+    shares.push_back(view.surface_coverage ? json(*view.surface_coverage) : json(nullptr));
+  }
+  return shares;
+}
+
+json run_json(json report, const detail::Replay* replay) {
+  json run = {{"report", std::move(report)}};
+  // Of another run, or of one that was still going on: then it does not belong to the report.
+  if (replay != nullptr && !replay->cycles.empty() && replay->cycles.size() == run["report"]["cycles"].size()) {
+    run["replay"] = detail::replay_json(*replay);
+    run["surface"] = surface_json(replay->run);
+  }
+  return run;
+}
+
+// The page with every {{name}} replaced by the file of that name, and {{runs}} by the runs.
+void write_page(const std::string& runs, const std::filesystem::path& html) {
+  std::ofstream out(html, std::ios::binary);
+  std::string_view page = detail::page_file("page.html");
+  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    out << page.substr(0, open) << (name == "runs" ? std::string_view(runs) : detail::page_file(name));
+    page.remove_prefix(close + 2);
+  }
+  out << page;
+  out.close();
+  if (!out) {
+    throw std::runtime_error(html.string() + ": cannot be written");
+  }
+}
+
+}  // namespace
+
+void write_report_html(std::span<const ReportedRun> runs, const std::filesystem::path& html) {
+  if (runs.empty()) {
+    throw std::invalid_argument("write_report_html: there is no run to show");
+  }
+  std::string scripts;
+  for (const ReportedRun& run : runs) {
+    json report = parsed_report(run.report);
+    if (run.record.empty()) {
+      scripts += run_script(run_json(std::move(report), nullptr));
+    } else {
+      const detail::Replay replay = detail::replay_of(run.record);
+      scripts += run_script(run_json(std::move(report), &replay));
+    }
+  }
+  write_page(scripts, html);
+}
+
+void write_report_html(const std::filesystem::path& record, const std::filesystem::path& html) {
+  const detail::Replay replay = detail::replay_of(record);
+  write_page(run_script(run_json(json::parse(report_json(replay.run)), &replay)), html);
+}
+
+}  // namespace vantage
