@@ -8,6 +8,7 @@
 #include <string>
 #include <vantage/map/octomap_bridge.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
 #include <vantage/vision/field_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
@@ -96,19 +97,25 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
+std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& run,
                                                    const OccupancyMap& map, const RangeSensor& sensor,
-                                                   const std::optional<Picture>& field) {
+                                                   const std::optional<Picture>& field,
+                                                   const std::optional<std::filesystem::path>& record) {
   make_folder(folder);
   std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
                                            folder / "coverage.png"};
-  write_report_json(record, files[0]);
+  write_report_json(run, files[0]);
   save_octomap(map, files[1]);
-  write_png(floor_plan(record, map, sensor), files[2]);
-  write_png(coverage_plot(record), files[3]);
+  write_png(floor_plan(run, map, sensor), files[2]);
+  write_png(coverage_plot(run), files[3]);
   if (field) {
     files.push_back(folder / "field.png");
     write_png(*field, files.back());
+  }
+  if (record) {
+    files.push_back(*record);
+    files.push_back(folder / "report.html");
+    write_report_html(std::vector<ReportedRun>{{report_json(run), *record}}, files.back());
   }
   return files;
 }
@@ -126,18 +133,19 @@ void check_targets(const std::string& out, const std::string& json) {
   }
 }
 
-void write_outputs(const std::string& out, const std::string& json, const RunRecord& record, const OccupancyMap& map,
-                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress) {
+void write_outputs(const std::string& out, const std::string& json, const RunRecord& run, const OccupancyMap& map,
+                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress,
+                   const std::optional<std::filesystem::path>& record) {
   if (!out.empty()) {
     progress << "\nwrote\n";
-    for (const std::filesystem::path& file : write_run_files(out, record, map, sensor, field)) {
+    for (const std::filesystem::path& file : write_run_files(out, run, map, sensor, field, record)) {
       progress << "  " << file.string() << '\n';
     }
   }
   if (json == "-") {
-    std::cout << report_json(record) << std::flush;
+    std::cout << report_json(run) << std::flush;
   } else if (!json.empty()) {
-    write_report_json(record, json);
+    write_report_json(run, json);
   }
 }
 

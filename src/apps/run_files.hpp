@@ -30,17 +30,20 @@ class FieldKeeper {
 /// Makes a folder and those above it where they are missing. Throws std::runtime_error naming it.
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes report.json, map.ot and the pictures into `folder`, which is made; returns the files in order. Throws
+/// Writes report.json, map.ot and the pictures into `folder`, which is made, and where the run left a record there,
+/// report.html; returns the files in order, the record among them. Throws
 /// std::runtime_error naming what cannot be written.
-std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& record,
+std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& run,
                                                    const OccupancyMap& map, const RangeSensor& sensor,
-                                                   const std::optional<Picture>& field);
+                                                   const std::optional<Picture>& field,
+                                                   const std::optional<std::filesystem::path>& record = std::nullopt);
 
 /// Refuses, before a run, an --out or a --json that could not be written. Throws std::runtime_error naming it.
 void check_targets(const std::string& out, const std::string& json);
 /// After a run: its files where `out` names a folder, telling `progress` which, and its report where `json` names a
 /// file or, as "-", stdout.
-void write_outputs(const std::string& out, const std::string& json, const RunRecord& record, const OccupancyMap& map,
-                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress);
+void write_outputs(const std::string& out, const std::string& json, const RunRecord& run, const OccupancyMap& map,
+                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress,
+                   const std::optional<std::filesystem::path>& record = std::nullopt);
 
 }  // namespace vantage::apps

@@ -40,7 +40,7 @@ void add_run_options(CLI::App& command, ExploreRequest& request) {
 }
 
 void add_output_options(CLI::App& command, ExploreRequest& request) {
-  command.add_option("--out", request.out, "Folder for report.json, map.ot and pictures")
+  command.add_option("--out", request.out, "Folder for report.html, report.json, run.record, map.ot and pictures")
       ->type_name("DIR")
       ->group("Output");
   command.add_option("--json", request.json, "The report; -: on stdout, and all else on stderr")

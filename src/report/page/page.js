@@ -27,15 +27,14 @@ function percent(share, digits = 1) {
 }
 
 // What a run is measured by: the world's cells, an object's surface, or nothing where the truth is not known.
-function shareOf({ report }, cycle) {
+function shareOf({ report, surface }, cycle) {
   if (report.coverage !== null && report.coverage !== undefined) return cycle.coverage;
-  return cycle.surface_coverage === undefined ? null : cycle.surface_coverage;
+  return surface ? surface[cycle.view - 1] : null;
 }
 
 function prepare(run, index) {
   let ms = 0;
   run.seconds = run.report.cycles.map((cycle) => (ms += cycle.insert_ms + cycle.plan_ms) / 1000);
-  if (run.surface) run.report.cycles.forEach((cycle, i) => { cycle.surface_coverage = run.surface[i]; });
   const planners = [...new Set(runs.map((r) => r.report.planner))];
   run.colour = several ? kRunColours[planners.indexOf(run.report.planner) % kRunColours.length] : kRunColours[0];
   run.index = index;
@@ -149,7 +148,7 @@ function drawCurves() {
   const from = state.abscissa === "view" ? 1 : 0;
   const measured = runs.some((run) => run.report.cycles.some((cycle) => shareOf(run, cycle) !== null));
   $("coverage-title").textContent = !measured ? "Coverage (no truth to measure by)"
-    : runs[0].report.coverage === null ? "Surface measured" : "Observable cells known rightly";
+    : runs[0].report.coverage === null ? "Surface measured" : "Cells known rightly";
   plots.coverage.begin([from, Math.max(...ends)], [0, 100], label, " %");
   for (const run of runs) {
     plots.coverage.curve(run.report.cycles.map((_, i) => abscissaOf(run, i)),

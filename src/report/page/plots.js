@@ -23,7 +23,7 @@ function short(value) {
   return String(+value.toPrecision(4));
 }
 
-// A plot with axes; `xLabel` and `unit` stand at their ends. Clicking calls `onPick` with the value of x.
+// A plot with axes; `xLabel` stands at the end of its axis, `unit` behind each y. Clicking calls `onPick` with the value of x.
 class Plot {
   constructor(element, onPick) {
     this.element = element;
@@ -49,9 +49,10 @@ class Plot {
         short(y) + unit;
     }
     for (const x of ticks(...this.span, 5)) {
+      if (this.x(x) > this.width - this.right - 8 * xLabel.length) continue;
       svg("text", { x: this.x(x), y: this.height - 6, "text-anchor": "middle" }, this.element).textContent = short(x);
     }
-    svg("text", { x: this.width - this.right, y: this.height - 20 - 5, "text-anchor": "end" }, this.element)
+    svg("text", { x: this.width - this.right, y: this.height - 6, "text-anchor": "end" }, this.element)
       .textContent = xLabel;
   }
 

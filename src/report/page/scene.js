@@ -135,7 +135,10 @@ class Scene {
     this.common.now.value = this.now;
     const view = this.views[this.now - 1];
     this.path.uniforms.until.value = view.path_length_m;
-    const planned = this.replay.cycles.slice(0, this.now).reverse().find((cycle) => cycle.planned);
+    const cycles = this.replay.cycles;
+    this.plannedAt = this.now;
+    while (this.plannedAt > 1 && !cycles[this.plannedAt - 1].planned) --this.plannedAt;
+    const planned = cycles[this.plannedAt - 1];
     this.plan.setWay(planned && planned.path ? planned.path : []);
     this.showSensor(poseParts(view.pose));
     this.showCandidates(planned);
@@ -183,10 +186,10 @@ class Scene {
     })));
   }
 
-  // The samples in the layer next to the slice, of the last plan that has a field.
+  // The samples in the layer next to the slice, of the plan that is followed.
   showField() {
     if (!this.field) return;
-    const block = this.replay.field.blocks.filter((b) => b.view <= this.now).pop();
+    const block = this.replay.field.blocks.find((b) => b.view === this.plannedAt);
     const arrows = [];
     if (block) {
       const { cell_m: cell, lo } = this.replay;
