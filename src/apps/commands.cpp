@@ -11,6 +11,7 @@
 
 #include "apps/help_format.hpp"
 #include "apps/map_command.hpp"
+#include "apps/report_commands.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -27,6 +28,7 @@ void add_map_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("FILE.bt|FILE.ot");
   command->add_option("--json", request->json, "The same as JSON; -: on stdout")->type_name("FILE|-");
+  command->footer("Example:\n  vantage map rooms/map.ot --json -");
   command->callback([request, &exit_code] { exit_code = run_map_command(request->file, request->json, std::cout); });
 }
 
@@ -57,6 +59,8 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_explore_command(app, exit_code);
   add_reconstruct_command(app, exit_code);
   add_replay_command(app, exit_code);
+  add_report_command(app);
+  add_compare_command(app);
   add_map_command(app, exit_code);
   add_list_command(app);
   // Not inherited by the commands, hence after them.

@@ -74,7 +74,8 @@ int explore(const ExploreRequest& request) {
   ExplorationRun run(world, sensor, platform, options);
 
   const bool json_on_stdout = request.json == "-";
-  std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
+  std::ostream silence(nullptr);
+  std::ostream& progress = request.quiet ? silence : json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
   FieldKeeper field;
   RunRecording recording(*planner, request.out, recorder_setup(request, "explore", request.world, sensor));
@@ -150,6 +151,10 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, *request);
   add_output_options(*command, *request);
   command->footer(
+      "Examples:\n"
+      "  vantage explore --world rooms --out rooms\n"
+      "  vantage explore --world office --planner frontier-gain --sensor kinect --set hypotheses=300 --seed 7\n"
+      "  vantage explore --world house.dae --up y --region -9,-5,0.1,9,5,2.4 --resolution 0.1 --json - --quiet\n"
       "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written), 3 the views were spent.");
   command->callback([request, &exit_code] { exit_code = explore(*request); });
 }

@@ -34,6 +34,7 @@ struct ExploreRequest {
   int threads = 1;
   std::string out;
   std::string json;
+  bool quiet = false;
   std::vector<std::string> settings;
 };
 

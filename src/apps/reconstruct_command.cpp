@@ -221,7 +221,8 @@ int reconstruct(const ReconstructRequest& request) {
   ExplorationRun run(world, sensor, platform, options);
 
   const bool json_on_stdout = shared.json == "-";
-  std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
+  std::ostream silence(nullptr);
+  std::ostream& progress = shared.quiet ? silence : json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
   RunRecord record = run.run(recording, start, [&](const ViewRecord& view, const OccupancyMap& map) {
@@ -286,6 +287,9 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, request->run);
   add_output_options(*command, request->run);
   command->footer(
+      "Examples:\n"
+      "  vantage reconstruct --object bunny.ply --table --out bunny\n"
+      "  vantage reconstruct --object cup.obj --up y --candidates 1280 --method uniform --json cup.json\n"
       "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written), 3 the views were "
       "spent.");
   command->callback([request, &exit_code] { exit_code = reconstruct(*request); });

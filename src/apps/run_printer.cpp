@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
-std::string bar(double share) {
+std::string drawn_bar(double share) {
   constexpr int kWidth = 24;
   const int full = std::clamp(static_cast<int>(std::floor(share * kWidth + 1e-9)), 0, kWidth);
   std::string drawn(kWidth + 3, '.');
@@ -31,6 +32,13 @@ std::string bar(double share) {
   drawn[kWidth + 1] = ']';
   drawn.back() = ' ';
   return drawn;
+}
+
+// "about 3 min": nobody needs it more exactly.
+std::string about(double seconds) {
+  return seconds < 99.5    ? format("about %.0f s", seconds)
+         : seconds < 5940. ? format("about %.0f min", seconds / 60.0)
+                           : format("about %.1f h", seconds / 3600.0);
 }
 
 double median(std::vector<double> values) {
@@ -52,24 +60,47 @@ std::string times(const char* what, const std::vector<double>& ms) {
 
 void RunPrinter::head(const std::string& planner, const std::string& world, const std::string& sensor,
                       double resolution_m, std::uint64_t seed) {
+  start_ = std::chrono::steady_clock::now();
   out_ << planner << (planner == "next-best-view" ? " looks at " : " explores ") << world << " with " << sensor
        << format(", cells of %g m, seed %llu\n", resolution_m, static_cast<unsigned long long>(seed)) << std::flush;
 }
 
-void RunPrinter::view(const ViewRecord& view) {
+std::string bar_text(const ViewRecord& view, double seconds) {
+  const std::optional<double> share = view.coverage ? view.coverage : view.surface_coverage;
+  std::string text;
+  if (share) {
+    text += drawn_bar(*share) + format("%5.1f %%  ", 100.0 * *share);
+  }
+  text += format("view %zu  %.1f m", view.view, view.path_length_m);
+  if (seconds > 0.0) {
+    text += format("  %.1f views/s", static_cast<double>(view.view) / seconds);
+  }
+  if (share && *share > 0.0 && *share < 1.0 && view.view > 1) {
+    text += "  " + about(seconds * (1.0 - *share) / *share) + " left";
+  }
+  return text;
+}
+
+void RunPrinter::view(const ViewRecord& view) { terminal_ ? bar(view) : line(view); }
+
+void RunPrinter::bar(const ViewRecord& view) {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  out_ << "\r" << bar_text(view, seconds) << "\x1b[K" << std::flush;  // to the end of the line nothing stays
+}
+
+void RunPrinter::line(const ViewRecord& view) {
   out_ << format("view %4zu  ", view.view);
   if (view.coverage) {
-    out_ << (terminal_ ? bar(*view.coverage) : "") << format("%5.1f %% known  ", 100.0 * *view.coverage);
+    out_ << format("%5.1f %% known  ", 100.0 * *view.coverage);
   }
   if (view.surface_coverage) {
-    out_ << format("%5.1f %% of the surface  %7.1f m  insert %6.1f ms  plan %8.1f ms\n",
-                   100.0 * *view.surface_coverage, view.path_length_m, view.insert_ms, view.plan_ms)
-         << std::flush;
-    return;
+    out_ << format("%5.1f %% of the surface  ", 100.0 * *view.surface_coverage);
   }
-  out_ << format("%7.1f m  %7zu frontier cells  insert %6.1f ms  plan %8.1f ms\n", view.path_length_m,
-                 view.frontier_cells, view.insert_ms, view.plan_ms)
-       << std::flush;
+  out_ << format("%7.1f m  ", view.path_length_m);
+  if (!view.surface_coverage) {
+    out_ << format("%7zu frontier cells  ", view.frontier_cells);
+  }
+  out_ << format("insert %6.1f ms  plan %8.1f ms\n", view.insert_ms, view.plan_ms) << std::flush;
 }
 
 void RunPrinter::summary(const RunRecord& record) {
@@ -81,7 +112,8 @@ void RunPrinter::summary(const RunRecord& record) {
       plan_ms.push_back(view.plan_ms);
     }
   }
-  out_ << "\n  " << format("%-12s ", "outcome") << to_string(record.outcome) << ": " << record.reason << '\n'
+  out_ << (terminal_ && !record.views.empty() ? "\n\n  " : "\n  ") << format("%-12s ", "outcome")
+       << to_string(record.outcome) << ": " << record.reason << '\n'
        << format("  %-12s %zu, over a path of %.1f m\n", "views", record.views.size(), record.path_length_m());
   if (record.coverage) {
     out_ << format("  %-12s %.2f %% of %zu observable cells\n", "coverage", 100.0 * *record.coverage,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
@@ -9,7 +10,7 @@
 
 namespace vantage::apps {
 
-/// Prints a run as it goes: a line per view, with a bar of the coverage where a person watches a terminal.
+/// Prints a run as it goes: one bar that moves where a person watches a terminal, else a line per view.
 class RunPrinter {
  public:
   RunPrinter(std::ostream& out, bool terminal) : out_(out), terminal_(terminal) {}
@@ -20,8 +21,16 @@ class RunPrinter {
   void summary(const RunRecord& record);
 
  private:
+  void line(const ViewRecord& view);
+  void bar(const ViewRecord& view);
+
   std::ostream& out_;
   bool terminal_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// What the bar says of a view, `seconds` after the start: share known, metres, views and their rate, and about how
+/// much is left, by how fast the unknown share has shrunk so far.
+[[nodiscard]] std::string bar_text(const ViewRecord& view, double seconds);
 
 }  // namespace vantage::apps

@@ -46,6 +46,7 @@ void add_output_options(CLI::App& command, ExploreRequest& request) {
   command.add_option("--json", request.json, "The report; -: on stdout, and all else on stderr")
       ->type_name("FILE|-")
       ->group("Output");
+  command.add_flag("-q,--quiet", request.quiet, "Nothing on the terminal but errors")->group("Output");
 }
 
 }  // namespace vantage::apps

@@ -16,7 +16,7 @@ void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* 
 void add_setting_option(CLI::App& command, ExploreRequest& request, const char* about);
 /// --resolution, --max-views, --seed and --threads.
 void add_run_options(CLI::App& command, ExploreRequest& request);
-/// --out and --json.
+/// --out, --json and --quiet.
 void add_output_options(CLI::App& command, ExploreRequest& request);
 
 }  // namespace vantage::apps

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "report/base64.hpp"
 #include "report/bytes.hpp"
 #include "report/record_chunk.hpp"
 
@@ -166,23 +167,6 @@ VoxelBox extent_of(const Replay& replay) {
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto at = [&](std::size_t k) -> std::uint32_t {
-      return i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U;
-    };
-    const std::uint32_t word = at(0) << 16U | at(1) << 8U | at(2);
-    text += kDigits[word >> 18U];
-    text += kDigits[word >> 12U & 63U];
-    text += i + 1 < bytes.size() ? kDigits[word >> 6U & 63U] : '=';
-    text += i + 2 < bytes.size() ? kDigits[word & 63U] : '=';
-  }
-  return text;
-}
 
 json replay_json(const Replay& replay) {
   const VoxelBox extent = extent_of(replay);

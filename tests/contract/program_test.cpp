@@ -160,7 +160,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
     EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
-  EXPECT_NE(run("dance").err.find("no command 'dance'; there are: explore, reconstruct, map, list"),
+  EXPECT_NE(run("dance").err.find("no command 'dance'; there are: explore, reconstruct, report, compare, map, list"),
             std::string::npos);
 }
 
@@ -208,6 +208,41 @@ TEST_F(Program, ExploresAndReports) {
   for (const char* name : {"report.json", "map.ot", "floor_plan.png", "coverage.png"}) {
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
     EXPECT_NE(ran.err.find(name), std::string::npos) << "the program names what it wrote: " << name;
+  }
+}
+
+TEST_F(Program, RecordsAndCompares) {
+  const std::string first = (folder_ / "first").string();
+  const std::string second = (folder_ / "second").string();
+  for (const std::string& folder : {first, second}) {
+    const Ran ran = run("explore " + std::string(kTable) + "--max-views 3 --quiet --seed " +
+                        (folder == first ? "1" : "2") + " --out '" + folder + "'");
+    EXPECT_EQ(ran.code, 3) << ran.err;
+    EXPECT_EQ(ran.out + ran.err, "") << "it is quiet";
+  }
+  const Ran compared = run("compare '" + first + "/report.json' '" + second + "/report.json' --out '" + out() + "'");
+  EXPECT_EQ(compared.code, 0) << compared.err;
+  EXPECT_NE(compared.out.find("nearest-frontier in table, 0.2 m  2     3 (3-3)"), std::string::npos) << compared.out;
+  EXPECT_GT(fs::file_size(fs::path(out()) / "report.html"), 500'000U);
+  EXPECT_TRUE(fs::exists(fs::path(out()) / "coverage.png"));
+
+  // As after a crash: the end is missing.
+  const fs::path record = fs::path(first) / "run.record";
+  fs::resize_file(record, fs::file_size(record) - 20);
+  const std::string morning = (folder_ / "morning").string();
+  const Ran reported = run("report '" + record.string() + "' --ply --out '" + morning + "'");
+  EXPECT_EQ(reported.code, 0) << reported.err;
+  EXPECT_NE(reported.out.find("3 views, budget: the record ends before the run does"), std::string::npos);
+  for (const char* name : {"report.html", "report.json", "map.ply", "points.ply"}) {
+    EXPECT_TRUE(fs::exists(fs::path(morning) / name)) << name;
+  }
+  const std::string nowhere = (folder_ / "nowhere").string();
+  for (const char* arguments : {"report /nowhere/run.record", "compare /nowhere/report.json",
+                                "report '" VANTAGE_PROGRAM "'", "compare '" VANTAGE_PROGRAM "'"}) {
+    const Ran ran = run(std::string(arguments) + " --out '" + nowhere + "'");
+    EXPECT_EQ(ran.code, 2) << arguments;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_FALSE(fs::exists(nowhere)) << arguments;
   }
 }
 

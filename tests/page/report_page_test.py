@@ -2,8 +2,10 @@
 """report_page_test.py PROGRAM: runs of the program as pages, looked at in a headless browser.
 
 Exit codes: 0 all is well, 1 something is not, 77 there is no browser here."""
+import base64
 import json
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -46,7 +48,6 @@ def value_at(report, key):
 
 
 def look(browser):
-    import base64
     data = base64.b64encode(browser.screenshot()).decode()
     return browser.evaluate(f"({LOOK})('{data}')")
 
@@ -99,6 +100,28 @@ def look_at_one_run(browser, folder):
     check(not browser.errors, browser.errors)
 
 
+def look_at_a_comparison(browser, folder, reports):
+    """Every run has its curve and its scene; medians are those of the reports."""
+    browser.open(os.path.join(folder, "report.html"))
+    check(browser.evaluate("scenes.length") == len(reports), "not every run is replayed")
+    check(browser.evaluate("document.querySelectorAll('#coverage .curve').length") == len(reports), "curves are missing")
+    rows = browser.evaluate("""[...document.querySelectorAll('#table tbody tr')].map((row) =>
+        Object.fromEntries([...row.cells].map((cell) => [cell.dataset.column, cell.dataset.value])))""")
+    check(len(rows) == 2, f"there are {len(rows)} groups of runs, not 2")
+    for column, key in (("views", "views"), ("path [m]", "path_length_m"), ("coverage", "coverage")):
+        groups = {}
+        for report in reports:
+            groups.setdefault(report["planner"], []).append(report[key])
+        medians = sorted(statistics.median(values) for values in groups.values())
+        shown = sorted(float(row[column]) for row in rows)
+        check(all(abs(a - b) < 1e-9 for a, b in zip(medians, shown)), f"{column}: {shown}, not {medians}")
+    browser.seek(1)
+    look(browser)
+    browser.seek(12)
+    check(look(browser)["changed"] > 1000, "the runs do not move")
+    check(not browser.errors, browser.errors)
+
+
 def main(program):
     if not find():
         print("Skipped: there is no Chromium here to look at a report with")
@@ -112,6 +135,18 @@ def main(program):
         for one in (rooms, table):
             with Browser() as browser:
                 look_at_one_run(browser, one)
+        again = os.path.join(folder, "again")
+        run(program, "explore", "--world", "table", "--planner", "frontier-gain", "--sensor", "kinect", "--seed", 2,
+            "--max-views", 8, "--out", again, "--quiet")
+        files = [os.path.join(one, "report.json") for one in (rooms, table, again)]
+        both = os.path.join(folder, "both")
+        run(program, "compare", *files, "--out", both)
+        reports = []
+        for name in files:
+            with open(name, encoding="utf-8") as file:
+                reports.append(json.load(file))
+        with Browser() as browser:
+            look_at_a_comparison(browser, both, reports)
     print(f"{checks} checks passed")
     return 0
 

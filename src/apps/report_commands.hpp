@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace CLI {  // NOLINT(readability-identifier-naming): named by CLI11
+class App;
+}
+
+namespace vantage::apps {
+
+/// `vantage report`: the page, the report and the exports of one record.
+void add_report_command(CLI::App& app);
+/// `vantage compare`: several reports side by side.
+void add_compare_command(CLI::App& app);
+
+}  // namespace vantage::apps

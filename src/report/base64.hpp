@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace vantage::detail {
+
+/// Bytes as letters (RFC 4648).
+[[nodiscard]] std::string base64(std::string_view bytes);
+
+}  // namespace vantage::detail

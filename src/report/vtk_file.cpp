@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "report/vtk_file.hpp"
+
+#include <fstream>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+#include "report/base64.hpp"
+#include "report/bytes.hpp"
+#include "report/record_chunk.hpp"
+
+namespace vantage::detail {
+namespace {
+
+constexpr int kLevel = 6;
+
+// Before packed bytes stand how many blocks there are, their length, the length of a last, shorter one (0: none is),
+// and the packed length of each; all in letters of their own.
+std::string packed_letters(const std::string& bytes) {
+  ByteWriter header;
+  if (bytes.empty()) {
+    header.word(0, 8);
+    header.word(0, 8);
+    header.word(0, 8);
+    return base64(header.bytes());
+  }
+  const std::string body = deflated(bytes, kLevel);
+  header.word(1, 8);
+  header.word(bytes.size(), 8);
+  header.word(0, 8);
+  header.word(body.size(), 8);
+  return base64(header.bytes()) + base64(body);
+}
+
+std::string array(std::string_view type, std::string_view name, int components, const ByteWriter& bytes) {
+  std::ostringstream out;
+  out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
+      << "\" format=\"binary\">" << packed_letters(bytes.bytes()) << "</DataArray>\n";
+  return out.str();
+}
+
+void write(const std::filesystem::path& file, std::string_view type, std::string_view content) {
+  std::ofstream out(file, std::ios::binary);
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type
+      << "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+         "compressor=\"vtkZLibDataCompressor\">\n"
+      << content << "</VTKFile>\n";
+  out.close();
+  if (!out) {
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+// Which points each cell of a list takes, and where it ends.
+std::string cell_arrays(std::size_t points, const std::vector<std::int32_t>& lengths) {
+  std::vector<std::int32_t> connectivity(points);
+  std::iota(connectivity.begin(), connectivity.end(), 0);
+  std::vector<std::int32_t> offsets(lengths.size());
+  std::partial_sum(lengths.begin(), lengths.end(), offsets.begin());
+  return vtk_array("connectivity", connectivity) + vtk_array("offsets", offsets);
+}
+
+}  // namespace
+
+std::string vtk_array(std::string_view name, const std::vector<float>& values, int components) {
+  ByteWriter bytes;
+  for (const float value : values) {
+    bytes.small_real(value);
+  }
+  return array("Float32", name, components, bytes);
+}
+
+std::string vtk_array(std::string_view name, const std::vector<std::uint8_t>& values) {
+  ByteWriter bytes;
+  for (const std::uint8_t value : values) {
+    bytes.byte(value);
+  }
+  return array("UInt8", name, 1, bytes);
+}
+
+std::string vtk_array(std::string_view name, const std::vector<std::int32_t>& values) {
+  ByteWriter bytes;
+  for (const std::int32_t value : values) {
+    bytes.word(static_cast<std::uint32_t>(value), 4);
+  }
+  return array("Int32", name, 1, bytes);
+}
+
+void write_vti(const VoxelBox& cells, const VoxelFrame& frame, std::string_view name,
+               const std::vector<std::uint8_t>& values, const std::filesystem::path& file) {
+  const VoxelIndex n = cells.extent();
+  const Eigen::Vector3d origin = frame.corner_of(cells.lo);
+  std::ostringstream out;
+  out.precision(17);
+  std::ostringstream extent;
+  extent << "0 " << n.x << " 0 " << n.y << " 0 " << n.z;
+  out << "<ImageData WholeExtent=\"" << extent.str() << "\" Origin=\"" << origin.x() << ' ' << origin.y() << ' '
+      << origin.z() << "\" Spacing=\"" << frame.size_m << ' ' << frame.size_m << ' ' << frame.size_m
+      << "\">\n<Piece Extent=\"" << extent.str() << "\">\n<CellData Scalars=\"" << name << "\">\n"
+      << vtk_array(name, values) << "</CellData>\n</Piece>\n</ImageData>\n";
+  write(file, "ImageData", out.str());
+}
+
+void write_vtp(const VtkPolyData& data, const std::filesystem::path& file) {
+  std::vector<float> coordinates;
+  coordinates.reserve(3 * data.points.size());
+  for (const Eigen::Vector3d& point : data.points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      coordinates.push_back(static_cast<float>(point[axis]));
+    }
+  }
+  const bool lines = !data.line_lengths.empty();
+  const std::size_t n = data.points.size();
+  std::ostringstream out;
+  out << "<PolyData>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"" << (lines ? 0 : n)
+      << "\" NumberOfLines=\"" << data.line_lengths.size()
+      << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n"
+      << data.point_arrays << "</PointData>\n<CellData>\n"
+      << data.line_arrays << "</CellData>\n<Points>\n"
+      << vtk_array("Points", coordinates, 3) << "</Points>\n";
+  if (lines) {
+    out << "<Lines>\n" << cell_arrays(n, data.line_lengths) << "</Lines>\n";
+  } else {
+    out << "<Verts>\n" << cell_arrays(n, std::vector<std::int32_t>(n, 1)) << "</Verts>\n";
+  }
+  out << "</Piece>\n</PolyData>\n";
+  write(file, "PolyData", out.str());
+}
+
+void write_pvd(const std::vector<std::pair<std::size_t, std::filesystem::path>>& parts,
+               const std::filesystem::path& file) {
+  std::ostringstream out;
+  out << "<Collection>\n";
+  for (const auto& [time, part] : parts) {
+    out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\""
+        << part.lexically_relative(file.parent_path()).generic_string() << "\"/>\n";
+  }
+  out << "</Collection>\n";
+  write(file, "Collection", out.str());
+}
+
+}  // namespace vantage::detail
