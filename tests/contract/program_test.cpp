@@ -160,7 +160,8 @@ TEST_F(Program, RefusesWhatItCannotDo) {
     EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
-  EXPECT_NE(run("dance").err.find("no command 'dance'; there are: explore, reconstruct, report, compare, map, list"),
+  EXPECT_NE(run("dance").err.find(
+                "no command 'dance'; there are: explore, reconstruct, replay, report, compare, map, list"),
             std::string::npos);
 }
 
