@@ -21,8 +21,6 @@
 namespace vantage::apps {
 namespace {
 
-using nlohmann::json;
-
 struct CompareRequest {
   std::vector<std::string> reports;
   std::string out;
@@ -32,7 +30,7 @@ struct CompareRequest {
 struct ComparedRun {
   std::string group;  // planner and world
   std::string name;   // with the seed
-  json report;
+  nlohmann::json report;
   double views = 0.0;
   double path_m = 0.0;
   double share = std::nan("");  // coverage, else surface coverage
@@ -40,13 +38,13 @@ struct ComparedRun {
   double plan_ms = std::nan("");
 };
 
-double number_or_nan(const json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+double number_or_nan(const nlohmann::json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
 
 ComparedRun compared(const std::string& file, const std::string& text) {
   try {
     ComparedRun run;
-    run.report = json::parse(text);
-    const json& report = run.report;
+    run.report = nlohmann::json::parse(text);
+    const nlohmann::json& report = run.report;
     std::ostringstream group;
     group << report.at("planner").get<std::string>() << " in "
           << std::filesystem::path(report.at("world").get<std::string>()).stem().string() << ", "
@@ -58,11 +56,11 @@ ComparedRun compared(const std::string& file, const std::string& text) {
     run.share =
         number_or_nan(report.at("coverage").is_null() ? report.at("surface_coverage") : report.at("coverage"));
     run.plan_ms = number_or_nan(report.at("time_ms").at("plan").at("median"));
-    for (const json& cycle : report.at("cycles")) {
+    for (const nlohmann::json& cycle : report.at("cycles")) {
       run.seconds += (cycle.at("insert_ms").get<double>() + cycle.at("plan_ms").get<double>()) / 1000.0;
     }
     return run;
-  } catch (const json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     throw std::runtime_error(file + ": is no report.json of a run");
   }
 }
@@ -75,7 +73,7 @@ std::string read_file(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
+double quantile_of(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(place);
   const std::size_t high = std::min(low + 1, sorted.size() - 1);
@@ -83,8 +81,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 // Median, and quartiles where there are several.
-std::string spread(const std::vector<const ComparedRun*>& runs, double ComparedRun::*member, int digits,
-                   double unit = 1.0) {
+std::string spread_of(const std::vector<const ComparedRun*>& runs, double ComparedRun::*member, int digits,
+                      double unit = 1.0) {
   std::vector<double> values;
   for (const ComparedRun* run : runs) {
     if (!std::isnan(run->*member)) {
@@ -96,9 +94,9 @@ std::string spread(const std::vector<const ComparedRun*>& runs, double ComparedR
   }
   std::sort(values.begin(), values.end());
   std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << quantile(values, 0.5);
+  text << std::fixed << std::setprecision(digits) << quantile_of(values, 0.5);
   if (values.size() > 1) {
-    text << " (" << quantile(values, 0.25) << "-" << quantile(values, 0.75) << ")";
+    text << " (" << quantile_of(values, 0.25) << "-" << quantile_of(values, 0.75) << ")";
   }
   return text.str();
 }
@@ -111,9 +109,9 @@ void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
   std::vector<std::vector<std::string>> rows{
       {"planner", "runs", "views", "path, m", "coverage, %", "computing, s", "plan, ms"}};
   for (const auto& [group, members] : groups) {
-    rows.push_back({group, std::to_string(members.size()), spread(members, &ComparedRun::views, 0),
-                    spread(members, &ComparedRun::path_m, 1), spread(members, &ComparedRun::share, 2, 100.0),
-                    spread(members, &ComparedRun::seconds, 1), spread(members, &ComparedRun::plan_ms, 1)});
+    rows.push_back({group, std::to_string(members.size()), spread_of(members, &ComparedRun::views, 0),
+                    spread_of(members, &ComparedRun::path_m, 1), spread_of(members, &ComparedRun::share, 2, 100.0),
+                    spread_of(members, &ComparedRun::seconds, 1), spread_of(members, &ComparedRun::plan_ms, 1)});
   }
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows) {
@@ -130,7 +128,7 @@ void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
   out << "(median, with quartiles where there are several runs)\n";
 }
 
-Picture coverage_plot(const std::vector<ComparedRun>& runs) {
+Picture overlaid_coverage(const std::vector<ComparedRun>& runs) {
   LinePlot views{.title = "coverage over views",
                  .x_label = "views (scans integrated)",
                  .y_label = "observable cells known rightly [%]",
@@ -142,7 +140,7 @@ Picture coverage_plot(const std::vector<ComparedRun>& runs) {
   for (const ComparedRun& run : runs) {
     LineSeries over_views{.name = run.name};
     LineSeries over_metres{.name = run.name};
-    for (const json& cycle : run.report.at("cycles")) {
+    for (const nlohmann::json& cycle : run.report.at("cycles")) {
       over_views.x.push_back(cycle.at("view").get<double>());
       over_metres.x.push_back(cycle.at("path_length_m").get<double>());
       over_views.y.push_back(100.0 * number_or_nan(cycle.at("coverage")));
@@ -170,7 +168,7 @@ void compare(const CompareRequest& request) {
   if (std::any_of(runs.begin(), runs.end(),
                   [](const ComparedRun& run) { return !run.report.at("coverage").is_null(); })) {
     files.push_back(folder / "coverage.png");
-    write_png(coverage_plot(runs), files.back());
+    write_png(overlaid_coverage(runs), files.back());
   }
   print_table(runs, std::cout);
   std::cout << "\nwrote\n";

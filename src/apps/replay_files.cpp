@@ -58,14 +58,6 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
   return side_by_side(pictures, kHeight);
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
-  }
-}
-
 void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(file);
   out << text;

@@ -22,8 +22,6 @@ namespace vantage::apps {
 std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
                                                       const std::string& json, const OccupancyMap& map);
 
-/// Makes a folder, with those above it. Throws std::runtime_error naming it.
-void make_folder(const std::filesystem::path& folder);
 /// Writes a text. Throws std::runtime_error naming the file.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

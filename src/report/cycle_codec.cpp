@@ -19,7 +19,7 @@ void put(ByteWriter& out, const Pose& pose) {
   }
 }
 
-Pose pose_of(ByteReader& in) {
+Pose pose_from(ByteReader& in) {
   Pose pose = Pose::Identity();
   Eigen::Vector3d at;
   at << in.real(), in.real(), in.real();
@@ -35,7 +35,7 @@ Pose pose_of(ByteReader& in) {
 
 void put(ByteWriter& out, const std::optional<double>& value) { out.real(value.value_or(std::nan(""))); }
 
-std::optional<double> optional_of(ByteReader& in) {
+std::optional<double> optional_from(ByteReader& in) {
   const double value = in.real();
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
@@ -48,7 +48,7 @@ void put(ByteWriter& out, const VoxelIndex& at, VoxelIndex& before) {
   before = at;
 }
 
-VoxelIndex index_of(ByteReader& in, VoxelIndex& before) {
+VoxelIndex index_from(ByteReader& in, VoxelIndex& before) {
   const auto step = [&in](std::int32_t from) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(in.integer()) + static_cast<std::uint32_t>(from));
   };
@@ -77,12 +77,12 @@ void put_view(ByteWriter& out, const ViewRecord& view) {
   }
 }
 
-ViewRecord view_of(ByteReader& in) {
+ViewRecord view_from(ByteReader& in) {
   ViewRecord view;
   view.view = static_cast<std::size_t>(in.count());
-  view.pose = pose_of(in);
-  view.coverage = optional_of(in);
-  view.surface_coverage = optional_of(in);
+  view.pose = pose_from(in);
+  view.coverage = optional_from(in);
+  view.surface_coverage = optional_from(in);
   for (double* value : {&view.path_length_m, &view.insert_ms, &view.plan_ms, &view.utility}) {
     *value = in.real();
   }
@@ -135,11 +135,11 @@ void read_plan(ByteReader& in, RecordedCycle& cycle) {
   cycle.reason = in.text();
   cycle.path.resize(in.length(56));
   for (Pose& pose : cycle.path) {
-    pose = pose_of(in);
+    pose = pose_from(in);
   }
   cycle.candidates.resize(in.length(64));
   for (View& view : cycle.candidates) {
-    view.pose = pose_of(in);
+    view.pose = pose_from(in);
     view.utility = in.real();
   }
   cycle.leftover.unreachable = static_cast<std::size_t>(in.count());
@@ -151,7 +151,7 @@ void read_plan(ByteReader& in, RecordedCycle& cycle) {
   cycle.field.resize(in.length(10));
   VoxelIndex before;
   for (FieldArrow& arrow : cycle.field) {
-    arrow.cell = index_of(in, before);
+    arrow.cell = index_from(in, before);
   }
   for (FieldArrow& arrow : cycle.field) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -210,7 +210,7 @@ std::string encode(const RecordedCycle& cycle, BrickStates& before) {
 RecordedCycle decode(std::string_view bytes, BrickStates& before) {
   ByteReader in(bytes);
   RecordedCycle cycle;
-  cycle.view = view_of(in);
+  cycle.view = view_from(in);
   cycle.planned = in.byte() != 0;
   if (cycle.planned) {
     read_plan(in, cycle);
@@ -218,7 +218,7 @@ RecordedCycle decode(std::string_view bytes, BrickStates& before) {
   cycle.changes.resize(in.length(5));
   VoxelIndex last;
   for (BrickState& change : cycle.changes) {
-    const VoxelIndex brick = index_of(in, last);
+    const VoxelIndex brick = index_from(in, last);
     BrickState& state = before.try_emplace(brick, BrickState{.brick = brick}).first->second;
     read_difference(in, state.known);
     read_difference(in, state.occupied);

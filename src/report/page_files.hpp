@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace vantage::detail {
 
 /// The bytes of a file of src/report/page, or of the library that draws in three dimensions ("three.js",
 /// "OrbitControls.js"), as they were when this library was built. Throws std::logic_error for any other name.
-[[nodiscard]] std::string_view page_file(std::string_view name);
+[[nodiscard]] std::string page_file(std::string_view name);
 
 }  // namespace vantage::detail

@@ -11,7 +11,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kLevel = 1;  // the fastest: cells that change lie together and pack well anyhow
+constexpr int kChunkLevel = 1;  // the fastest: cells that change lie together and pack well anyhow
 constexpr std::size_t kSizes = 9;
 constexpr std::size_t kFrame = kSizes + 4;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
@@ -38,7 +38,7 @@ std::string deflated(std::string_view bytes, int level) {
 }
 
 std::string packed(ChunkKind kind, std::string_view payload) {
-  const std::string body = deflated(payload, kLevel);
+  const std::string body = deflated(payload, kChunkLevel);
   if (payload.size() > kMostBytes || body.size() > kMostBytes) {
     throw std::runtime_error("one cycle of a record is longer than 1 GiB");
   }

@@ -9,9 +9,9 @@ namespace {
 
 using nlohmann::json;
 
-std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-json parse(const std::string& text) {
+json parsed_chunk(const std::string& text) {
   try {
     return json::parse(text);
   } catch (const json::exception&) {
@@ -20,7 +20,7 @@ json parse(const std::string& text) {
 }
 
 template <class T>
-void read(const json& object, const char* key, T& value) {
+void take(const json& object, const char* key, T& value) {
   const auto found = object.find(key);
   if (found != object.end() && !found->is_null()) {
     try {
@@ -31,14 +31,14 @@ void read(const json& object, const char* key, T& value) {
   }
 }
 
-void read(const json& object, const char* key, std::optional<double>& value) {
+void take(const json& object, const char* key, std::optional<double>& value) {
   const auto found = object.find(key);
   if (found != object.end() && found->is_number()) {
     value = found->get<double>();
   }
 }
 
-json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+json value_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 json sensor_json(const RangeSensor& sensor) {
   return {{"projection", sensor.projection == RangeSensor::Projection::Pinhole ? "pinhole" : "spherical"},
@@ -55,23 +55,23 @@ json sensor_json(const RangeSensor& sensor) {
           {"reports_no_return", sensor.reports_no_return}};
 }
 
-RangeSensor sensor_of(const json& object) {
+RangeSensor sensor_from(const json& object) {
   RangeSensor sensor;
   std::string projection = "pinhole";
-  read(object, "projection", projection);
+  take(object, "projection", projection);
   sensor.projection =
       projection == "spherical" ? RangeSensor::Projection::Spherical : RangeSensor::Projection::Pinhole;
-  read(object, "width", sensor.width);
-  read(object, "height", sensor.height);
-  read(object, "fx", sensor.fx);
-  read(object, "fy", sensor.fy);
-  read(object, "cx", sensor.cx);
-  read(object, "cy", sensor.cy);
-  read(object, "horizontal_fov_rad", sensor.horizontal_fov_rad);
-  read(object, "vertical_fov_rad", sensor.vertical_fov_rad);
-  read(object, "min_range_m", sensor.min_range_m);
-  read(object, "max_range_m", sensor.max_range_m);
-  read(object, "reports_no_return", sensor.reports_no_return);
+  take(object, "width", sensor.width);
+  take(object, "height", sensor.height);
+  take(object, "fx", sensor.fx);
+  take(object, "fy", sensor.fy);
+  take(object, "cx", sensor.cx);
+  take(object, "cy", sensor.cy);
+  take(object, "horizontal_fov_rad", sensor.horizontal_fov_rad);
+  take(object, "vertical_fov_rad", sensor.vertical_fov_rad);
+  take(object, "min_range_m", sensor.min_range_m);
+  take(object, "max_range_m", sensor.max_range_m);
+  take(object, "reports_no_return", sensor.reports_no_return);
   return sensor;
 }
 
@@ -86,23 +86,23 @@ std::string head_json(const RecordHead& head) {
     const VoxelBox& r = *head.region;
     object["region"] = {r.lo.x, r.lo.y, r.lo.z, r.hi.x, r.hi.y, r.hi.z};
   }
-  return dump(object);
+  return dumped(object);
 }
 
 RecordHead head_of(const std::string& text) {
-  const json object = parse(text);
+  const json object = parsed_chunk(text);
   RecordHead head;
-  read(object, "command", head.run.command);
-  read(object, "world", head.run.world);
-  read(object, "planner", head.run.planner);
-  read(object, "seed", head.run.seed);
-  read(object, "threads", head.run.threads);
-  read(object, "resolution_m", head.run.resolution_m);
+  take(object, "command", head.run.command);
+  take(object, "world", head.run.world);
+  take(object, "planner", head.run.planner);
+  take(object, "seed", head.run.seed);
+  take(object, "threads", head.run.threads);
+  take(object, "resolution_m", head.run.resolution_m);
   if (object.contains("sensor")) {
-    head.sensor = sensor_of(object.at("sensor"));
+    head.sensor = sensor_from(object.at("sensor"));
   }
   std::vector<std::int32_t> region;
-  read(object, "region", region);
+  take(object, "region", region);
   if (region.size() == 6) {
     head.region = VoxelBox{{region[0], region[1], region[2]}, {region[3], region[4], region[5]}};
   }
@@ -110,32 +110,32 @@ RecordHead head_of(const std::string& text) {
 }
 
 std::string end_json(const RunRecord& run) {
-  return dump({{"outcome", std::string(to_string(run.outcome))},
-               {"reason", run.reason},
-               {"coverage", or_null(run.coverage)},
-               {"observable_cells", run.observable_cells},
-               {"surface_coverage", or_null(run.surface_coverage)},
-               {"collisions", run.collisions},
-               {"integration_operations", run.integration_operations},
-               {"planning_operations", run.planning_operations},
-               {"peak_memory_mb", run.peak_memory_mb}});
+  return dumped({{"outcome", std::string(to_string(run.outcome))},
+                 {"reason", run.reason},
+                 {"coverage", value_or_null(run.coverage)},
+                 {"observable_cells", run.observable_cells},
+                 {"surface_coverage", value_or_null(run.surface_coverage)},
+                 {"collisions", run.collisions},
+                 {"integration_operations", run.integration_operations},
+                 {"planning_operations", run.planning_operations},
+                 {"peak_memory_mb", run.peak_memory_mb}});
 }
 
 void read_end(const std::string& text, RunRecord& run) {
-  const json object = parse(text);
+  const json object = parsed_chunk(text);
   std::string outcome;
-  read(object, "outcome", outcome);
+  take(object, "outcome", outcome);
   for (const RunOutcome each : {RunOutcome::Explored, RunOutcome::Blocked, RunOutcome::Budget}) {
     run.outcome = outcome == to_string(each) ? each : run.outcome;
   }
-  read(object, "reason", run.reason);
-  read(object, "coverage", run.coverage);
-  read(object, "observable_cells", run.observable_cells);
-  read(object, "surface_coverage", run.surface_coverage);
-  read(object, "collisions", run.collisions);
-  read(object, "integration_operations", run.integration_operations);
-  read(object, "planning_operations", run.planning_operations);
-  read(object, "peak_memory_mb", run.peak_memory_mb);
+  take(object, "reason", run.reason);
+  take(object, "coverage", run.coverage);
+  take(object, "observable_cells", run.observable_cells);
+  take(object, "surface_coverage", run.surface_coverage);
+  take(object, "collisions", run.collisions);
+  take(object, "integration_operations", run.integration_operations);
+  take(object, "planning_operations", run.planning_operations);
+  take(object, "peak_memory_mb", run.peak_memory_mb);
 }
 
 }  // namespace vantage::detail

@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr int kTightly = 9;
 
-std::string blob(const ByteWriter& bytes) { return base64(deflated(bytes.bytes(), kTightly)); }
+std::string packed_columns(const ByteWriter& bytes) { return base64(deflated(bytes.bytes(), kTightly)); }
 
 double to_millimetres(double metres) { return std::round(1000.0 * metres) / 1000.0; }
 
@@ -55,7 +55,7 @@ json quads_json(const std::array<std::vector<TimedQuad>, 6>& directions, const V
   put_column(columns, quads, [](const TimedQuad& quad) { return quad.height; });
   put_column(columns, quads, [](const TimedQuad& quad) { return quad.birth; });
   put_column(columns, quads, [](const TimedQuad& quad) { return quad.death; });
-  return {{"counts", std::move(counts)}, {"data", blob(columns)}};
+  return {{"counts", std::move(counts)}, {"data", packed_columns(columns)}};
 }
 
 json cells_json(const std::vector<TimedCell>& cells, const VoxelIndex& lo) {
@@ -63,7 +63,7 @@ json cells_json(const std::vector<TimedCell>& cells, const VoxelIndex& lo) {
   put_cells(columns, cells, lo);
   put_column(columns, cells, [](const TimedCell& cell) { return cell.birth; });
   put_column(columns, cells, [](const TimedCell& cell) { return cell.death; });
-  return {{"count", cells.size()}, {"data", blob(columns)}};
+  return {{"count", cells.size()}, {"data", packed_columns(columns)}};
 }
 
 // Where each potential stands among the others of its cycle: 0 for the lowest, 255 for the highest.
@@ -120,7 +120,7 @@ json field_json(const std::vector<RecordedCycle>& cycles, const VoxelIndex& lo) 
   return {{"count", arrows.size()}, {"blocks", std::move(blocks)}, {"data", base64(deflated(data, kTightly))}};
 }
 
-json cycle_json(const RecordedCycle& cycle) {
+json plan_json(const RecordedCycle& cycle) {
   if (!cycle.planned) {
     return json::object();
   }
@@ -176,7 +176,7 @@ json replay_json(const Replay& replay) {
   }
   json cycles = json::array();
   for (const RecordedCycle& cycle : replay.cycles) {
-    cycles.push_back(cycle_json(cycle));
+    cycles.push_back(plan_json(cycle));
   }
   const RangeSensor& sensor = replay.sensor;
   return {{"cell_m", replay.run.resolution_m},

@@ -64,11 +64,12 @@ json run_json(json report, const detail::Replay* replay) {
 // The page with every {{name}} replaced by the file of that name, and {{runs}} by the runs.
 void write_page(const std::string& runs, const std::filesystem::path& html) {
   std::ofstream out(html, std::ios::binary);
-  std::string_view page = detail::page_file("page.html");
+  const std::string whole = detail::page_file("page.html");
+  std::string_view page = whole;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
     const std::size_t close = page.find("}}", open);
     const std::string_view name = page.substr(open + 2, close - open - 2);
-    out << page.substr(0, open) << (name == "runs" ? std::string_view(runs) : detail::page_file(name));
+    out << page.substr(0, open) << (name == "runs" ? runs : detail::page_file(name));
     page.remove_prefix(close + 2);
   }
   out << page;

@@ -17,7 +17,7 @@
 #include "report/record_json.hpp"
 
 namespace vantage {
-namespace {
+namespace detail {
 
 // A file that only grows, by all of what is appended or by nothing.
 class AppendFile {
@@ -68,6 +68,10 @@ class AppendFile {
   std::uint64_t size_ = 0;
   int file_;
 };
+
+}  // namespace detail
+
+namespace {
 
 bool on_lattice(const VoxelIndex& cell, std::int32_t step) {
   return cell.x % step == 0 && cell.y % step == 0 && cell.z % step == 0;
@@ -154,7 +158,7 @@ class RunRecorder::State {
   }
 
   RunRecorderSetup setup;
-  AppendFile file;
+  detail::AppendFile file;
   bool begun = false;
   bool finished = false;
   double resolution_m = 0.0;

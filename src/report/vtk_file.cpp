@@ -13,7 +13,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kLevel = 6;
+constexpr int kVtkLevel = 6;
 
 // Before packed bytes stand how many blocks there are, their length, the length of a last, shorter one (0: none is),
 // and the packed length of each; all in letters of their own.
@@ -25,7 +25,7 @@ std::string packed_letters(const std::string& bytes) {
     header.word(0, 8);
     return base64(header.bytes());
   }
-  const std::string body = deflated(bytes, kLevel);
+  const std::string body = deflated(bytes, kVtkLevel);
   header.word(1, 8);
   header.word(bytes.size(), 8);
   header.word(0, 8);
@@ -33,14 +33,14 @@ std::string packed_letters(const std::string& bytes) {
   return base64(header.bytes()) + base64(body);
 }
 
-std::string array(std::string_view type, std::string_view name, int components, const ByteWriter& bytes) {
+std::string data_array(std::string_view type, std::string_view name, int components, const ByteWriter& bytes) {
   std::ostringstream out;
   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
       << "\" format=\"binary\">" << packed_letters(bytes.bytes()) << "</DataArray>\n";
   return out.str();
 }
 
-void write(const std::filesystem::path& file, std::string_view type, std::string_view content) {
+void write_file(const std::filesystem::path& file, std::string_view type, std::string_view content) {
   std::ofstream out(file, std::ios::binary);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type
       << "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
@@ -68,7 +68,7 @@ std::string vtk_array(std::string_view name, const std::vector<float>& values, i
   for (const float value : values) {
     bytes.small_real(value);
   }
-  return array("Float32", name, components, bytes);
+  return data_array("Float32", name, components, bytes);
 }
 
 std::string vtk_array(std::string_view name, const std::vector<std::uint8_t>& values) {
@@ -76,7 +76,7 @@ std::string vtk_array(std::string_view name, const std::vector<std::uint8_t>& va
   for (const std::uint8_t value : values) {
     bytes.byte(value);
   }
-  return array("UInt8", name, 1, bytes);
+  return data_array("UInt8", name, 1, bytes);
 }
 
 std::string vtk_array(std::string_view name, const std::vector<std::int32_t>& values) {
@@ -84,7 +84,7 @@ std::string vtk_array(std::string_view name, const std::vector<std::int32_t>& va
   for (const std::int32_t value : values) {
     bytes.word(static_cast<std::uint32_t>(value), 4);
   }
-  return array("Int32", name, 1, bytes);
+  return data_array("Int32", name, 1, bytes);
 }
 
 void write_vti(const VoxelBox& cells, const VoxelFrame& frame, std::string_view name,
@@ -99,7 +99,7 @@ void write_vti(const VoxelBox& cells, const VoxelFrame& frame, std::string_view 
       << origin.z() << "\" Spacing=\"" << frame.size_m << ' ' << frame.size_m << ' ' << frame.size_m
       << "\">\n<Piece Extent=\"" << extent.str() << "\">\n<CellData Scalars=\"" << name << "\">\n"
       << vtk_array(name, values) << "</CellData>\n</Piece>\n</ImageData>\n";
-  write(file, "ImageData", out.str());
+  write_file(file, "ImageData", out.str());
 }
 
 void write_vtp(const VtkPolyData& data, const std::filesystem::path& file) {
@@ -125,7 +125,7 @@ void write_vtp(const VtkPolyData& data, const std::filesystem::path& file) {
     out << "<Verts>\n" << cell_arrays(n, std::vector<std::int32_t>(n, 1)) << "</Verts>\n";
   }
   out << "</Piece>\n</PolyData>\n";
-  write(file, "PolyData", out.str());
+  write_file(file, "PolyData", out.str());
 }
 
 void write_pvd(const std::vector<std::pair<std::size_t, std::filesystem::path>>& parts,
@@ -137,7 +137,7 @@ void write_pvd(const std::vector<std::pair<std::size_t, std::filesystem::path>>&
         << part.lexically_relative(file.parent_path()).generic_string() << "\"/>\n";
   }
   out << "</Collection>\n";
-  write(file, "Collection", out.str());
+  write_file(file, "Collection", out.str());
 }
 
 }  // namespace vantage::detail

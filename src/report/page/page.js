@@ -11,7 +11,7 @@ const runs = [...document.querySelectorAll("script.run")].map((element) => JSON.
 const several = runs.length > 1;
 const $ = (id) => document.getElementById(id);
 const scenes = [];
-const state = { now: 1, abscissa: "view", playing: false };
+const state = { now: 1, abscissa: "view", playing: false, slice: null };
 const length = Math.max(...runs.map((run) => run.report.cycles.length), 1);
 
 function baseName(path) {
@@ -220,6 +220,10 @@ function seek(now) {
   state.now = Math.min(Math.max(Math.round(now), 1), length);
   $("slider").value = state.now;
   for (const scene of scenes) scene.seek(state.now);
+  if (state.slice) {
+    state.slice.input.value = scenes[0].views[scenes[0].now - 1].pose[2];
+    state.slice.update();
+  }
   markCurves();
   const run = runs.find((r) => r.report.cycles.length === length);
   const cycle = run.report.cycles[state.now - 1];
@@ -274,6 +278,7 @@ function addSlider(form, text, span, value, onInput) {
   input.addEventListener("input", update);
   form.append(element("div", { className: "range" }, element("span", {}, text), shown, input));
   update();
+  return { input, update };
 }
 
 function addLegend() {
@@ -292,9 +297,13 @@ function addLegend() {
   const high = Math.max(...scenes.map((scene) => scene.high.z));
   addSlider(form, "hide above", [low, high], high, (z) => scenes.forEach((s) => s.setCut(z >= high ? 1e9 : z)));
   if (scenes.some((scene) => scene.layers.field)) {
-    const start = scenes[0].views[0].pose[2];
-    addSlider(form, "field at", [low, high], start, (z) => scenes.forEach((s) => s.setSlice(z)));
+    // The slice goes where the sensor is until a hand moves it.
+    const slice = addSlider(form, "field at", [low, high], low, (z) => scenes.forEach((s) => s.setSlice(z)));
+    slice.input.addEventListener("pointerdown", () => { state.slice = null; });
+    slice.input.addEventListener("keydown", () => { state.slice = null; });
+    state.slice = slice;
   }
+  $("legend").open = innerWidth > 900;
 }
 
 function addColouring(form, swatch) {
@@ -334,7 +343,7 @@ async function addScenes() {
     scenes.push(scene);
   }
   if (shown.length === 0) {
-    $("layers").hidden = true;
+    $("legend").hidden = true;
     $("notice").hidden = false;
     $("notice").textContent = "No record lies beside the report: there is nothing to replay.";
   }

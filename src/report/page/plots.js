@@ -37,7 +37,7 @@ class Plot {
 
   begin(xSpan, ySpan, xLabel, unit) {
     const box = this.element.getBoundingClientRect();
-    Object.assign(this, { width: box.width, height: box.height, left: 44, right: 10, top: 8, bottom: 20 });
+    Object.assign(this, { width: box.width, height: box.height, left: 52, right: 10, top: 8, bottom: 20 });
     this.span = xSpan[1] > xSpan[0] ? xSpan : [xSpan[0], xSpan[0] + 1];
     this.ySpan = ySpan[1] > ySpan[0] ? ySpan : [ySpan[0], ySpan[0] + 1];
     this.element.textContent = "";

@@ -102,7 +102,9 @@ class Scene {
     const extent = this.high.clone().sub(this.low);
     this.camera.near = this.reach / 2000;
     this.camera.far = this.reach * 20;
-    this.camera.position.copy(middle).add(new THREE.Vector3(-0.42, -0.8, 0.95).multiplyScalar(1.18 * this.reach));
+    const narrow = Math.max(1, 1.15 * this.container.clientHeight / Math.max(this.container.clientWidth, 1));
+    const away = 1.18 * this.reach * narrow;
+    this.camera.position.copy(middle).add(new THREE.Vector3(-0.42, -0.8, 0.95).multiplyScalar(away));
     if (extent.z < 0.35 * Math.max(extent.x, extent.y)) this.camera.position.z += 0.25 * this.reach;
     this.camera.updateProjectionMatrix();
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
