@@ -20,7 +20,7 @@ cmake --build build/release --parallel "$(nproc)" --target vantage
 build/release/bin/vantage explore --world rooms --planner harmonic --sensor panoramic --out "$out"
 
 echo
-echo "Pictures and report:"
-for file in "$out"/*.png "$out/report.json"; do
+echo "The run, to be opened in a browser, its pictures and its report:"
+for file in "$out/report.html" "$out"/*.png "$out/report.json"; do
   echo "  $file"
 done

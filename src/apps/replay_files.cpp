@@ -8,6 +8,8 @@
 #include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/line_plot.hpp>
 
+#include "apps/run_files.hpp"
+
 namespace vantage::apps {
 namespace {
 

@@ -27,8 +27,8 @@ class RunRecordReader {
   /// Reads the head of the record. Throws std::runtime_error naming the file if it cannot be read, is no record or
   /// ends within its head.
   explicit RunRecordReader(const std::filesystem::path& file);
-  RunRecordReader(RunRecordReader&&) noexcept;
-  RunRecordReader& operator=(RunRecordReader&&) noexcept;
+  RunRecordReader(RunRecordReader&&) noexcept;             ///< The one moved from is of no more use.
+  RunRecordReader& operator=(RunRecordReader&&) noexcept;  ///< The one moved from is of no more use.
   RunRecordReader(const RunRecordReader&) = delete;
   RunRecordReader& operator=(const RunRecordReader&) = delete;
   ~RunRecordReader();

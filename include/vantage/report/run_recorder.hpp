@@ -48,8 +48,8 @@ class RunRecorder {
  public:
   /// Makes the file or replaces it. Throws std::runtime_error naming it if it cannot be written.
   RunRecorder(const std::filesystem::path& file, const RunRecorderSetup& setup);
-  RunRecorder(RunRecorder&&) noexcept;
-  RunRecorder& operator=(RunRecorder&&) noexcept;
+  RunRecorder(RunRecorder&&) noexcept;             ///< The one moved from is of no more use.
+  RunRecorder& operator=(RunRecorder&&) noexcept;  ///< The one moved from is of no more use.
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
   /// A record that was not finished stays one: its reader says so.
