@@ -82,7 +82,7 @@ def main(program):
             report = json.load(file)
         views = report["views"]
         counts = json.loads(subprocess.run([program, "map", os.path.join(folder, "map.ot"), "--json", "-"],
-                                           check=True, capture_output=True, text=True).stdout)
+                                           check=True, capture_output=True, text=True).stdout)["cells"]
         times = []
         for time, root, _ in parts(folder, "occupancy"):
             states = by_name(root, "occupancy")
