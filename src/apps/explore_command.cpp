@@ -98,6 +98,7 @@ int explore(const ExploreRequest& request) {
   record.resolution_m = request.resolution_m;
   printer.summary(record);
   recording.finish(record);
+  progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, field.picture(), progress, recording.file());
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }

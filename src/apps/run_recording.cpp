@@ -2,6 +2,8 @@
 #include "apps/run_recording.hpp"
 
 #include <chrono>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vantage/planner/harmonic_planner.hpp>
@@ -47,6 +49,21 @@ void RunRecording::finish(const RunRecord& run) {
   if (recorder_) {
     recorder_->finish(run);
   }
+}
+
+std::string RunRecording::cost(const RunRecord& run) const {
+  double cycles_ms = 0.0;
+  for (const ViewRecord& view : run.views) {
+    cycles_ms += view.insert_ms + view.plan_ms;
+  }
+  if (!recorder_ || !(cycles_ms > 0.0)) {
+    return "";
+  }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << "  recording    "
+       << milliseconds_ / static_cast<double>(run.views.size()) << " ms a view, " << 100.0 * milliseconds_ / cycles_ms
+       << " % of inserting and planning\n";
+  return text.str();
 }
 
 std::optional<std::filesystem::path> RunRecording::file() const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/report/run_record.hpp>
@@ -26,8 +27,8 @@ class RunRecording final : public ExplorationPlanner {
   void finish(const RunRecord& run);
   /// The file, once the first view is in it.
   [[nodiscard]] std::optional<std::filesystem::path> file() const;
-  /// What recording took so far.
-  [[nodiscard]] double milliseconds() const { return milliseconds_; }
+  /// What recording took, beside inserting and planning, as a line of the run's summary; empty where nothing was.
+  [[nodiscard]] std::string cost(const RunRecord& run) const;
 
  private:
   ExplorationPlanner& planner_;

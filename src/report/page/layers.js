@@ -48,7 +48,7 @@ const kQuadFragment = `
     vec2 line = 1.0 - smoothstep(vec2(0.0), wide * 1.2, edge);
     float fine = 1.0 - smoothstep(0.08, 0.4, max(wide.x, wide.y));
     colour *= 1.0 - 0.26 * max(line.x, line.y) * fine;
-    if (born == now && now > 1.0 && tinted < 0.5) colour = mix(colour, glow * (0.55 + 0.45 * light), 0.42);
+    if (abs(born - now) < 0.5 && now > 1.0 && tinted < 0.5) colour = mix(colour, glow * (0.55 + 0.45 * light), 0.42);
     float far = distance(cameraPosition, world);
     colour = mix(colour, ground, 0.55 * smoothstep(fogFrom, fogTo, far));
     gl_FragColor = vec4(colour, opacity);

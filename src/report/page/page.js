@@ -257,7 +257,7 @@ const kLayers = [
   ["surfaces", "surfaces", null], ["frontiers", "frontiers", "#f0524f"],
   ["voids", "voids, where they touch free space", "#a78bfa"], ["path", "path travelled", "#56b4e9"],
   ["plan", "path planned", "#f2b134"], ["sensor", "sensor", "#ffffff"],
-  ["candidates", "candidate views, by utility", "utility"], ["field", "field, down its slope", "field"],
+  ["ground", "ground, grid of 1 m", "#2c3646"], ["candidates", "candidate views, by utility", "utility"], ["field", "field, down its slope", "field"],
 ];
 
 function element(name, attributes, ...children) {
@@ -290,7 +290,8 @@ function addLegend() {
     box.addEventListener("change", () => scenes.forEach((scene) => scene.setShown(name, box.checked)));
     const swatch = element("span", { className: "swatch" });
     swatch.style.background = colour === null ? rampGradient("height") : kRamps[colour] ? rampGradient(colour) : colour;
-    form.append(element("label", {}, box, swatch, text));
+    const words = name === "ground" ? text.replace("1", scenes[0].groundStep) : text;
+    form.append(element("label", {}, box, swatch, words));
     if (name === "surfaces") addColouring(form, swatch);
   }
   const low = Math.min(...scenes.map((scene) => scene.low.z));

@@ -47,6 +47,7 @@ class Scene {
     this.ramps = { height: rampTexture("height"), time: rampTexture("time") };
     this.common.ramp.value = this.ramps.height;
     await this.addCells();
+    this.addGround();
     this.addWays();
     this.addField(await unpacked(this.replay.field.data));
     this.placeCamera();
@@ -62,6 +63,21 @@ class Scene {
     }
     this.add("frontiers",
       new PointLayer(await unpacked(frontiers.data), frontiers.count, this.common, kColours.frontier).group);
+  }
+
+  // Lines a metre apart, or ten, below everything: what tells how large things are.
+  addGround() {
+    const step = this.reach > 80 ? 10 : 1;
+    const [low, high] = [this.low, this.high].map((p) => p.clone().divideScalar(step));
+    const [x0, y0, x1, y1] = [Math.floor(low.x), Math.floor(low.y), Math.ceil(high.x), Math.ceil(high.y)];
+    const z = this.low.z - 0.02 * this.common.cell.value;
+    const points = [];
+    for (let x = x0; x <= x1; ++x) points.push(x * step, y0 * step, z, x * step, y1 * step, z);
+    for (let y = y0; y <= y1; ++y) points.push(x0 * step, y * step, z, x1 * step, y * step, z);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(points), 3));
+    this.add("ground", new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0x2c3646 })));
+    this.groundStep = step;
   }
 
   addWays() {
@@ -97,15 +113,24 @@ class Scene {
     this.scene.add(this.layers[name]);
   }
 
+  // From above and the side, just so far away that all of the world is in view.
   placeCamera() {
     const middle = this.low.clone().add(this.high).multiplyScalar(0.5);
-    const extent = this.high.clone().sub(this.low);
+    const half = this.high.clone().sub(this.low).multiplyScalar(0.5);
+    const back = new THREE.Vector3(-0.42, -0.8, 0.95).normalize();
+    const right = new THREE.Vector3(0, 0, 1).cross(back).normalize();
+    const up = back.clone().cross(right);
+    const tall = Math.tan(THREE.Math.degToRad(this.camera.fov) / 2) * 0.9;
+    const wide = tall * this.container.clientWidth / Math.max(this.container.clientHeight, 1);
+    let away = this.reach / 10;
+    for (let k = 0; k < 8; ++k) {
+      const corner = new THREE.Vector3(k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z);
+      const aside = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / tall);
+      away = Math.max(away, corner.dot(back) + aside);
+    }
     this.camera.near = this.reach / 2000;
     this.camera.far = this.reach * 20;
-    const narrow = Math.max(1, 1.15 * this.container.clientHeight / Math.max(this.container.clientWidth, 1));
-    const away = 1.18 * this.reach * narrow;
-    this.camera.position.copy(middle).add(new THREE.Vector3(-0.42, -0.8, 0.95).multiplyScalar(away));
-    if (extent.z < 0.35 * Math.max(extent.x, extent.y)) this.camera.position.z += 0.25 * this.reach;
+    this.camera.position.copy(middle).addScaledVector(back, away);
     this.camera.updateProjectionMatrix();
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.target.copy(middle);
@@ -158,8 +183,6 @@ class Scene {
       const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) =>
         point(x * Math.tan(sensor.horizontal_rad / 2) * size, y * Math.tan(sensor.vertical_rad / 2) * size, size));
       corners.forEach((corner, i) => segments.push([point(0, 0, 0), corner], [corner, corners[(i + 1) % 4]]));
-      segments.push([corners[0], point(0, -1.35 * Math.tan(sensor.vertical_rad / 2) * size, size)],
-        [corners[1], point(0, -1.35 * Math.tan(sensor.vertical_rad / 2) * size, size)]);
     } else {
       const steps = 40;
       const half = sensor.horizontal_rad / 2;
@@ -181,7 +204,7 @@ class Scene {
   showCandidates(planned) {
     const views = planned && planned.candidates ? planned.candidates : [];
     const best = Math.max(...views.map((view) => view[6]), 1e-9);
-    const size = 0.016 * this.reach;
+    const size = 0.022 * this.reach;
     this.candidates.setArrows(views.map((view) => ({
       at: view.slice(0, 3), way: view.slice(3, 6), colour: rampAt("utility", view[6] / best),
       size: size * (0.55 + 0.75 * view[6] / best),
