@@ -61,6 +61,8 @@ class QuadLayer {
     this.materials = [];
     const total = counts.reduce((a, b) => a + b, 0);
     const columns = new Uint16Array(blob);
+    this.span = [0, 1, 2].map((i) => columns.subarray(i * total, (i + 1) * total)
+      .reduce(([low, high], at) => [Math.min(low, at), Math.max(high, at + 1)], [Infinity, -Infinity]));
     const corners = new THREE.BufferAttribute(new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]), 3);
     for (let d = 0, from = 0; d < 6; from += counts[d++]) {
       if (counts[d] === 0) continue;

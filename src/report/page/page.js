@@ -154,7 +154,8 @@ function drawCurves() {
     plots.coverage.curve(run.report.cycles.map((_, i) => abscissaOf(run, i)),
       run.report.cycles.map((cycle) => percentOrNull(shareOf(run, cycle))), run.colour);
   }
-  const most = Math.max(...runs.flatMap((run) => run.report.cycles.map((cycle) => cycle.frontier_cells)), 1);
+  const most = Math.max(...runs.flatMap((run) => run.report.cycles.map((cycle) => cycle.frontier_cells)));
+  $("frontier").parentElement.hidden = most === 0;  // a planner that counts none
   plots.frontier.begin([from, Math.max(...ends)], [0, most], label, "");
   for (const run of runs) {
     plots.frontier.curve(run.report.cycles.map((_, i) => abscissaOf(run, i)),
@@ -169,7 +170,7 @@ function percentOrNull(share) {
 
 function drawTimes() {
   const totals = runs.flatMap((run) => run.report.cycles.map((cycle) => cycle.insert_ms + cycle.plan_ms));
-  plots.times.begin([1, length], [0, Math.max(...totals, 1)], "views", " ms");
+  plots.times.begin([0.5, length + 0.5], [0, Math.max(...totals, 1)], "views", " ms");
   $("times-key").textContent = "";
   if (several) {
     for (const run of runs) {

@@ -57,12 +57,27 @@ class Scene {
 
   async addCells() {
     const { surfaces, voids, frontiers } = this.replay;
-    this.add("surfaces", new QuadLayer(await unpacked(surfaces.data), surfaces.counts, this.common, null).group);
+    const layer = new QuadLayer(await unpacked(surfaces.data), surfaces.counts, this.common, null);
+    this.add("surfaces", layer.group);
+    this.focus = this.focusOn(layer.span);
     if (voids.counts.some((n) => n > 0)) {
       this.add("voids", new QuadLayer(await unpacked(voids.data), voids.counts, this.common, kColours.voids).group);
     }
     this.add("frontiers",
       new PointLayer(await unpacked(frontiers.data), frontiers.count, this.common, kColours.frontier).group);
+  }
+
+  // What to look at: the surfaces and the path; all that is known where there are none.
+  focusOn(span) {
+    const { cell_m: cell, lo, travelled } = this.replay;
+    const box = new THREE.Box3();
+    if (Number.isFinite(span[0][0])) {
+      for (const end of [0, 1]) box.expandByPoint(new THREE.Vector3(...span.map((s, k) => (lo[k] + s[end]) * cell)));
+      travelled.forEach((point) => box.expandByPoint(new THREE.Vector3(...point)));
+    } else {
+      box.set(this.low, this.high);
+    }
+    return box;
   }
 
   // Lines a metre apart, or ten, below everything: what tells how large things are.
@@ -115,13 +130,13 @@ class Scene {
 
   // From above and the side, just so far away that all of the world is in view.
   placeCamera() {
-    const middle = this.low.clone().add(this.high).multiplyScalar(0.5);
-    const half = this.high.clone().sub(this.low).multiplyScalar(0.5);
+    const middle = this.focus.getCenter(new THREE.Vector3());
+    const half = this.focus.getSize(new THREE.Vector3()).multiplyScalar(0.5);
     const back = new THREE.Vector3(-0.42, -0.8, 0.95).normalize();
     const right = new THREE.Vector3(0, 0, 1).cross(back).normalize();
     const up = back.clone().cross(right);
     const tall = Math.tan(THREE.Math.degToRad(this.camera.fov) / 2) * 0.9;
-    const wide = tall * this.container.clientWidth / Math.max(this.container.clientHeight, 1);
+    const wide = tall * (this.container.clientWidth - this.reserved()) / Math.max(this.container.clientHeight, 1);
     let away = this.reach / 10;
     for (let k = 0; k < 8; ++k) {
       const corner = new THREE.Vector3(k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z);
@@ -143,6 +158,11 @@ class Scene {
     this.controls.update();
   }
 
+  // Pixels on the left that the legend lies over.
+  reserved() {
+    return this.container.clientWidth > 800 ? 210 : 0;
+  }
+
   resize() {
     const [width, height] = [this.container.clientWidth, this.container.clientHeight];
     if (width === 0 || height === 0) return;
@@ -150,6 +170,7 @@ class Scene {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, -this.reserved() / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     this.common.size.value.set(width, height);
     this.common.pixels.value = height * ratio / Math.tan(THREE.Math.degToRad(this.camera.fov) / 2) * 0.5;
