@@ -38,7 +38,8 @@ write_basic_package_version_file("${vantage_package_build_dir}/vantageConfigVers
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${vantage_package_build_dir}/vantageConfig.cmake"
               "${vantage_package_build_dir}/vantageConfigVersion.cmake"
-              "${PROJECT_SOURCE_DIR}/cmake/FindVantageOpenCV.cmake" DESTINATION "${vantage_package_dir}")
+              "${PROJECT_SOURCE_DIR}/cmake/FindVantageArm.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindVantageOpenCV.cmake"
+        DESTINATION "${vantage_package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # vantage.pc, core for those who build without CMake. A static library hands on what it is made with.

@@ -12,7 +12,7 @@ macro(vantage_find component visibility package)
     endif()
     message(FATAL_ERROR "vantage::${component} needs ${package} (${package} ${ARGN}), which was not found; install it "
                         "(cmake/debian-packages.txt names the Debian packages) or switch the component off with "
-                        "VANTAGE_BUILD_VISION=OFF or VANTAGE_BUILD_SIM=OFF")
+                        "VANTAGE_BUILD_VISION=OFF, VANTAGE_BUILD_ARM=OFF or VANTAGE_BUILD_SIM=OFF")
   endif()
   string(JOIN " " vantage_find_arguments ${package} ${ARGN})
   set_property(GLOBAL APPEND PROPERTY VANTAGE_${visibility}_DEPENDENCIES_${component} "${vantage_find_arguments}")

@@ -20,8 +20,8 @@ function(vantage_consumer_test name)
   set_tests_properties(package.${name} PROPERTIES LABELS package PROCESSORS 2)
 endfunction()
 
-set(without_heavy -DVANTAGE_BUILD_VISION=OFF -DVANTAGE_BUILD_SIM=OFF)
-foreach(package OpenCV embree Embree assimp nlohmann_json CLI11)
+set(without_heavy -DVANTAGE_BUILD_VISION=OFF -DVANTAGE_BUILD_SIM=OFF -DVANTAGE_BUILD_ARM=OFF)
+foreach(package OpenCV VantageArm embree Embree assimp nlohmann_json CLI11)
   list(APPEND without_heavy -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <string>
+#include <vantage/arm/kinematic_chain.hpp>
+
+#include "arm/segment_distance.hpp"
+
+namespace vantage {
+namespace {
+
+KinematicChain tracked_arm() {
+  return KinematicChain::from_urdf(std::filesystem::path(VANTAGE_EXAMPLES) / "tracked_arm.urdf", "base_link",
+                                   "sensor");
+}
+
+Joints random_joints(const KinematicChain& chain, std::mt19937_64& engine) {
+  Joints joints;
+  for (const JointRange& range : chain.ranges()) {
+    joints.push_back(std::uniform_real_distribution<double>(range.min, range.max)(engine));
+  }
+  return joints;
+}
+
+Eigen::Matrix4d turn(int axis, double angle_rad) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  matrix(u, u) = matrix(v, v) = std::cos(angle_rad);
+  matrix(v, u) = std::sin(angle_rad);
+  matrix(u, v) = -std::sin(angle_rad);
+  return matrix;
+}
+
+Eigen::Matrix4d shift(double x, double y, double z) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topRightCorner<3, 1>() = Eigen::Vector3d(x, y, z);
+  return matrix;
+}
+
+TEST(KinematicChain, DhChainsGoWhereTheProductOfTheirMatricesGoes) {
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> any(-1.5, 1.5);
+  std::size_t compared = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<DhRow> rows(1 + engine() % 7);
+    for (DhRow& row : rows) {
+      row = {any(engine), any(engine), any(engine), any(engine), {-2.0, 2.0}, engine() % 4 == 0};
+    }
+    const KinematicChain chain = KinematicChain::from_dh(rows, Pose(shift(0.1, 0.2, 0.3)));
+    ASSERT_EQ(chain.joint_count(), rows.size());
+    for (int i = 0; i < 20; ++i) {
+      const Joints joints = random_joints(chain, engine);
+      Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
+      const std::vector<Pose> links = chain.link_poses(joints);
+      ASSERT_EQ(links.size(), rows.size() + 2);
+      for (std::size_t j = 0; j < rows.size(); ++j) {
+        const DhRow& row = rows[j];
+        expected = expected * turn(2, row.theta_rad + (row.slides ? 0.0 : joints[j])) *
+                   shift(0.0, 0.0, row.d_m + (row.slides ? joints[j] : 0.0)) * shift(row.a_m, 0.0, 0.0) *
+                   turn(0, row.alpha_rad);
+        ASSERT_LT((links[j + 1].matrix() - expected).cwiseAbs().maxCoeff(), 1e-9);
+        ASSERT_LE(expected.topRightCorner(3, 1).norm(), chain.reach_m() + 1e-9);
+      }
+      expected = expected * shift(0.1, 0.2, 0.3);
+      ASSERT_LT((chain.sensor_pose(joints).matrix() - expected).cwiseAbs().maxCoeff(), 1e-9);
+      ASSERT_LE(expected.topRightCorner(3, 1).norm(), chain.reach_m() + 1e-9);
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 1200U);
+}
+
+TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
+  const KinematicChain chain = tracked_arm();
+  ASSERT_EQ(chain.joint_names(), (std::vector<std::string>{"turret", "shoulder", "elbow", "wrist", "pan"}));
+  EXPECT_EQ(chain.ranges()[2].max, 2.6);
+  std::mt19937_64 engine(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Joints q = random_joints(chain, engine);
+    Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();  // z forward, x right, y down on a head with x forward
+    camera.topLeftCorner<3, 3>() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    const Eigen::Matrix4d expected = shift(0, 0, 0.25) * turn(2, q[0]) * shift(0, 0, 0.15) * turn(1, q[1]) *
+                                     shift(0, 0, 0.45) * turn(1, q[2]) * shift(0, 0, 0.45) * turn(1, q[3]) *
+                                     shift(0, 0, 0.05) * turn(2, q[4]) * shift(0.03, 0, 0.02) * camera;
+    ASSERT_LT((chain.sensor_pose(q).matrix() - expected).cwiseAbs().maxCoeff(), 1e-9);
+    ASSERT_TRUE(chain.link_poses(q).back().isApprox(chain.sensor_pose(q), 1e-12));
+  }
+  EXPECT_TRUE(optical_axis(chain.sensor_pose(Joints(5, 0.0))).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
+  // 1 m about its shoulder, as the paper's.
+  EXPECT_NEAR((chain.sensor_pose(Joints(5, 0.0)).translation() - Eigen::Vector3d(0, 0, 0.4)).norm(), 0.97, 0.03);
+}
+
+// Inverse kinematics leads back to the pose, from guesses that are off by up to 0.4 in every joint.
+TEST(KinematicChain, InverseKinematicsLeadsBackToThePose) {
+  const KinematicChain chain = tracked_arm();
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> off(-0.4, 0.4);
+  for (const bool free_roll : {false, true}) {
+    std::size_t found = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Joints joints = random_joints(chain, engine);
+      Joints guess = joints;
+      for (double& value : guess) {
+        value += off(engine);
+      }
+      Pose target = chain.sensor_pose(joints);
+      if (free_roll) {
+        target.rotate(Eigen::AngleAxisd(3.0 * off(engine), Eigen::Vector3d::UnitZ()));
+      }
+      const auto back = chain.inverse(target, guess, {.free_roll = free_roll});
+      if (!back) {
+        continue;
+      }
+      ++found;
+      ASSERT_TRUE(chain.in_range(*back));
+      const Pose reached = chain.sensor_pose(*back);
+      ASSERT_LT((reached.translation() - target.translation()).norm(), 1.1e-6);
+      ASSERT_LT((optical_axis(reached) - optical_axis(target)).norm(), 1.1e-6);
+      ASSERT_TRUE(free_roll || reached.isApprox(target, 1e-5));
+    }
+    EXPECT_GT(found, 1900U) << free_roll;
+  }
+  Pose far = Pose::Identity();
+  far.translation().x() = 3.0;
+  EXPECT_FALSE(chain.inverse(far, Joints(5, 0.1)).has_value());
+  EXPECT_THROW((void)chain.inverse(far, Joints(4, 0.1)), std::invalid_argument);
+  EXPECT_THROW((void)chain.sensor_pose(Joints(6, 0.1)), std::invalid_argument);
+  EXPECT_FALSE(chain.in_range(Joints(6, 0.1)));
+  EXPECT_FALSE(chain.in_range(Joints{0.0, 0.0, -0.1, 0.0, 0.0}));
+}
+
+TEST(SegmentDistance, IsTheLeastOverAllPairsOfPoints) {
+  std::mt19937_64 engine(4);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const auto point = [&] { return Eigen::Vector3d(any(engine), any(engine), any(engine)); };
+  for (int round = 0; round < 400; ++round) {
+    const Eigen::Vector3d a0 = point();
+    const Eigen::Vector3d a1 = round % 5 == 0 ? a0 : point();
+    const Eigen::Vector3d b0 = point();
+    const Eigen::Vector3d b1 = round % 7 == 0    ? b0
+                               : round % 11 == 0 ? Eigen::Vector3d(b0 + 0.3 * (a1 - a0))
+                                                 : point();
+    double least = 1e9;
+    constexpr int kSteps = 100;
+    for (int i = 0; i <= kSteps; ++i) {
+      for (int j = 0; j <= kSteps; ++j) {
+        const double s = static_cast<double>(i) / kSteps;
+        const double t = static_cast<double>(j) / kSteps;
+        least = std::min(least, (a0 + s * (a1 - a0) - b0 - t * (b1 - b0)).norm());
+      }
+    }
+    const double distance = segment_distance(a0, a1, b0, b1);
+    ASSERT_LE(distance, least + 1e-12);
+    ASSERT_GE(distance, least - 0.04);
+    ASSERT_NEAR(distance, segment_distance(b1, b0, a0, a1), 1e-12);
+  }
+}
+
+TEST(KinematicChain, KnowsWhenItTouchesItself) {
+  const KinematicChain chain = tracked_arm();
+  const auto touches = [&](const Joints& joints) { return chain.touches_itself(chain.link_poses(joints)); };
+  EXPECT_FALSE(touches({0.0, 0.0, 0.0, 0.0, 0.0})) << "straight up";
+  EXPECT_FALSE(touches({0.5, -0.5, 1.8, 0.2, 0.3})) << "bent over its base";
+  EXPECT_FALSE(touches({0.0, 1.85, 1.4, 0.0, 0.0})) << "hand before the tracks";
+  EXPECT_TRUE(touches({0.0, 1.85, 2.3, 0.0, 0.0})) << "hand on the tracks";
+  EXPECT_EQ(chain.joints_before(0), 0U);
+  EXPECT_GT(chain.capsules().size(), 6U);
+}
+
+std::string complaint(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(KinematicChain, SaysWhatIsWrongWithAFile) {
+  const auto read = [](const std::string& text, const char* base = "a", const char* sensor = "b") {
+    return complaint([&] { (void)KinematicChain::from_urdf_text(text, base, sensor, "x.urdf"); });
+  };
+  const auto robot = [](const std::string& joint, const std::string& shape = "") {
+    return "<robot name='r'><link name='a'/><link name='b'>" + shape + "</link><link name='c'/>" + joint +
+           "<joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint></robot>";
+  };
+  const std::string good =
+      "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>"
+      "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
+  EXPECT_EQ(read(robot(good)), "");
+  EXPECT_EQ(complaint([] { (void)KinematicChain::from_urdf("/nowhere/arm.urdf", "a", "b"); }),
+            "/nowhere/arm.urdf: cannot be opened");
+  EXPECT_EQ(read("this is no robot").find("x.urdf: is no URDF"), 0U);
+  EXPECT_EQ(read("").find("x.urdf: is no URDF"), 0U);
+  EXPECT_EQ(read(robot(good), "a", "z"), "x.urdf: has no link 'z'");
+  EXPECT_EQ(read(robot(good), "b", "a"), "x.urdf: has no chain from link 'b' to link 'a'");
+  EXPECT_EQ(read(robot(good), "a", "c"), "x.urdf: has no joint that moves between link 'a' and link 'c'");
+  EXPECT_EQ(read(robot("<joint name='j' type='floating'><parent link='a'/><child link='b'/></joint>")),
+            "x.urdf: joint 'j' neither turns nor slides");
+  EXPECT_EQ(read(robot(good, "<collision><geometry><mesh filename='b.stl'/></geometry></collision>")),
+            "x.urdf: link 'b' has a mesh for a collision shape; it must be cylinders, spheres or boxes");
+  EXPECT_EQ(complaint([] { (void)KinematicChain::from_dh({}); }), "KinematicChain::from_dh needs at least one row");
+  const std::vector<DhRow> rows{{.a_m = 0.5, .range = {-1.0, 1.0}}};
+  EXPECT_EQ(complaint([&] { (void)KinematicChain::from_dh(rows, Pose::Identity(), {{.link = 3, .radius_m = 0.1}}); }),
+            "Capsule::link is 3, must be < 3");
+}
+
+TEST(KinematicChain, ShapesBecomeCapsulesAroundThem) {
+  const KinematicChain chain = KinematicChain::from_urdf_text(
+      "<robot name='r'><link name='a'/>"
+      "<link name='b'><collision><origin xyz='0 0 1'/><geometry><box size='0.2 0.6 "
+      "0.2'/></geometry></collision></link>"
+      "<link name='fin'><collision><geometry><sphere radius='0.3'/></geometry></collision></link>"
+      "<joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>"
+      "<joint name='k' type='fixed'><parent link='b'/><child link='fin'/><origin xyz='2 0 0'/></joint></robot>",
+      "a", "b");
+  ASSERT_EQ(chain.capsules().size(), 2U);
+  const Capsule& box = chain.capsules()[0];
+  EXPECT_EQ(box.link, 1U);
+  EXPECT_TRUE(box.to_m.isApprox(Eigen::Vector3d(0, 0.3, 1)));
+  EXPECT_NEAR(box.radius_m, std::sqrt(0.02), 1e-12);
+  EXPECT_TRUE(chain.capsules()[1].from_m.isApprox(Eigen::Vector3d(2, 0, 0)));
+  EXPECT_NEAR(chain.reach_m(), 2.3, 1e-12);
+  EXPECT_NEAR(chain.ranges()[0].max, std::acos(-1.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace vantage
