@@ -59,6 +59,9 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_explore_command(app, exit_code);
   add_reconstruct_command(app, exit_code);
   add_replay_command(app, exit_code);
+#ifdef VANTAGE_WITH_ARM
+  add_search_command(app, exit_code);
+#endif
   add_report_command(app);
   add_compare_command(app);
   add_map_command(app, exit_code);

@@ -20,6 +20,7 @@ void add_commands(CLI::App& app, int& exit_code);
 void add_explore_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app);
 void add_reconstruct_command(CLI::App& app, int& exit_code);
+void add_search_command(CLI::App& app, int& exit_code);  // where there is vantage::arm
 void add_replay_command(CLI::App& app, int& exit_code);
 
 /// `message` without line breaks.

@@ -252,6 +252,9 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
     know_surroundings();
   }
   assume_body_free(start);
+  for (const Box& box : options_.declared_clear) {
+    map_.assume_free(box);
+  }
   scan(progress);
   for (;;) {
     Plan next;

@@ -37,6 +37,8 @@ struct ExplorationRunOptions {
   /// Cells of the world that do not touch this box are known from the start, as a room may be in which an object is
   /// to be looked at; none: nothing is.
   std::optional<Box> unknown_box = std::nullopt;
+  /// Boxes that the host declares free before the first scan, besides the space of the body.
+  std::vector<Box> declared_clear = {};
   /// Points on the surface of an object; the share of them with a measured point within `surface_gap_m` is reported
   /// as surface coverage. None: that is not measured.
   std::vector<Eigen::Vector3d> surface_samples = {};

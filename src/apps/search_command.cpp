@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <unordered_set>
+#include <vantage/arm/arm.hpp>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/raytrace/cell_set.hpp>
+#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/raytrace/view_rays.hpp>
+#include <vantage/sim/exploration_run.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/explore_request.hpp"
+#include "apps/help_format.hpp"
+#include "apps/run_files.hpp"
+#include "apps/run_printer.hpp"
+#include "apps/tracked_arm.hpp"
+
+namespace vantage::apps {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+// `vantage search` as it was typed.
+struct SearchRequest {
+  std::string arm = "tracked";
+  std::string links = "base_link,sensor";
+  std::string base = "0,0,0,0";
+  std::string joints;
+  double clear_m = 0.1;
+  bool exhaustive = false;
+  ExploreRequest run;  // what the commands share
+
+  SearchRequest() {
+    run.planner = "frontier-void";
+    run.sensor = "kinect";
+    run.resolution_m = 0.025;
+    run.scan_spacing_m = 0.0;
+    run.max_views = 50;
+  }
+};
+
+KinematicChain chain_of(const SearchRequest& request) {
+  const std::size_t comma = request.links.find(',');
+  if (comma == std::string::npos) {
+    throw std::invalid_argument("--links '" + request.links + "' must be BASE,SENSOR");
+  }
+  const std::string base = request.links.substr(0, comma);
+  const std::string sensor = request.links.substr(comma + 1);
+  return request.arm == "tracked" ? KinematicChain::from_urdf_text(kTrackedArm, base, sensor, "the arm 'tracked'")
+                                  : KinematicChain::from_urdf(request.arm, base, sensor);
+}
+
+Pose base_of(const SearchRequest& request) {
+  const std::vector<double> n = numbers_of("--base", request.base);
+  if (n.size() < 3 || n.size() > 4) {
+    throw std::invalid_argument("--base has " + std::to_string(n.size()) + " numbers, must be x,y,z[,yaw_deg]");
+  }
+  return Eigen::Translation3d(n[0], n[1], n[2]) *
+         Eigen::AngleAxisd(n.size() > 3 ? n[3] * kRadians : 0.0, Eigen::Vector3d::UnitZ());
+}
+
+// The tracked arm looks over its tracks, bent back; any other stands in the middle of its ranges.
+Joints start_joints(const SearchRequest& request, const KinematicChain& chain) {
+  Joints joints;
+  if (!request.joints.empty()) {
+    for (const double degrees : numbers_of("--joints", request.joints)) {
+      joints.push_back(degrees * kRadians);
+    }
+  } else if (request.arm == "tracked") {
+    joints = {0.0, -0.7, 1.5, 0.0, 0.0};
+  } else {
+    for (const JointRange& range : chain.ranges()) {
+      joints.push_back(0.5 * (range.min + range.max));
+    }
+  }
+  if (!chain.in_range(joints)) {
+    throw std::invalid_argument("--joints must be " + std::to_string(chain.joint_count()) +
+                                " angles in degrees within the ranges of the joints");
+  }
+  return joints;
+}
+
+// The box of the whole body at these joints, and `clear_m` around it, but nothing below the base.
+Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pose& world_from_base,
+            const Joints& joints) {
+  const std::vector<Pose> links = chain.link_poses(joints);
+  Box box;
+  for (const Capsule& capsule : chain.capsules()) {
+    const Pose world_from_link = world_from_base * links[capsule.link];
+    for (const Eigen::Vector3d& end : {capsule.from_m, capsule.to_m}) {
+      const Eigen::Vector3d reach = Eigen::Vector3d::Constant(capsule.radius_m + request.clear_m);
+      box.extend(world_from_link * end - reach);
+      box.extend(world_from_link * end + reach);
+    }
+  }
+  // The base stands on something.
+  box.min.z() = std::max(box.min.z(), world_from_base.translation().z());
+  return box;
+}
+
+PlannerSettings settings_for(const SearchRequest& request) {
+  PlannerSettings settings;
+  if (request.run.planner == "frontier-void") {  // a search ends where no view sees a void
+    settings = {{"beyond_voids", "false"}, {"cost_per_m", "0"}};
+  }
+  for (const auto& [name, value] : settings_of(request.run)) {
+    settings.insert_or_assign(name, value);
+  }
+  return settings;
+}
+
+double litres(double cells, double cell_m) { return cells * std::pow(10.0 * cell_m, 3); }
+
+// As the tables of Dornhege & Kleiner 2011.
+void print_view(std::ostream& out, const ViewRecord& view, double cell_m) {
+  char line[160];
+  std::snprintf(line, sizeof line, "view %3zu  integration %7.1f ms  search %8.1f ms  %6.0f void cells  %7.2f dm^3\n",
+                view.view, view.insert_ms, view.plan_ms, view.utility, litres(view.utility, cell_m));
+  out << line << std::flush;
+}
+
+// What every drawn posture that the map admits would see of the voids that are left.
+void print_exhaustive(std::ostream& out, const Arm& arm, const RangeSensor& sensor, const OccupancyMap& map) {
+  const std::vector<VoxelIndex> voids = void_cells(map);
+  if (voids.empty()) {
+    out << "  exhaustive   no void cell is left\n";
+    return;
+  }
+  const std::unordered_set<VoxelIndex> is_void(voids.begin(), voids.end());
+  const RayCaster caster(map);
+  const ViewRays rays(sensor.rays_for(map.resolution_m()));
+  std::unordered_set<VoxelIndex> by_any;
+  std::size_t best = 0;
+  const std::vector<Pose> poses = arm.admitted_poses(map);
+  for (const Pose& pose : poses) {
+    std::size_t seen = 0;
+    caster.visible_cells(pose, rays, map.bounds()).for_each([&](const VoxelIndex& cell) {
+      if (is_void.contains(cell)) {
+        ++seen;
+        by_any.insert(cell);
+      }
+    });
+    best = std::max(best, seen);
+  }
+  char line[240];
+  std::snprintf(line, sizeof line,
+                "  exhaustive   of %zu void cells left (%.2f dm^3), %zu poses of the arm see %zu (%.2f dm^3) in all, "
+                "the best of them %zu (%.2f dm^3)\n",
+                voids.size(), litres(static_cast<double>(voids.size()), map.resolution_m()), poses.size(),
+                by_any.size(), litres(static_cast<double>(by_any.size()), map.resolution_m()), best,
+                litres(static_cast<double>(best), map.resolution_m()));
+  out << line << std::flush;
+}
+
+int search(const SearchRequest& request) {
+  const ExploreRequest& shared = request.run;
+  check_numbers(shared);
+  check_targets(shared.out, shared.json);
+  const RangeSensor sensor = sensor_of(shared);
+  const KinematicChain chain = chain_of(request);
+  const Joints joints = start_joints(request, chain);
+  ArmOptions arm_options;
+  arm_options.world_from_base = base_of(request);
+  arm_options.declared_clear = {body_at(request, chain, arm_options.world_from_base, joints)};
+  arm_options.seed = shared.seed;
+  const auto arm = std::make_shared<const Arm>(chain, arm_options);
+  const auto planner = make_planner(
+      shared.planner, {.sensor = sensor, .platform = arm, .seed = shared.seed, .threads = shared.threads},
+      settings_for(request));
+  const World world = world_of(shared);
+
+  ExplorationRunOptions options;
+  options.map.resolution_m = shared.resolution_m;
+  options.map.region = region_of(shared).value_or(world.region);
+  options.max_views = shared.max_views;
+  options.scan_spacing_m = 0.0;
+  options.seed = shared.seed;
+  options.noise.axial = shared.noise;
+  options.threads = shared.threads;
+  options.measure_coverage = false;
+  options.declared_clear = arm_options.declared_clear;
+  ExplorationRun run(world, sensor, arm, options);
+
+  const bool json_on_stdout = shared.json == "-";
+  std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
+  RunPrinter printer(progress, false);
+  RunRecord record = run.run(*planner, arm->sensor_pose(joints), [&](const ViewRecord& view, const OccupancyMap&) {
+    if (view.view == 1) {
+      printer.head(shared.planner, shared.world, shared.sensor, shared.resolution_m, shared.seed);
+    }
+    print_view(progress, view, shared.resolution_m);
+  });
+  record.command = "search";
+  record.world = shared.world;
+  printer.summary(record);
+  if (request.exhaustive) {
+    print_exhaustive(progress, *arm, sensor, run.map());
+  }
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress);
+  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+}
+
+void add_arm_options(CLI::App& command, SearchRequest& request) {
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Robot");
+  };
+  option("--arm", request.arm, "tracked|FILE.urdf", "The arm: the one built in has five joints and reaches 1 m");
+  option("--links", request.links, "BASE,SENSOR", "Its first and last link");
+  option("--base", request.base, "x,y,z[,yaw]", "Where its base stands, metres and degrees");
+  option("--joints", request.joints, "DEG,DEG,...", "Where its joints begin; looking forward unless given");
+  option("--clear", request.clear_m, "M", "Space around the arm at its start that is declared clear, metres")
+      ->check(a_number());
+  option("--sensor", request.run.sensor, "NAME|FILE.json", "By name (vantage list) or from a file");
+  option("--noise", request.run.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
+}
+
+void add_run_options(CLI::App& command, SearchRequest& request) {
+  ExploreRequest& run = request.run;
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Run");
+  };
+  option("--planner", run.planner, "NAME", "By name (vantage list)");
+  option("--set", run.settings, "key=value", "A setting of the planner, as often as needed; a wrong key lists them")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  option("--resolution", run.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
+  option("--max-views", run.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
+  option("--seed", run.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
+  option("--threads", run.threads, "N", "How many to use; the result is the same for any number")
+      ->check(a_whole_number(1024));
+  command
+      .add_flag("--exhaustive", request.exhaustive,
+                "At the end, tell what all poses of the arm would still see of the voids; slow")
+      ->group("Run");
+}
+
+}  // namespace
+
+void add_search_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("search", "Let a simulated sensor on an arm search the voids of a known world");
+  const auto request = std::make_shared<SearchRequest>();
+  ExploreRequest& run = request->run;
+  command->add_option("--world", run.world, "By name (vantage list), a mesh, or an OctoMap; must be given")
+      ->required()
+      ->type_name("NAME|FILE")
+      ->group("World");
+  command->add_option("--region", run.region, "What to search, metres; all of the world unless given")
+      ->type_name("x0,y0,z0,x1,y1,z1")
+      ->group("World");
+  add_arm_options(*command, *request);
+  add_run_options(*command, *request);
+  command->add_option("--out", run.out, "Folder for report.json, map.ot and pictures")
+      ->type_name("DIR")
+      ->group("Output");
+  command->add_option("--json", run.json, "The report; -: on stdout, and all else on stderr")
+      ->type_name("FILE|-")
+      ->group("Output");
+  command->footer(
+      "Exit codes: 0 no view of the arm sees more of a void, 2 bad input (nothing was written), 3 the views were "
+      "spent.");
+  command->callback([request, &exit_code] { exit_code = search(*request); });
+}
+
+}  // namespace vantage::apps
