@@ -27,7 +27,7 @@
 namespace vantage::apps {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 // `vantage search` as it was typed.
 struct SearchRequest {
@@ -35,7 +35,7 @@ struct SearchRequest {
   std::string links = "base_link,sensor";
   std::string base = "0,0,0,0";
   std::string joints;
-  double clear_m = 0.1;
+  double clear_m = 0.25;
   bool exhaustive = false;
   ExploreRequest run;  // what the commands share
 
@@ -65,7 +65,7 @@ Pose base_of(const SearchRequest& request) {
     throw std::invalid_argument("--base has " + std::to_string(n.size()) + " numbers, must be x,y,z[,yaw_deg]");
   }
   return Eigen::Translation3d(n[0], n[1], n[2]) *
-         Eigen::AngleAxisd(n.size() > 3 ? n[3] * kRadians : 0.0, Eigen::Vector3d::UnitZ());
+         Eigen::AngleAxisd(n.size() > 3 ? n[3] * kRadiansPerDegree : 0.0, Eigen::Vector3d::UnitZ());
 }
 
 // The tracked arm looks over its tracks, bent back; any other stands in the middle of its ranges.
@@ -73,7 +73,7 @@ Joints start_joints(const SearchRequest& request, const KinematicChain& chain) {
   Joints joints;
   if (!request.joints.empty()) {
     for (const double degrees : numbers_of("--joints", request.joints)) {
-      joints.push_back(degrees * kRadians);
+      joints.push_back(degrees * kRadiansPerDegree);
     }
   } else if (request.arm == "tracked") {
     joints = {0.0, -0.7, 1.5, 0.0, 0.0};

@@ -6,6 +6,7 @@
 
 #include "arm/postures.hpp"
 #include "arm/rrt_connect.hpp"
+#include "arm/segment_distance.hpp"
 #include "map/option_rule.hpp"
 #include "robot/swept_sphere.hpp"
 
@@ -215,9 +216,13 @@ double Arm::distance_m(const Pose& from, const Pose& to) const {
 
 Box Arm::body_box(const Pose& pose) const {
   double radius_m = 0.0;
+  const std::vector<Pose> links = chain_.link_poses(postures_->joints(0));
   for (const Capsule& capsule : chain_.capsules()) {
     if (chain_.joints_before(capsule.link) == chain_.joint_count()) {
-      radius_m = std::max(radius_m, capsule.radius_m);
+      const Eigen::Vector3d sensor = links.back().translation();
+      const Pose& link = links[capsule.link];
+      radius_m = std::max(
+          radius_m, capsule.radius_m - segment_distance(link * capsule.from_m, link * capsule.to_m, sensor, sensor));
     }
   }
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(radius_m, 1e-9));
@@ -287,7 +292,10 @@ std::vector<Pose> Arm::admitted_poses(const OccupancyMap& map) const {
 
 bool Arm::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
   const std::optional<Joints> first = configuration(from);
-  const std::optional<Joints> last = first ? configuration(to) : std::nullopt;
+  std::optional<Joints> last = first ? configuration(to) : std::nullopt;
+  if (first && !last) {
+    last = chain_.inverse(options_.world_from_base.inverse() * to, *first, {.free_roll = true});
+  }
   if (!last) {
     return false;
   }

@@ -10,7 +10,7 @@ namespace vantage {
 namespace {
 
 // What a radian of turn counts beside a metre, among guesses to start from.
-constexpr float kMetresPerRadian = 0.3F;
+constexpr float kGuessMetresPerRadian = 0.3F;
 
 }  // namespace
 
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> Arm::Postures::near(const Pose& base_from_sensor, std
       const float angle =
           free_roll ? std::acos(std::clamp((turns_[posture] * Eigen::Vector3f::UnitZ()).dot(axis), -1.0F, 1.0F))
                     : turns_[posture].angularDistance(turn);
-      found.emplace_back((positions_[posture] - position).norm() + kMetresPerRadian * angle, posture);
+      found.emplace_back((positions_[posture] - position).norm() + kGuessMetresPerRadian * angle, posture);
     }
   });
   const auto kept = static_cast<std::ptrdiff_t>(std::min(count, found.size()));

@@ -74,7 +74,8 @@ class Arm final : public Platform {
   /// map: quick, and right but for the size of such a cell. `admits` has the last word.
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
-  /// Whether the joints may go straight from the configuration of one pose to that of the other.
+  /// Whether the joints may go straight from the configuration of one pose to that of the other or, where it has
+  /// none, to one that brings the sensor there but for its turn about the optical axis.
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
   /// The pose there that looks along `direction`, turned about it as the arm can; else along the nearest direction of
   /// the drawn postures that it can look along there; without roll where it cannot be at all.
