@@ -22,6 +22,7 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
+#include "apps/run_recording.hpp"
 #include "apps/tracked_arm.hpp"
 
 namespace vantage::apps {
@@ -193,19 +194,23 @@ int search(const SearchRequest& request) {
   const bool json_on_stdout = shared.json == "-";
   std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, false);
-  RunRecord record = run.run(*planner, arm->sensor_pose(joints), [&](const ViewRecord& view, const OccupancyMap&) {
+  RunRecording recording(*planner, shared.out, recorder_setup(shared, "search", shared.world, sensor));
+  const auto on_view = [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       printer.head(shared.planner, shared.world, shared.sensor, shared.resolution_m, shared.seed);
     }
     print_view(progress, view, shared.resolution_m);
-  });
+    recording.look(view, map);
+  };
+  RunRecord record = run.run(recording, arm->sensor_pose(joints), on_view);
   record.command = "search";
   record.world = shared.world;
   printer.summary(record);
+  recording.finish(record);
   if (request.exhaustive) {
     print_exhaustive(progress, *arm, sensor, run.map());
   }
-  write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress);
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress, recording.file());
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }
 

@@ -85,8 +85,8 @@ class Arm final : public Platform {
   /// The poses along `joint_path`, near enough to each other to follow.
   [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from,
                                                       const Pose& to) const override;
-  /// The box of the last link alone, as a cube about the sensor. What the rest of the arm needs free, a host
-  /// declares.
+  /// A cube about the sensor: around the largest ball there that is all body of the last link. What the rest of the
+  /// arm needs free, a host declares.
   [[nodiscard]] Box body_box(const Pose& pose) const override;
   [[nodiscard]] bool can_tilt() const override { return true; }
 
