@@ -237,7 +237,8 @@ void add_run_options(CLI::App& command, SearchRequest& request) {
   option("--set", run.settings, "key=value", "A setting of the planner, as often as needed; a wrong key lists them")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->default_str("");
   option("--resolution", run.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
   option("--max-views", run.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
   option("--seed", run.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());

@@ -247,22 +247,22 @@ bool Arm::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
 VoxelGrid<std::uint8_t> Arm::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
   const VoxelGrid<std::uint8_t> clear = passable_cells(map);
   const auto is_clear = [&](const VoxelIndex& cell) { return clear.value_or(cell, 0) != 0; };
-  enum : std::uint8_t { kUnasked, kRefused, kAdmitted };
-  VoxelGrid<std::uint8_t> answers(capability().cells(), kUnasked);
+  enum class Answer : std::uint8_t { Unasked, Refused, Admitted };
+  VoxelGrid<Answer> answers(capability().cells(), Answer::Unasked);
   const auto admitted_in = [&](const VoxelIndex& cell) {
     if (!answers.contains(cell)) {
       return false;
     }
-    if (answers[cell] == kUnasked) {
+    if (answers[cell] == Answer::Unasked) {
       const auto postures = postures_->in_cell(cell);
       answers[cell] = std::any_of(postures.begin(), postures.end(),
                                   [&](std::uint32_t posture) {
                                     return keeps_to(map.frame(), postures_->joints(posture), is_clear);
                                   })
-                          ? kAdmitted
-                          : kRefused;
+                          ? Answer::Admitted
+                          : Answer::Refused;
     }
-    return answers[cell] == kAdmitted;
+    return answers[cell] == Answer::Admitted;
   };
   const Pose base_from_world = options_.world_from_base.inverse();
   VoxelGrid<std::uint8_t> admitted(box);
