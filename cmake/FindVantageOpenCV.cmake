@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# The targets opencv_core, opencv_imgproc, opencv_imgcodecs and opencv_calib3d: from OpenCV's own package where that is
-# installed, else straight from headers and libraries. Debian ships OpenCV's package file only together with all of
-# OpenCV and its 150 dependencies, while a few small packages are all that pictures and stereo need.
+# The targets opencv_core, opencv_imgproc, opencv_imgcodecs, opencv_calib3d and opencv_surface_matching: from OpenCV's own
+# package where that is installed, else straight from headers and libraries. Debian ships OpenCV's package file only
+# together with all of OpenCV and its 150 dependencies, while a few packages are all that is needed here.
 include(FindPackageHandleStandardArgs)
-set(VantageOpenCV_modules core imgproc imgcodecs calib3d)
+set(VantageOpenCV_modules core imgproc imgcodecs calib3d surface_matching)
 
 find_package(OpenCV 4 QUIET CONFIG COMPONENTS ${VantageOpenCV_modules})
 if(OpenCV_FOUND AND TARGET opencv_core)

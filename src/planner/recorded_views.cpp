@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vantage/planner/recorded_views.hpp>
+
+namespace vantage {
+namespace {
+
+double mean_of(const std::vector<double>& values) {
+  return values.empty() ? 0.0
+                        : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Cells seen so far, and how many they are.
+class SeenCells {
+ public:
+  explicit SeenCells(std::size_t cells) : seen_(cells, false) {}
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  void add(const std::vector<std::uint32_t>& cells) {
+    for (const std::uint32_t cell : cells) {
+      count_ += seen_[cell] ? 0U : 1U;
+      seen_[cell] = true;
+    }
+  }
+  [[nodiscard]] std::size_t missing(const std::vector<std::uint32_t>& cells) const {
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [&](std::uint32_t cell) { return !seen_[cell]; }));
+  }
+
+ private:
+  std::vector<bool> seen_;
+  std::size_t count_ = 0;
+};
+
+VoxelBox joined(const VoxelBox& a, const VoxelBox& b) {
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
+}  // namespace
+
+double ViewOrderCurve::volume_area() const { return mean_of(volume); }
+
+double ViewOrderCurve::surface_area() const { return mean_of(surface); }
+
+RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions& options,
+                             const std::optional<Box>& object)
+    : scans_(std::move(scans)), options_(options), object_(object) {
+  if (scans_.empty()) {
+    throw std::invalid_argument("RecordedViews: there is no scan");
+  }
+  if (object_ && object_->empty()) {
+    throw std::invalid_argument("RecordedViews: the box of the object is empty");
+  }
+  struct Cells {
+    std::vector<VoxelIndex> known;
+    std::vector<VoxelIndex> hit;
+  };
+  std::vector<Cells> cells;
+  VoxelBox box;
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    OccupancyMapOptions of_one = options_;
+    of_one.region = object_ ? object_ : options_.region;
+    OccupancyMap map(of_one);
+    map.insert(scans_[i]);
+    box = i == 0 ? map.bounds() : joined(box, map.bounds());
+    Cells& of_view = cells.emplace_back();
+    map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+      of_view.known.push_back(cell);
+      if (state == Occupancy::Occupied) {
+        of_view.hit.push_back(cell);
+      }
+    });
+  }
+  const auto x = static_cast<std::uint64_t>(std::int64_t{box.hi.x} - box.lo.x);
+  const auto y = static_cast<std::uint64_t>(std::int64_t{box.hi.y} - box.lo.y);
+  const auto z = static_cast<std::uint64_t>(std::int64_t{box.hi.z} - box.lo.z);
+  constexpr double kMost = 2147483648.0;
+  if (static_cast<double>(x) * static_cast<double>(y) * static_cast<double>(z) > kMost) {
+    throw std::invalid_argument("RecordedViews: the cells known are too far apart");
+  }
+  box_cells_ = static_cast<std::size_t>(x * y * z);
+  const auto numbers = [&](const std::vector<VoxelIndex>& list) {
+    std::vector<std::uint32_t> result;
+    result.reserve(list.size());
+    for (const VoxelIndex& cell : list) {
+      const auto dx = static_cast<std::uint64_t>(cell.x - box.lo.x);
+      const auto dy = static_cast<std::uint64_t>(cell.y - box.lo.y);
+      const auto dz = static_cast<std::uint64_t>(cell.z - box.lo.z);
+      result.push_back(static_cast<std::uint32_t>((dz * y + dy) * x + dx));
+    }
+    return result;
+  };
+  for (const Cells& of_view : cells) {
+    known_.push_back(numbers(of_view.known));
+    hit_.push_back(numbers(of_view.hit));
+  }
+}
+
+OccupancyMap RecordedViews::map_before() const {
+  OccupancyMap map(options_);
+  if (object_) {
+    Box all = *object_;
+    for (const Scan& scan : scans_) {
+      all.extend(scan.world_from_sensor.translation());
+    }
+    map.assume_free(all);
+    const VoxelBox unknown{map.frame().cell_of(object_->min),
+                           map.frame().cell_of(object_->max) + VoxelIndex{1, 1, 1}};
+    for_each_cell(unknown, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
+  }
+  return map;
+}
+
+ViewOrderCurve RecordedViews::curve(std::string name, std::vector<std::size_t> order) const {
+  SeenCells known(box_cells_);
+  SeenCells hit(box_cells_);
+  ViewOrderCurve result{.name = std::move(name), .order = std::move(order)};
+  for (const std::size_t view : result.order) {
+    known.add(known_.at(view));
+    hit.add(hit_.at(view));
+    result.volume.push_back(static_cast<double>(known.count()));
+    result.surface.push_back(static_cast<double>(hit.count()));
+  }
+  for (std::size_t view = 0; view < size(); ++view) {  // what all of them make known
+    known.add(known_[view]);
+    hit.add(hit_[view]);
+  }
+  for (double& value : result.volume) {
+    value /= std::max(1.0, static_cast<double>(known.count()));
+  }
+  for (double& value : result.surface) {
+    value /= std::max(1.0, static_cast<double>(hit.count()));
+  }
+  return result;
+}
+
+std::vector<std::size_t> RecordedViews::recorded_order() const {
+  std::vector<std::size_t> order(size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  return order;
+}
+
+ViewOrderCurve RecordedViews::evenly_spaced(std::string name) const {
+  ViewOrderCurve result{.name = std::move(name), .order = recorded_order()};
+  for (std::size_t count = 1; count <= size(); ++count) {
+    std::vector<std::size_t> spread;
+    for (std::size_t i = 0; i < count; ++i) {
+      spread.push_back(count == 1 ? 0 : (2 * i * (size() - 1) + (count - 1)) / (2 * (count - 1)));
+    }
+    const ViewOrderCurve of_these = curve("", spread);
+    result.volume.push_back(of_these.volume.back());
+    result.surface.push_back(of_these.surface.back());
+  }
+  return result;
+}
+
+std::vector<std::size_t> RecordedViews::random_order(std::size_t start, std::uint64_t seed) const {
+  std::vector<std::size_t> order = recorded_order();
+  std::swap(order.front(), order.at(start));
+  std::mt19937_64 engine(seed);
+  for (std::size_t i = order.size(); i-- > 2;) {  // Fisher & Yates, by hand: the same on every standard library
+    std::swap(order[i], order[1 + engine() % i]);
+  }
+  return order;
+}
+
+std::vector<std::size_t> RecordedViews::greedy_order(std::size_t start, Measure measure) const {
+  const auto& cells = measure == Measure::Volume ? known_ : hit_;
+  SeenCells seen(box_cells_);
+  seen.add(cells.at(start));
+  std::vector<std::size_t> order{start};
+  std::vector<std::size_t> left = recorded_order();
+  left.erase(left.begin() + static_cast<std::ptrdiff_t>(start));
+  while (!left.empty()) {
+    const auto best = std::max_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
+      return seen.missing(cells[a]) < seen.missing(cells[b]);
+    });
+    seen.add(cells[*best]);
+    order.push_back(*best);
+    left.erase(best);
+  }
+  return order;
+}
+
+std::vector<std::size_t> chosen_order(const RecordedViews& views, std::size_t start, const ChooseView& choose) {
+  OccupancyMap map = views.map_before();
+  std::vector<std::size_t> order{start};
+  std::vector<std::size_t> left = views.recorded_order();
+  left.erase(left.begin() + static_cast<std::ptrdiff_t>(start));
+  map.insert(views.scans().at(start));
+  while (!left.empty()) {
+    const std::size_t next = choose(map, order.back(), left);
+    const auto found = std::find(left.begin(), left.end(), next);
+    if (found == left.end()) {
+      throw std::logic_error("chosen_order: a view was chosen that is not left");
+    }
+    left.erase(found);
+    map.insert(views.scans()[next]);
+    order.push_back(next);
+  }
+  return order;
+}
+
+}  // namespace vantage

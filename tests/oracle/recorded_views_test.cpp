@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Choosing among views that real sensors took: who knows most, soonest?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vantage/planner/recorded_views.hpp>
+#include <vantage/vision/recording.hpp>
+#include <vector>
+
+#include "support/bunny_scans.hpp"
+#include "support/real_data.hpp"
+
+namespace vantage {
+namespace {
+
+struct Dataset {
+  std::string name;
+  RecordedViews views;
+  RangeSensor sensor;
+};
+
+Dataset recorded(const std::string& format, const std::filesystem::path& folder, double cell_m) {
+  const Recording recording = Recording::open(format, folder);
+  std::vector<Scan> scans;
+  for (std::size_t i = 0; i < recording.frames().size(); ++i) {
+    scans.push_back(recording.read(i).scan.scan);
+  }
+  return {format, RecordedViews(std::move(scans), {.resolution_m = cell_m}), recording.sensor()};
+}
+
+// The scanner as a camera 0.7 m before the bunny: its rays are nearly parallel.
+Dataset bunny(const std::filesystem::path& folder) {
+  const Eigen::Vector3d eye(0.0, 0.1, 0.7);
+  Pose scan_from_sensor = Pose::Identity();  // it looks along -z of the scan, y up
+  scan_from_sensor.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  scan_from_sensor.translation() = eye;
+  std::vector<Scan> scans;
+  for (const test::BunnyScan& given : test::bunny_scans(folder)) {
+    Scan scan;
+    scan.world_from_sensor = given.world_from_scan * scan_from_sensor;
+    const Pose sensor_from_scan = scan_from_sensor.inverse();
+    for (const Eigen::Vector3f& point : given.points) {
+      scan.points.emplace_back((sensor_from_scan * point.cast<double>()).cast<float>());
+    }
+    scans.push_back(std::move(scan));
+  }
+  return {"bunny",
+          RecordedViews(std::move(scans), {.resolution_m = 0.004}, Box{{-0.11, 0.02, -0.08}, {0.08, 0.20, 0.08}}),
+          RangeSensor::pinhole(200, 200, 0.35, 0.35, 0.1, 0.9)};
+}
+
+double share_below(const std::vector<double>& areas, double area) {
+  return double(std::count_if(areas.begin(), areas.end(), [&](double a) { return a < area; })) / double(areas.size());
+}
+
+// Areas of 100 random orders, and what a chooser makes of the same views.
+struct Field {
+  explicit Field(const Dataset& data)
+      : views(data.views),
+        greedy(views.curve("greedy", views.greedy_order(0, RecordedViews::Measure::Volume)).volume_area()) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      random.push_back(views.curve("random", views.random_order(0, seed)).volume_area());
+    }
+  }
+  void print(const ViewOrderCurve& curve) const {
+    std::printf("  %-16s volume %.4f, %.1f %% of greedy, above %.0f %% of random; surface %.4f\n", curve.name.c_str(),
+                curve.volume_area(), 100.0 * curve.volume_area() / greedy,
+                100.0 * share_below(random, curve.volume_area()), curve.surface_area());
+  }
+
+  const RecordedViews& views;
+  double greedy;
+  std::vector<double> random = {};
+};
+
+// The bound is what a chooser among recorded views is to reach.
+void expect_good_choice(const Dataset& data) {
+  const Field field(data);
+  const ViewOrderCurve even = data.views.evenly_spaced("evenly spaced");
+  const ViewOrderCurve paper =
+      data.views.curve("next-best-view", chosen_order(data.views, 0, most_unknown_cells(data.views, data.sensor)));
+  const ViewOrderCurve expected =
+      data.views.curve("expected cells", chosen_order(data.views, 0, most_expected_cells(data.views, data.sensor)));
+  std::printf("%s\n", data.name.c_str());
+  for (const ViewOrderCurve* curve : {&even, &paper, &expected}) {
+    field.print(*curve);
+  }
+  EXPECT_GT(expected.volume_area(), even.volume_area());
+  EXPECT_GT(expected.surface_area(), even.surface_area());
+  EXPECT_GE(share_below(field.random, expected.volume_area()), 0.95);
+  EXPECT_GE(expected.volume_area(), 0.9 * field.greedy);
+  EXPECT_LE(expected.volume_area(), field.greedy * 1.05) << "greedy is near the best there is";
+}
+
+TEST(RealViews, BunnyScans) {
+  VANTAGE_REAL_DATA(folder, "object_scans/stanford_bunny_range");
+  expect_good_choice(bunny(folder));
+}
+
+TEST(RealViews, ShelfBin) {
+  VANTAGE_REAL_DATA(folder, "rgbd/apc_shelf_bin_15");
+  expect_good_choice(recorded("apc", folder, 0.02));
+}
+
+TEST(RealViews, Kitchen) {
+  VANTAGE_REAL_DATA(folder, "rgbd/7scenes_redkitchen_40");
+  expect_good_choice(recorded("7scenes", folder, 0.05));
+}
+
+// Three scans of a wall side by side, the middle one of what the others see already.
+RecordedViews three_walls() {
+  std::vector<Scan> scans;
+  for (const double x : {0.0, 0.5, 2.0}) {
+    Scan scan;
+    scan.world_from_sensor.translation().x() = x;
+    for (float u = -0.5F; u <= 0.5F; u += 0.02F) {
+      for (float v = -0.5F; v <= 0.5F; v += 0.02F) {
+        scan.points.emplace_back(2.0F * u, 2.0F * v, 2.0F);
+      }
+    }
+    scans.push_back(scan);
+  }
+  return {std::move(scans), {.resolution_m = 0.1}};
+}
+
+TEST(RecordedViews, EveryOrderEndsWithTheSameCells) {
+  const RecordedViews views = three_walls();
+  const ViewOrderCurve curve = views.curve("there", {0, 1, 2});
+  EXPECT_DOUBLE_EQ(curve.volume.back(), 1.0);
+  EXPECT_DOUBLE_EQ(views.curve("back", {2, 1, 0}).surface.back(), 1.0);
+  EXPECT_LT(curve.volume[0], curve.volume[1]);
+  EXPECT_EQ(views.greedy_order(0, RecordedViews::Measure::Volume), (std::vector<std::size_t>{0, 2, 1}));
+  EXPECT_EQ(views.evenly_spaced("even").volume[1], views.curve("ends", {0, 2}).volume[1]);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::vector<std::size_t> order = views.random_order(1, seed);
+    EXPECT_EQ(order.front(), 1U);
+    EXPECT_EQ(order, views.random_order(1, seed));
+    std::sort(order.begin(), order.end());
+    EXPECT_EQ(order, views.recorded_order());
+  }
+}
+
+TEST(RecordedViews, ChoosersTakeTheViewThatShowsMore) {
+  const RecordedViews views = three_walls();
+  const RangeSensor sensor = RangeSensor::pinhole(40, 40, 0.9, 0.9, 0.0, 3.0);
+  const std::vector<std::size_t> best{0, 2, 1};
+  EXPECT_EQ(chosen_order(views, 0, most_expected_cells(views, sensor)), best);
+  EXPECT_THROW((void)chosen_order(views, 0, [](const auto&, auto, auto) { return std::size_t{0}; }),
+               std::logic_error);
+  EXPECT_THROW(RecordedViews({}, {}), std::invalid_argument);
+  EXPECT_THROW(RecordedViews(views.scans(), {}, Box{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vantage
