@@ -11,6 +11,7 @@
 #include "apps/replay_request.hpp"
 #include "apps/replay_run.hpp"
 #include "apps/run_files.hpp"
+#include "apps/select_run.hpp"
 #include "apps/shared_options.hpp"
 
 namespace vantage::apps {
@@ -80,6 +81,9 @@ int replay(const ReplayRequest& request) {
   std::ostream& progress = request.run.json == "-" ? std::cerr : std::cout;
   progress << request.dataset << ": " << recording.frames().size() << " frames, cells of " << request.run.resolution_m
            << " m, range " << recording.camera().trusted_range_m() << " m\n";
+  if (request.select) {
+    return select_views(request, recording, progress);
+  }
 
   ReplayRecord record =
       apps::replay(recording, {.every = request.every, .max_views = request.run.max_views}, map, *platform, planners,
@@ -137,6 +141,10 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->type_name("M")
       ->check(a_number())
       ->capture_default_str()
+      ->group("Run");
+  command
+      ->add_flag("--select", request->select,
+                 "Let planners choose the order of the views, and compare how soon they know how much")
       ->group("Run");
   add_setting_option(*command, request->run, "A setting of every planner named, as often as needed");
   add_run_options(*command, request->run);

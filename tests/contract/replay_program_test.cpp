@@ -90,6 +90,26 @@ TEST_F(ReplayProgram, ABudgetEndsIt) {
   EXPECT_EQ(nlohmann::json::parse(out_).at("views"), 3);
 }
 
+TEST_F(ReplayProgram, ComparesOrdersOfViews) {
+  const fs::path out = folder_ / "out";
+  ASSERT_EQ(
+      run(on_data() + "--select --planner next-best-view,nearest-frontier --json - --out '" + out.string() + "'"), 0)
+      << err_;
+  const auto report = nlohmann::json::parse(out_);
+  EXPECT_EQ(report.at("command"), "replay");
+  const auto& selection = report.at("selection");
+  EXPECT_EQ(selection.at("frames").size(), 5U);
+  EXPECT_EQ(selection.at("orders").size(), 6U);
+  for (const auto& order : selection.at("orders")) {
+    EXPECT_EQ(order.at("volume").size(), 5U) << order.at("name");
+    EXPECT_NEAR(order.at("volume").back().get<double>(), 1.0, 1e-12) << "every order ends with all that is known";
+    EXPECT_LE(order.at("volume_area").get<double>(),
+              selection.at("greedy_volume").at("volume_area").get<double>() + 0.05);
+  }
+  EXPECT_NE(err_.find("expected cells"), std::string::npos);
+  EXPECT_TRUE(fs::exists(out / "selection.png"));
+}
+
 TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused("--format tum", "--dataset");
   expect_refused("--dataset '" + (folder_ / "no").string() + "' --format tum", "no: is not a folder");

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "apps/select_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/recorded_views.hpp>
+#include <vantage/version.hpp>
+#include <vantage/vision/line_plot.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/replay_files.hpp"
+#include "apps/run_files.hpp"
+
+namespace vantage::apps {
+namespace {
+
+using SelectionJson = nlohmann::ordered_json;
+
+constexpr std::uint64_t kRandomOrders = 100;
+constexpr double kMetresPerRadian = 1.0;  // how much a wrong direction counts beside a wrong place
+
+// An order and how it compares.
+struct Contender {
+  ViewOrderCurve curve;
+  double above_random_volume = 0.0;  // share of the random orders with a smaller area
+  double above_random_surface = 0.0;
+  double choose_ms = 0.0;  // per view; 0 where nothing was chosen
+};
+
+struct Comparison {
+  std::vector<std::string> frames;
+  std::vector<SkippedFrame> skipped;
+  std::vector<Contender> contenders;
+  ViewOrderCurve greedy_volume;
+  ViewOrderCurve greedy_surface;
+};
+
+double share_below(const std::vector<double>& areas, double area) {
+  const auto below = std::count_if(areas.begin(), areas.end(), [&](double other) { return other < area; });
+  return static_cast<double>(below) / static_cast<double>(areas.size());
+}
+
+RecordedViews views_of(const ReplayRequest& request, const Recording& recording, Comparison& comparison) {
+  comparison.skipped = recording.skipped();
+  std::vector<Scan> scans;
+  for (std::size_t i = 0; i < recording.frames().size() && scans.size() < request.run.max_views; i += request.every) {
+    const std::string& name = recording.frames()[i].name;
+    try {
+      scans.push_back(recording.read(i).scan.scan);
+      comparison.frames.push_back(name);
+    } catch (const std::runtime_error& error) {
+      comparison.skipped.push_back({name, error.what()});
+    }
+  }
+  if (scans.size() < 2) {
+    throw std::runtime_error(request.dataset + ": there are " + std::to_string(scans.size()) +
+                             " frames to choose among, must be two");
+  }
+  return {std::move(scans), map_options_of(request)};
+}
+
+template <class Choose>
+Contender chosen(const RecordedViews& views, const std::string& name, const Choose& choose) {
+  const auto start = std::chrono::steady_clock::now();
+  Contender contender;
+  contender.curve = views.curve(name, chosen_order(views, 0, choose));
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  contender.choose_ms = took.count() / static_cast<double>(views.size() - 1);
+  return contender;
+}
+
+void add_choosers(const ReplayRequest& request, const Recording& recording, const RecordedViews& views,
+                  std::vector<Contender>& contenders) {
+  const RangeSensor sensor = recording.sensor();
+  contenders.push_back(chosen(views, "expected cells", most_expected_cells(views, sensor)));
+  const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
+  for (const auto& planner : planners_of(request, sensor, platform)) {
+    const std::string name(planner->name());
+    contenders.push_back(
+        name == "next-best-view"
+            ? chosen(views, name, most_unknown_cells(views, sensor, static_cast<std::size_t>(request.run.threads)))
+            : chosen(views, name, nearest_to_goal(views, *planner, kMetresPerRadian)));
+  }
+}
+
+Comparison compare(const ReplayRequest& request, const Recording& recording) {
+  Comparison comparison;
+  const RecordedViews views = views_of(request, recording, comparison);
+  std::vector<double> random_volume;
+  std::vector<double> random_surface;
+  std::vector<ViewOrderCurve> random;
+  for (std::uint64_t i = 0; i < kRandomOrders; ++i) {
+    random.push_back(views.curve("random, the median", views.random_order(0, request.run.seed + i)));
+    random_volume.push_back(random.back().volume_area());
+    random_surface.push_back(random.back().surface_area());
+  }
+  comparison.contenders.push_back({views.curve("recorded order", views.recorded_order())});
+  comparison.contenders.push_back({views.evenly_spaced("evenly spaced")});
+  std::sort(random.begin(), random.end(),
+            [](const auto& a, const auto& b) { return a.volume_area() < b.volume_area(); });
+  comparison.contenders.push_back({random[random.size() / 2]});
+  add_choosers(request, recording, views, comparison.contenders);
+  for (Contender& contender : comparison.contenders) {
+    contender.above_random_volume = share_below(random_volume, contender.curve.volume_area());
+    contender.above_random_surface = share_below(random_surface, contender.curve.surface_area());
+  }
+  comparison.greedy_volume = views.curve("greedy", views.greedy_order(0, RecordedViews::Measure::Volume));
+  comparison.greedy_surface = views.curve("greedy", views.greedy_order(0, RecordedViews::Measure::Surface));
+  return comparison;
+}
+
+void print_table(std::ostream& out, const Comparison& comparison) {
+  char text[256];
+  const double volume = comparison.greedy_volume.volume_area();
+  const double surface = comparison.greedy_surface.surface_area();
+  std::snprintf(text, sizeof text, "\n%-20s %7s %9s %8s   %8s %9s %8s  %12s\n", "", "volume", "of greedy", "> random",
+                "surface", "of greedy", "> random", "choosing");
+  out << text;
+  for (const Contender& contender : comparison.contenders) {
+    const ViewOrderCurve& curve = contender.curve;
+    std::snprintf(text, sizeof text, "%-20s %7.4f %7.1f %% %6.0f %%   %8.4f %7.1f %% %6.0f %%", curve.name.c_str(),
+                  curve.volume_area(), 100.0 * curve.volume_area() / volume, 100.0 * contender.above_random_volume,
+                  curve.surface_area(), 100.0 * curve.surface_area() / surface,
+                  100.0 * contender.above_random_surface);
+    out << text;
+    if (contender.choose_ms > 0.0) {
+      std::snprintf(text, sizeof text, "  %9.1f ms", contender.choose_ms);
+      out << text;
+    }
+    out << '\n';
+  }
+  std::snprintf(text, sizeof text, "%-20s %7.4f %7.1f %% %8s   %8.4f %7.1f %%\n", "greedy", volume, 100.0, "",
+                surface, 100.0);
+  out << text
+      << "\nAreas under the curves of what is known over the number of views, as shares of what all views know;\n"
+         "> random: of 100 random orders, those it is above; greedy: who has seen all views already.\n";
+}
+
+SelectionJson json_of(const ViewOrderCurve& curve) {
+  return {{"name", curve.name},
+          {"volume_area", curve.volume_area()},
+          {"surface_area", curve.surface_area()},
+          {"order", curve.order},
+          {"volume", curve.volume},
+          {"surface", curve.surface}};
+}
+
+std::string selection_json(const ReplayRequest& request, const Comparison& comparison) {
+  SelectionJson orders = SelectionJson::array();
+  for (const Contender& contender : comparison.contenders) {
+    SelectionJson order = json_of(contender.curve);
+    order["above_random_volume"] = contender.above_random_volume;
+    order["above_random_surface"] = contender.above_random_surface;
+    order["choose_ms"] = contender.choose_ms;
+    orders.push_back(std::move(order));
+  }
+  SelectionJson skipped = SelectionJson::array();
+  for (const SkippedFrame& frame : comparison.skipped) {
+    skipped.push_back({{"frame", frame.name}, {"reason", frame.reason}});
+  }
+  const SelectionJson json = {{"vantage", VANTAGE_VERSION_STRING},
+                              {"command", "replay"},
+                              {"world", request.dataset},
+                              {"seed", request.run.seed},
+                              {"threads", request.run.threads},
+                              {"resolution_m", request.run.resolution_m},
+                              {"selection",
+                               {{"format", request.format},
+                                {"frames", comparison.frames},
+                                {"skipped", std::move(skipped)},
+                                {"orders", std::move(orders)},
+                                {"greedy_volume", json_of(comparison.greedy_volume)},
+                                {"greedy_surface", json_of(comparison.greedy_surface)}}}};
+  return json.dump(1) + "\n";
+}
+
+Picture selection_plot(const Comparison& comparison) {
+  const auto plot = [&](const char* title, const ViewOrderCurve& greedy, auto values) {
+    LinePlot result{.title = title,
+                    .x_label = "views used",
+                    .y_label = "known, of what all views know [%]",
+                    .y_range = std::pair(0.0, 100.0)};
+    const auto add = [&](const ViewOrderCurve& curve) {
+      LineSeries series{.name = curve.name};
+      for (const double value : values(curve)) {
+        series.x.push_back(static_cast<double>(series.x.size() + 1));
+        series.y.push_back(100.0 * value);
+      }
+      result.series.push_back(std::move(series));
+    };
+    for (const Contender& contender : comparison.contenders) {
+      add(contender.curve);
+    }
+    add(greedy);
+    return result;
+  };
+  return draw_line_plots(std::vector<LinePlot>{
+      plot("volume", comparison.greedy_volume, [](const ViewOrderCurve& curve) { return curve.volume; }),
+      plot("surface", comparison.greedy_surface, [](const ViewOrderCurve& curve) { return curve.surface; })});
+}
+
+}  // namespace
+
+int select_views(const ReplayRequest& request, const Recording& recording, std::ostream& progress) {
+  const Comparison comparison = compare(request, recording);
+  print_table(progress, comparison);
+  for (const SkippedFrame& frame : comparison.skipped) {
+    progress << "left out " << frame.name << ": " << frame.reason << '\n';
+  }
+  const std::string json = selection_json(request, comparison);
+  if (!request.run.out.empty()) {
+    const std::filesystem::path folder(request.run.out);
+    make_folder(folder);
+    write_text(folder / "selection.json", json);
+    write_png(selection_plot(comparison), folder / "selection.png");
+    progress << "\nwrote\n  " << (folder / "selection.json").string() << "\n  " << (folder / "selection.png").string()
+             << '\n';
+  }
+  if (request.run.json == "-") {
+    std::cout << json << std::flush;
+  } else if (!request.run.json.empty()) {
+    write_text(request.run.json, json);
+  }
+  return kDone;
+}
+
+}  // namespace vantage::apps
