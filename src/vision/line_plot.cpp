@@ -23,8 +23,14 @@ constexpr double kRight = 78.0;  // holds the value at the end of a curve
 constexpr double kTop = 88.0;
 constexpr double kBottom = 66.0;
 constexpr double kText = 10.0;
-constexpr std::array<Colour, 6> kCurves{
-    {{35, 84, 173}, {214, 90, 29}, {22, 145, 84}, {132, 56, 163}, {190, 150, 20}, {90, 96, 108}}};
+constexpr std::array<Colour, 8> kCurves{{{35, 84, 173},
+                                         {214, 90, 29},
+                                         {22, 145, 84},
+                                         {132, 56, 163},
+                                         {190, 150, 20},
+                                         {90, 96, 108},
+                                         {214, 70, 140},
+                                         {40, 170, 190}}};
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
