@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <unordered_set>
 #include <vantage/arm/arm.hpp>
 #include <vantage/frontier/void_cells.hpp>
+#include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
@@ -129,7 +131,8 @@ void print_view(std::ostream& out, const ViewRecord& view, double cell_m) {
   out << line << std::flush;
 }
 
-// What every drawn posture that the map admits would see of the voids that are left.
+// What every drawn posture that the map admits would see of the voids that are left: void cells in which a ray of the
+// sensor ends and whose centre is in plain sight, so that nothing counts that shows through a worn surface only.
 void print_exhaustive(std::ostream& out, const Arm& arm, const RangeSensor& sensor, const OccupancyMap& map) {
   const std::vector<VoxelIndex> voids = void_cells(map);
   if (voids.empty()) {
@@ -144,8 +147,9 @@ void print_exhaustive(std::ostream& out, const Arm& arm, const RangeSensor& sens
   const std::vector<Pose> poses = arm.admitted_poses(map);
   for (const Pose& pose : poses) {
     std::size_t seen = 0;
+    std::uint64_t operations = 0;
     caster.visible_cells(pose, rays, map.bounds()).for_each([&](const VoxelIndex& cell) {
-      if (is_void.contains(cell)) {
+      if (is_void.contains(cell) && in_plain_sight(map, pose.translation(), cell, operations)) {
         ++seen;
         by_any.insert(cell);
       }
