@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vantage/map/occupancy_map.hpp>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "support/real_data.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace vantage {
 namespace {
@@ -71,6 +74,80 @@ TEST(RealStereo, MotorcycleAgainstTheTruth) {
     EXPECT_LT(median_m, 0.02);
     EXPECT_GT(density, 0.6);
   }
+}
+
+// A chessboard of 25 mm in front of two cameras with distortion, a little askew: calibrated here from its own
+// corners, rectified and matched, its corners must come out 25 mm apart.
+TEST(RealStereo, AChessboardKeepsItsSizeThroughRectification) {
+  VANTAGE_REAL_DATA(folder, "stereo/opencv_chessboard_rig");
+  const cv::Size board(9, 6);
+  constexpr float kSquareM = 0.025F;
+  std::vector<cv::Point3f> flat;
+  for (int row = 0; row < board.height; ++row) {
+    for (int column = 0; column < board.width; ++column) {
+      flat.emplace_back(kSquareM * float(column), kSquareM * float(row), 0.0F);
+    }
+  }
+  std::vector<std::vector<cv::Point2f>> left;
+  std::vector<std::vector<cv::Point2f>> right;
+  std::vector<std::string> numbers;
+  for (const char* number : {"01", "02", "03", "04", "05", "06", "07", "08", "09", "11", "12", "13", "14"}) {
+    std::vector<cv::Point2f> corners[2];
+    bool found = true;
+    for (int side = 0; side < 2; ++side) {
+      const auto file = folder / ((side == 0 ? "left" : "right") + std::string(number) + ".jpg");
+      const cv::Mat image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+      found = found && cv::findChessboardCorners(image, board, corners[side]);
+    }
+    if (found) {
+      left.push_back(corners[0]);
+      right.push_back(corners[1]);
+      numbers.emplace_back(number);
+    }
+  }
+  ASSERT_GE(numbers.size(), 10U);
+  cv::FileStorage lenses((folder / "intrinsics.yml").string(), cv::FileStorage::READ);
+  cv::Mat m1, d1, m2, d2, r, t, essential, fundamental;
+  lenses["M1"] >> m1;
+  lenses["D1"] >> d1;
+  lenses["M2"] >> m2;
+  lenses["D2"] >> d2;
+  cv::stereoCalibrate(std::vector<std::vector<cv::Point3f>>(left.size(), flat), left, right, m1, d1, m2, d2,
+                      cv::Size(640, 480), r, t, essential, fundamental, cv::CALIB_FIX_INTRINSIC);
+  const test::TemporaryFolder own;
+  cv::FileStorage placement(own / "extrinsics.yml", cv::FileStorage::WRITE);
+  placement << "R" << r << "T" << t;
+  placement.release();
+
+  const StereoRig rig = read_opencv_calibration(folder / "intrinsics.yml", own / "extrinsics.yml", 640, 480);
+  EXPECT_NEAR(rig.baseline_m, cv::norm(t), 1e-6);
+  const StereoMatcher matcher(rig, {.disparities_px = 160, .window_px = 7});
+  cv::Mat r1, r2, p1, p2, q;
+  cv::stereoRectify(m1, d1, m2, d2, cv::Size(640, 480), r, t, r1, r2, p1, p2, q, cv::CALIB_ZERO_DISPARITY, 0.0,
+                    cv::Size(640, 480));
+  std::vector<double> apart_m;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const StereoDepth seen =
+        matcher.match(folder / ("left" + numbers[i] + ".jpg"), folder / ("right" + numbers[i] + ".jpg"));
+    std::vector<cv::Point2f> corners;
+    cv::undistortPoints(left[i], corners, m1, d1, r1, p1);
+    const auto point = [&](const cv::Point2f& pixel) -> Eigen::Vector3d {
+      const auto u = std::size_t(std::clamp(std::lround(pixel.x), 0L, 639L));
+      const auto v = std::size_t(std::clamp(std::lround(pixel.y), 0L, 479L));
+      const double z = double(seen.depth.at(u, v));
+      return {(double(pixel.x) - rig.cx) / rig.focal_px * z, (double(pixel.y) - rig.cy) / rig.focal_px * z, z};
+    };
+    for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+      const double distance_m = (point(corners[k]) - point(corners[k + 1])).norm();
+      if (k % std::size_t(board.width) + 1 < std::size_t(board.width) && std::isfinite(distance_m)) {
+        apart_m.push_back(distance_m);
+      }
+    }
+  }
+  ASSERT_GT(apart_m.size(), 100U);
+  const double median_m = median_of(apart_m);
+  std::printf("chessboard: %zu distances of 25 mm, median %.2f mm\n", apart_m.size(), 1000.0 * median_m);
+  EXPECT_NEAR(median_m, 0.025, 0.001);
 }
 
 // Free cells of one pair in which the next one measures a surface, as a share of the cells that it hits. Noise alone
