@@ -77,7 +77,7 @@ int explore(const ExploreRequest& request) {
   std::ostream silence(nullptr);
   std::ostream& progress = request.quiet ? silence : json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
-  FieldKeeper field;
+  PlanPictures pictures;
   RunRecording recording(*planner, request.out, recorder_setup(request, "explore", request.world, sensor));
   RunRecord record =
       run.run(recording, start_in(run, *platform, request), [&](const ViewRecord& view, const OccupancyMap& map) {
@@ -87,7 +87,7 @@ int explore(const ExploreRequest& request) {
         printer.view(view);
         recording.look(view, map);
         if (view.plan_ms > 0.0 && !request.out.empty()) {
-          field.look(*planner, map, view.view);
+          pictures.look(*planner, map, view);
         }
       });
   record.command = "explore";
@@ -99,7 +99,8 @@ int explore(const ExploreRequest& request) {
   printer.summary(record);
   recording.finish(record);
   progress << recording.cost(record);
-  write_outputs(request.out, request.json, record, run.map(), sensor, field.picture(), progress, recording.file());
+  write_outputs(request.out, request.json, record, run.map(), sensor, pictures.pictures(), progress,
+                recording.file());
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }
 

@@ -236,7 +236,7 @@ int reconstruct(const ReconstructRequest& request) {
   printer.summary(record);
   recording.finish(record);
   progress << recording.cost(record);
-  write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress, recording.file());
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, {}, progress, recording.file());
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
@@ -17,6 +18,7 @@
 #include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/growth_strip.hpp>
 #include <vantage/vision/line_plot.hpp>
+#include <vantage/vision/void_picture.hpp>
 
 namespace vantage::apps {
 namespace {
@@ -87,15 +89,7 @@ Picture growth_strip(const RunRecord& run, const std::filesystem::path& record) 
   return draw_growth_strip(moments, title_of(run) + ": the map grows");
 }
 
-}  // namespace
-
-void FieldKeeper::look(const ExplorationPlanner& planner, const OccupancyMap& map, std::size_t view) {
-  const auto* harmonic = dynamic_cast<const HarmonicPlanner*>(&planner);
-  if (harmonic == nullptr || !harmonic->field() || length_of(harmonic->field()->streamline) <= longest_m_) {
-    return;
-  }
-  const HarmonicField& field = *harmonic->field();
-  longest_m_ = length_of(field.streamline);
+Picture field_picture(const HarmonicField& field, const OccupancyMap& map, const std::string& title) {
   std::vector<VoxelIndex> frontier;
   for (std::size_t i = 0; i < field.problem.size(); ++i) {
     if (field.problem.kind(static_cast<LaplaceProblem::Position>(i)) == LaplaceCell::Sink) {
@@ -103,13 +97,55 @@ void FieldKeeper::look(const ExplorationPlanner& planner, const OccupancyMap& ma
     }
   }
   FieldContent content;
-  content.title = "harmonic field after view " + std::to_string(view);
+  content.title = title;
   content.cells = field.problem.cells();
   content.phi = field.phi;
   content.frontier = frontier;
   content.streamline = field.streamline;
   content.sensor_m = map.frame().centre_of(field.problem.cell(field.problem.source()));
-  picture_ = draw_field(map, content);
+  return draw_field(map, content);
+}
+
+void add_void_pictures(const VoidSearch& search, const OccupancyMap& map, const Pose& sensor,
+                       const std::string& after, std::map<std::string, Picture>& pictures) {
+  std::vector<VoxelIndex> voids;
+  for_each_cell(search.voids.box(), [&](const VoxelIndex& cell) {
+    if (search.voids.number_at(cell) != VoidClusters::kNone) {
+      voids.push_back(cell);
+    }
+  });
+  std::vector<Ellipsoid> ellipsoids;
+  for (const FrontierVoid& one : search.frontier_voids) {
+    ellipsoids.push_back(search.voids.clusters()[one.cluster].ellipsoid);
+  }
+  VoidContent content;
+  content.voids = voids;
+  content.frontier = search.frontier;
+  content.ellipsoids = ellipsoids;
+  content.places = search.places;
+  content.utility = search.utility;
+  content.sensor = sensor;
+  content.view = search.view;
+  content.title = "voids and frontiers" + after;
+  pictures["voids.png"] = draw_voids(map, content);
+  content.title = "places from which voids may be seen" + after;
+  pictures["void_utility.png"] = draw_void_utility(map, content);
+}
+
+}  // namespace
+
+void PlanPictures::look(const ExplorationPlanner& planner, const OccupancyMap& map, const ViewRecord& view) {
+  const std::string after = " after view " + std::to_string(view.view);
+  const auto* harmonic = dynamic_cast<const HarmonicPlanner*>(&planner);
+  if (harmonic != nullptr && harmonic->field() && length_of(harmonic->field()->streamline) > longest_m_) {
+    longest_m_ = length_of(harmonic->field()->streamline);
+    pictures_["field.png"] = field_picture(*harmonic->field(), map, "harmonic field" + after);
+  }
+  const auto* searcher = dynamic_cast<const FrontierVoidPlanner*>(&planner);
+  if (searcher != nullptr && searcher->search().frontier_voids.size() > most_voids_) {
+    most_voids_ = searcher->search().frontier_voids.size();
+    add_void_pictures(searcher->search(), map, view.pose, after, pictures_);
+  }
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -122,7 +158,7 @@ void make_folder(const std::filesystem::path& folder) {
 
 std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& run,
                                                    const OccupancyMap& map, const RangeSensor& sensor,
-                                                   const std::optional<Picture>& field,
+                                                   const std::map<std::string, Picture>& pictures,
                                                    const std::optional<std::filesystem::path>& record) {
   make_folder(folder);
   std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
@@ -131,9 +167,9 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
   save_octomap(map, files[1]);
   write_png(floor_plan(run, map, sensor), files[2]);
   write_png(coverage_plot(run), files[3]);
-  if (field) {
-    files.push_back(folder / "field.png");
-    write_png(*field, files.back());
+  for (const auto& [name, picture] : pictures) {
+    files.push_back(folder / name);
+    write_png(picture, files.back());
   }
   if (record) {
     files.push_back(folder / "growth.png");
@@ -159,11 +195,11 @@ void check_targets(const std::string& out, const std::string& json) {
 }
 
 void write_outputs(const std::string& out, const std::string& json, const RunRecord& run, const OccupancyMap& map,
-                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress,
+                   const RangeSensor& sensor, const std::map<std::string, Picture>& pictures, std::ostream& progress,
                    const std::optional<std::filesystem::path>& record) {
   if (!out.empty()) {
     progress << "\nwrote\n";
-    for (const std::filesystem::path& file : write_run_files(out, run, map, sensor, field, record)) {
+    for (const std::filesystem::path& file : write_run_files(out, run, map, sensor, pictures, record)) {
       progress << "  " << file.string() << '\n';
     }
   }

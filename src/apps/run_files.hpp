@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <map>
 #include <optional>
 #include <string>
 #include <vantage/geometry/box.hpp>
@@ -15,16 +16,19 @@
 
 namespace vantage::apps {
 
-/// Keeps the picture of the field with the longest way downhill that a run has seen: the one that shows most.
-class FieldKeeper {
+/// Keeps, of all plans of a run, the pictures of those that show most: of the field with the longest way downhill,
+/// and of the most voids with a frontier.
+class PlanPictures {
  public:
-  /// Looks at a planner right after it made a plan for `map`; planners without a field leave no picture.
-  void look(const ExplorationPlanner& planner, const OccupancyMap& map, std::size_t view);
-  [[nodiscard]] const std::optional<Picture>& picture() const { return picture_; }
+  /// Looks at a planner right after it made a plan for `map` where `view` was taken; most planners leave no picture.
+  void look(const ExplorationPlanner& planner, const OccupancyMap& map, const ViewRecord& view);
+  /// By the names of their files.
+  [[nodiscard]] const std::map<std::string, Picture>& pictures() const { return pictures_; }
 
  private:
   double longest_m_ = 0.0;
-  std::optional<Picture> picture_;
+  std::size_t most_voids_ = 0;
+  std::map<std::string, Picture> pictures_;
 };
 
 /// Makes a folder and those above it where they are missing. Throws std::runtime_error naming it.
@@ -35,7 +39,7 @@ void make_folder(const std::filesystem::path& folder);
 /// std::runtime_error naming what cannot be written.
 std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& run,
                                                    const OccupancyMap& map, const RangeSensor& sensor,
-                                                   const std::optional<Picture>& field,
+                                                   const std::map<std::string, Picture>& pictures,
                                                    const std::optional<std::filesystem::path>& record = std::nullopt);
 
 /// Refuses, before a run, an --out or a --json that could not be written. Throws std::runtime_error naming it.
@@ -43,7 +47,7 @@ void check_targets(const std::string& out, const std::string& json);
 /// After a run: its files where `out` names a folder, telling `progress` which, and its report where `json` names a
 /// file or, as "-", stdout.
 void write_outputs(const std::string& out, const std::string& json, const RunRecord& run, const OccupancyMap& map,
-                   const RangeSensor& sensor, const std::optional<Picture>& field, std::ostream& progress,
+                   const RangeSensor& sensor, const std::map<std::string, Picture>& pictures, std::ostream& progress,
                    const std::optional<std::filesystem::path>& record = std::nullopt);
 
 }  // namespace vantage::apps

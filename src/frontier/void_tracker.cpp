@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/frontier/void_tracker.hpp>
@@ -21,33 +22,70 @@ constexpr BrickPlane kAll = [] {
 
 Eigen::Vector3d point_of(const VoxelIndex& cell) { return Eigen::Vector3d(cell.x, cell.y, cell.z); }
 
-// The cells of a brick inside the hull. Most planes pass it by: either all of it is beyond one, or all within.
-BrickPlane inside_plane(const ConvexHull& hull, const VoxelIndex& brick) {
-  constexpr double kHalf = 0.5 * (Brick::kSide - 1);
-  const Eigen::Vector3d middle = point_of(Brick::first_cell(brick)) + Eigen::Vector3d::Constant(kHalf);
-  std::vector<const ConvexHull::Plane*> cutting;
-  for (const ConvexHull::Plane& plane : hull.planes()) {
-    const double distance = plane.distance(middle) - detail::kOnFacet;
-    const double reach = kHalf * plane.normal.cwiseAbs().sum() + detail::kOnFacet;
+using Planes = std::vector<const ConvexHull::Plane*>;
+
+// Those of the planes that cut the cells of a box; none at all where one has all of the box beyond it.
+std::optional<Planes> cutting(const Planes& planes, const VoxelBox& cells) {
+  const Eigen::Vector3d lo = point_of(cells.lo);
+  const Eigen::Vector3d hi = point_of(cells.hi - VoxelIndex{1, 1, 1});
+  const Eigen::Vector3d middle = 0.5 * (lo + hi);
+  const Eigen::Vector3d half = 0.5 * (hi - lo);
+  Planes cut;
+  for (const ConvexHull::Plane* plane : planes) {
+    const double distance = plane->distance(middle) - detail::kOnFacet;
+    const double reach = plane->normal.cwiseAbs().dot(half) + detail::kOnFacet;
     if (distance > reach) {
-      return {};
+      return std::nullopt;
     }
     if (distance > -reach) {
-      cutting.push_back(&plane);
+      cut.push_back(plane);
     }
   }
-  if (cutting.empty()) {
+  return cut;
+}
+
+// The cells of a sub-brick within the planes.
+std::uint64_t inside_word(const Planes& planes, const VoxelIndex& brick, std::size_t word) {
+  const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
+  const std::optional<Planes> cut = cutting(planes, {first, first + VoxelIndex{4, 4, 4}});
+  if (!cut) {
+    return 0;
+  }
+  std::uint64_t inside = ~std::uint64_t{0};
+  for (std::size_t bit = 0; bit < 64 && !cut->empty(); ++bit) {
+    const Eigen::Vector3d point = point_of(Brick::first_cell(brick) + Brick::cell_at(word * 64 + bit));
+    const bool within = std::all_of(cut->begin(), cut->end(), [&](const ConvexHull::Plane* plane) {
+      return plane->distance(point) <= detail::kOnFacet;
+    });
+    inside &= ~(std::uint64_t{!within} << bit);
+  }
+  return inside;
+}
+
+BrickPlane inside_plane(const Planes& planes, const VoxelIndex& brick) {
+  if (planes.empty()) {
     return kAll;
   }
   BrickPlane inside{};
-  for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
-    const Eigen::Vector3d point = point_of(Brick::first_cell(brick) + Brick::cell_at(offset));
-    const bool within = std::all_of(cutting.begin(), cutting.end(), [&](const ConvexHull::Plane* plane) {
-      return plane->distance(point) <= detail::kOnFacet;
-    });
-    inside[offset / 64] |= std::uint64_t{within} << (offset % 64);
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    inside[word] = inside_word(planes, brick, word);
   }
   return inside;
+}
+
+// The two halves of a box, cut across its longest side.
+std::pair<VoxelBox, VoxelBox> halves(const VoxelBox& box) {
+  const VoxelIndex extent = box.extent();
+  VoxelIndex low_end = box.hi;
+  VoxelIndex high_start = box.lo;
+  if (extent.x >= extent.y && extent.x >= extent.z) {
+    low_end.x = high_start.x = box.lo.x + extent.x / 2;
+  } else if (extent.y >= extent.z) {
+    low_end.y = high_start.y = box.lo.y + extent.y / 2;
+  } else {
+    low_end.z = high_start.z = box.lo.z + extent.z / 2;
+  }
+  return {{box.lo, low_end}, {high_start, box.hi}};
 }
 
 // The bricks around some points.
@@ -122,27 +160,36 @@ void VoidTracker::find_anew() {
 // Takes a hull that holds the one before.
 void VoidTracker::enclose(ConvexHull hull) {
   hull_ = std::move(hull);
-  for_each_cell(bricks_around(hull_.corners()), [&](const VoxelIndex& brick) { enclose(brick); });
+  Planes planes;
+  for (const ConvexHull::Plane& plane : hull_.planes()) {
+    planes.push_back(&plane);
+  }
+  if (!hull_.empty()) {
+    enclose(bricks_around(hull_.corners()), planes);
+  }
 }
 
-void VoidTracker::enclose(const VoxelIndex& brick) {
-  const auto known = numbers_.find(brick);
-  if (known != numbers_.end() && bricks_[known->second].inside == kAll) {
+// Only the planes that cut a box of bricks matter to its halves.
+void VoidTracker::enclose(const VoxelBox& bricks, const std::vector<const ConvexHull::Plane*>& planes) {
+  const std::optional<Planes> cut = cutting(planes, {Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
+  if (!cut) {
     return;
   }
-  const BrickPlane inside = inside_plane(hull_, brick);
-  if (!detail::any(inside)) {
+  if (bricks.size() > 1) {
+    const auto [low, high] = halves(bricks);
+    enclose(low, *cut);
+    enclose(high, *cut);
     return;
   }
-  std::uint32_t number = static_cast<std::uint32_t>(bricks_.size());
-  if (known == numbers_.end()) {
-    numbers_.emplace(brick, number);
-    bricks_.push_back({brick});
-  } else {
-    number = known->second;
+  const auto [known, is_new] = numbers_.try_emplace(bricks.lo, static_cast<std::uint32_t>(bricks_.size()));
+  if (is_new) {
+    bricks_.push_back({bricks.lo});
   }
-  bricks_[number].inside = inside;
-  refresh(bricks_[number]);
+  BrickVoids& brick = bricks_[known->second];
+  if (brick.inside != kAll) {
+    brick.inside = inside_plane(*cut, bricks.lo);
+    refresh(brick);
+  }
 }
 
 // The hull of cells of the region, which is a box, does not leave it.

@@ -146,8 +146,10 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
   }
   if (choice) {
     const auto seen = static_cast<std::size_t>(choice->view.view.utility);
+    search_.view = choice->view.view.pose;
     Plan plan = cycle.go(std::move(choice->view), std::move(choice->path));
     plan.reason = "a view of " + volume(seen, map.resolution_m());
+    plan.statistics.choose_ms = std::exchange(plan.statistics.path_ms, 0.0);  // ways are part of the choice here
     return plan;
   }
   if (!options_.strategy.beyond_voids) {
@@ -293,6 +295,14 @@ std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vecto
   return candidates;
 }
 
+// Over the cells that the survey has found reachable where the platform can follow them, else by its own search.
+std::optional<std::vector<Pose>> FrontierVoidPlanner::way_to(const OccupancyMap& map, const Pose& current,
+                                                             const FrontierSurvey& survey, const Pose& view) const {
+  const std::vector<VoxelIndex> cells = GridPaths(survey.reachable).to(map.frame().cell_of(view.translation()));
+  auto path = cells.empty() ? std::nullopt : poses_along(map, *setup_.platform, current, cells, view);
+  return path ? std::move(path) : setup_.platform->path(map, current, view);
+}
+
 // Equation (3): the best of the views to which there is a way. One that resolves no frontier worth a view does not
 // count: unknown cells behind surfaces worn away are not.
 std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const OccupancyMap& map, const Pose& current,
@@ -316,7 +326,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     }
     view.view.utility = static_cast<double>(candidate.void_cells);
     for_each_void_cell_seen(candidate.pose, *rays_, [&](const VoxelIndex& cell) { view.unknown.push_back(cell); });
-    if (auto path = setup_.platform->path(map, current, candidate.pose)) {
+    if (auto path = way_to(map, current, survey, candidate.pose)) {
       return Choice{std::move(view), std::move(*path)};
     }
   }
@@ -338,7 +348,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::nearest_frontier
                                        [&](const FrontierTarget& one) { return one.viewpoint == viewpoint; });
       TargetView view =
           view_of_target(map, *setup_.platform, setup_.sensor, survey, *target, statistics.ray_operations);
-      if (auto path = setup_.platform->path(map, current, view.view.pose)) {
+      if (auto path = way_to(map, current, survey, view.view.pose)) {
         view.view.utility = 0.0;
         return Choice{std::move(view), std::move(*path)};
       }

@@ -50,7 +50,7 @@ class VoidTracker {
 
   void find_anew();
   void enclose(ConvexHull hull);
-  void enclose(const VoxelIndex& brick);
+  void enclose(const VoxelBox& bricks, const std::vector<const ConvexHull::Plane*>& planes);
   void refresh(BrickVoids& brick);
   void collect_outside(const VoxelIndex& address, const Brick& brick, std::vector<Eigen::Vector3d>& points) const;
   [[nodiscard]] bool is_occupied(const Eigen::Vector3d& corner) const;

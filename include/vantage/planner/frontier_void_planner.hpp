@@ -56,7 +56,8 @@ struct FrontierVoidOptions {
   std::size_t most_vectors = 200'000;  ///< see utility_vectors, > 0
   std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, >= 1
   FrontierVoidStrategy strategy = {};  ///< what to make of the voids
-  FrontierSurveyOptions survey = {};   ///< what counts as observable
+  /// What counts as observable. Fewer directions than elsewhere: a void is looked into through many frontier cells.
+  FrontierSurveyOptions survey = {.sight_directions = 128};
 };
 
 /// What a plan of FrontierVoidPlanner was made from, for pictures and for those who want to look.
@@ -66,6 +67,7 @@ struct VoidSearch {
   std::vector<VoxelIndex> frontier;          ///< the observable frontier cells
   std::vector<VoxelIndex> places;            ///< reachable cells with a utility
   std::vector<std::uint64_t> utility;        ///< and what each has accumulated (Algorithm 1), in void cells
+  std::optional<Pose> view;                  ///< the view that was chosen; none where none sees a void
 };
 
 /// The search of voids of Dornhege & Kleiner 2011: voids, the frontiers through which they can be seen, places from
@@ -114,6 +116,8 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::optional<Choice> choose(const OccupancyMap& map, const Pose& current,
                                              const FrontierSurvey& survey, const std::vector<Pose>& views,
                                              PlanStatistics& statistics) const;
+  [[nodiscard]] std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Pose& current,
+                                                        const FrontierSurvey& survey, const Pose& view) const;
   [[nodiscard]] std::vector<Pose> views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
                                                  PlanStatistics& statistics) const;
   [[nodiscard]] std::optional<Choice> nearest_frontier(const OccupancyMap& map, const Pose& current,

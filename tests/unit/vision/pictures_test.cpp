@@ -155,5 +155,44 @@ TEST(Png, WritesAFileOrSaysWhyNot) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+TEST(VoidPicture, ShowsVoidsFrontiersAndUtility) {
+  const OccupancyMap map = walled_room();
+  std::vector<VoxelIndex> voids;
+  for_each_cell({{5, 5, 0}, {10, 12, 20}}, [&](const VoxelIndex& cell) { voids.push_back(cell); });
+  std::vector<VoxelIndex> frontier;
+  for_each_cell({{10, 5, 0}, {11, 12, 20}}, [&](const VoxelIndex& cell) { frontier.push_back(cell); });
+  std::vector<VoxelIndex> places;
+  std::vector<std::uint64_t> utility;
+  for (std::int32_t x = 12; x < 25; ++x) {
+    places.push_back({x, 8, 10});
+    utility.push_back(static_cast<std::uint64_t>(100 * (25 - x)));
+  }
+  const std::vector<Ellipsoid> ellipsoids{{{0.75, 0.85, 1.0}, Eigen::Matrix3d::Identity(), {0.3, 0.4, 1.0}}};
+  VoidContent content{.title = "voids", .voids = voids, .frontier = frontier, .ellipsoids = ellipsoids};
+  content.places = places;
+  content.utility = utility;
+  content.sensor = pose_looking({2.0, 3.0, 1.0}, 0.5);
+  content.view = pose_looking({1.5, 0.85, 1.0}, 3.1);
+  const auto more = [&](const Picture& picture, auto&& is_such) {
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+      pixels += is_such(picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]) ? 1U : 0U;
+    }
+    return pixels;
+  };
+  const auto violet = [](int r, int g, int b) { return b > r + 20 && r > g + 20; };
+  const auto red = [](int r, int g, int b) { return r > g + 100 && r > b + 100; };
+  const auto green = [](int r, int g, int b) { return g > r + 60 && g > b + 40; };
+  const Picture found = draw_voids(map, content);
+  EXPECT_GT(more(found, violet), 35U * 100U);
+  EXPECT_GT(more(found, red), 7U * 100U);
+  const Picture utilities = draw_void_utility(map, content);
+  EXPECT_GT(more(utilities, green), 100U);
+  EXPECT_GT(more(utilities, red), 100U);
+  utility.pop_back();
+  content.utility = utility;
+  EXPECT_THROW((void)draw_void_utility(map, content), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace vantage
