@@ -10,6 +10,7 @@
 #include <vantage/vision/field_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/line_plot.hpp>
+#include <vantage/vision/void_picture.hpp>
 #include <vector>
 
 namespace vantage {
