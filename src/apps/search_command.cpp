@@ -199,12 +199,16 @@ int search(const SearchRequest& request) {
   std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
   RunPrinter printer(progress, false);
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "search", shared.world, sensor));
+  PlanPictures pictures;
   const auto on_view = [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       printer.head(shared.planner, shared.world, shared.sensor, shared.resolution_m, shared.seed);
     }
     print_view(progress, view, shared.resolution_m);
     recording.look(view, map);
+    if (view.plan_ms > 0.0 && !shared.out.empty()) {
+      pictures.look(*planner, map, view);
+    }
   };
   RunRecord record = run.run(recording, arm->sensor_pose(joints), on_view);
   record.command = "search";
@@ -214,7 +218,7 @@ int search(const SearchRequest& request) {
   if (request.exhaustive) {
     print_exhaustive(progress, *arm, sensor, run.map());
   }
-  write_outputs(shared.out, shared.json, record, run.map(), sensor, std::nullopt, progress, recording.file());
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, pictures.pictures(), progress, recording.file());
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
 }
 
