@@ -14,7 +14,7 @@ _vantage() {
   if ((COMP_CWORD == 1)); then
     names="$("${COMP_WORDS[0]}" --help 2>/dev/null | awk '/^Commands/ { here = 1; next } /^ / && here { print $1 }') --help --version"
   elif [[ "$word" == -* ]]; then
-    names="$("${COMP_WORDS[0]}" "$command" --help 2>/dev/null | grep -oE -- '--[a-z][a-z-]*')"
+    names="$("${COMP_WORDS[0]}" "$command" --help 2>/dev/null | grep -oE -- '--[a-z][a-z-]*' | sort -u)"
   else
     case "$before" in
       --world) names="$(_vantage_section worlds)" ;;

@@ -3,7 +3,9 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
+#include <vantage/report/run_recorder.hpp>
 #include <vantage/report/sensor_file.hpp>
 #include <vantage/version.hpp>
 
@@ -17,6 +19,13 @@ int main() {
   record.outcome = vantage::RunOutcome::Explored;
   const std::string json = vantage::report_json(record);
   std::cout << json;
+  vantage::OccupancyMap map({.resolution_m = 0.1});
+  map.set({1, 2, 3}, vantage::Occupancy::Occupied);
+  vantage::RunRecorder recorder("run.record", {.planner = record.planner, .sensor = sensor});
+  recorder.record(map, vantage::Pose::Identity(), vantage::Plan{});
+  recorder.finish(vantage::RunOutcome::Explored, "one cell is enough");
+  vantage::write_report_html("run.record", "run.html");  // asks for no file of where the library was built
+
   const auto says = [&json](const std::string& text) { return json.find(text) != std::string::npos; };
   return sensor.width == 64 && says("\"vantage\": \"" VANTAGE_VERSION_STRING "\"") &&
                  says("\"planner\": \"of my own\"") && says("\"outcome\": \"explored\"")

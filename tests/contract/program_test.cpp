@@ -212,6 +212,46 @@ TEST_F(Program, ExploresAndReports) {
   }
 }
 
+TEST_F(Program, CompletesInBash) {
+  const auto completed = [&](const std::string& words, int word) {
+    const std::string script =
+        "source '" VANTAGE_SOURCE_DIR "/src/apps/completion.bash'; COMP_WORDS=('" VANTAGE_PROGRAM "' " + words +
+        "); COMP_CWORD=" + std::to_string(word) + "; _vantage; printf '%s ' \"${COMPREPLY[@]}\"";
+    const std::string command =
+        "bash -c \"$(cat '" + file("script.sh", script) + "')\" >'" + (folder_ / "words.txt").string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << script;
+    return read_all(folder_ / "words.txt");
+  };
+  EXPECT_EQ(completed("exp", 1), "explore ");
+  EXPECT_EQ(completed("explore --reg", 2), "--region ");
+  EXPECT_EQ(completed("explore --world two", 3), "two-storey ");
+  EXPECT_EQ(completed("explore --planner near", 3), "nearest-frontier ");
+  EXPECT_EQ(completed("reconstruct --sensor v", 3), "vpl ");
+  EXPECT_EQ(completed("compare --o", 2), "--out ");
+}
+
+// As on a terminal, which `script` plays.
+TEST_F(Program, DrawsOneBarOnATerminal) {
+  if (std::system("command -v script >/dev/null") != 0) {
+    GTEST_SKIP() << "there is no program `script` here to play a terminal";
+  }
+  const std::string typed = (folder_ / "typed.txt").string();
+  const std::string command = "script -qec \"'" VANTAGE_PROGRAM "' explore " + std::string(kTable) +
+                              "--max-views 4\" '" + typed + "' >/dev/null </dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 3 << 8);
+  const std::string text = read_all(typed);
+  EXPECT_EQ(text.find("view    1"), std::string::npos) << "no lines beside the bar\n" << text;
+  std::size_t bars = 0;
+  for (std::size_t at = text.find("\r["); at != std::string::npos; at = text.find("\r[", at + 1)) {
+    ++bars;
+    const std::string bar = text.substr(at + 1, text.find('\x1b', at) - at - 1);
+    EXPECT_LE(bar.size(), 100U);
+    EXPECT_NE(bar.find(" %  view " + std::to_string(bars) + "  "), std::string::npos) << bar;
+    EXPECT_NE(bar.find("views/s"), std::string::npos) << bar;
+  }
+  EXPECT_EQ(bars, 4U) << text;
+}
+
 TEST_F(Program, RecordsAndCompares) {
   const std::string first = (folder_ / "first").string();
   const std::string second = (folder_ / "second").string();

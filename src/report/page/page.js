@@ -305,7 +305,7 @@ function addLegend() {
     slice.input.addEventListener("keydown", () => { state.slice = null; });
     state.slice = slice;
   }
-  $("legend").open = innerWidth > 900;
+  $("legend").open = innerWidth > 900 && !several;
 }
 
 function addColouring(form, swatch) {
