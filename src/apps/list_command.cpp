@@ -69,6 +69,7 @@ void list() {
 
 void add_list_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "Name the worlds, planners and sensors there are");
+  command->footer("Example:\n  vantage list | grep -A9 planners");
   command->callback(list);
 }
 

@@ -150,6 +150,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, request->run);
   add_output_options(*command, request->run);
   command->footer(
+      "Example:\n"
+      "  vantage replay --dataset rgbd_dataset_freiburg1_desk --format tum --out desk\n"
       "Exit codes: 0 the recording was played to its end, 2 bad input (nothing was written), 3 the views were "
       "spent.");
   command->callback([request, &exit_code] { exit_code = replay(*request); });

@@ -68,7 +68,7 @@ void add_report_command(CLI::App& app) {
       ->type_name("DIR");
   command->add_flag("--ply", request->ply, "The last map besides, as a mesh (map.ply) and as points (points.ply)");
   command->add_flag("--paraview", request->paraview,
-                    "The whole run besides, as time series for ParaView: occupancy, frontiers, path and field");
+                    "The run besides, as time series for ParaView: cells, frontiers, path, field");
   command->footer("Example:\n  vantage report night/run.record --out morning --ply");
   command->callback([request] { report(*request); });
 }

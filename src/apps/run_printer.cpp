@@ -72,8 +72,8 @@ std::string bar_text(const ViewRecord& view, double seconds) {
     text += drawn_bar(*share) + format("%5.1f %%  ", 100.0 * *share);
   }
   text += format("view %zu  %.1f m", view.view, view.path_length_m);
-  if (seconds > 0.0) {
-    text += format("  %.1f views/s", static_cast<double>(view.view) / seconds);
+  if (view.view > 1 && seconds > 0.0) {  // counted from the first, with which the clock starts
+    text += format("  %.1f views/s", static_cast<double>(view.view - 1) / seconds);
   }
   if (share && *share > 0.0 && *share < 1.0 && view.view > 1) {
     text += "  " + about(seconds * (1.0 - *share) / *share) + " left";

@@ -281,6 +281,8 @@ void add_search_command(CLI::App& app, int& exit_code) {
       ->type_name("FILE|-")
       ->group("Output");
   command->footer(
+      "Example:\n"
+      "  vantage search --world crates-open --out crates\n"
       "Exit codes: 0 no view of the arm sees more of a void, 2 bad input (nothing was written), 3 the views were "
       "spent.");
   command->callback([request, &exit_code] { exit_code = search(*request); });

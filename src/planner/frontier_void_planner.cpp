@@ -148,6 +148,7 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
     const auto seen = static_cast<std::size_t>(choice->view.view.utility);
     search_.view = choice->view.view.pose;
     Plan plan = cycle.go(std::move(choice->view), std::move(choice->path));
+    plan.candidates = std::move(choice->candidates);
     plan.reason = "a view of " + volume(seen, map.resolution_m());
     plan.statistics.choose_ms = std::exchange(plan.statistics.path_ms, 0.0);  // ways are part of the choice here
     return plan;
@@ -316,7 +317,8 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     candidates = rank(std::move(candidates), *sparse_rays_, current);
     candidates.resize(options_.strategy.finalists);
   }
-  for (const Candidate& candidate : rank(std::move(candidates), *rays_, current)) {
+  candidates = rank(std::move(candidates), *rays_, current);
+  for (const Candidate& candidate : candidates) {
     if (candidate.void_cells == 0) {
       break;
     }
@@ -327,7 +329,11 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     view.view.utility = static_cast<double>(candidate.void_cells);
     for_each_void_cell_seen(candidate.pose, *rays_, [&](const VoxelIndex& cell) { view.unknown.push_back(cell); });
     if (auto path = way_to(map, current, survey, candidate.pose)) {
-      return Choice{std::move(view), std::move(*path)};
+      Choice choice{std::move(view), std::move(*path), {}};
+      for (const Candidate& weighed : candidates) {
+        choice.candidates.push_back({weighed.pose, static_cast<double>(weighed.void_cells)});
+      }
+      return choice;
     }
   }
   return std::nullopt;
@@ -350,7 +356,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::nearest_frontier
           view_of_target(map, *setup_.platform, setup_.sensor, survey, *target, statistics.ray_operations);
       if (auto path = way_to(map, current, survey, view.view.pose)) {
         view.view.utility = 0.0;
-        return Choice{std::move(view), std::move(*path)};
+        return Choice{std::move(view), std::move(*path), {}};
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <unordered_map>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/report/map_export.hpp>
 #include <vector>
 
@@ -46,7 +47,7 @@ std::vector<VoxelIndex> occupied_cells(const OccupancyMap& map) {
       cells.push_back(cell);
     }
   });
-  std::sort(cells.begin(), cells.end());
+  std::sort(cells.begin(), cells.end(), RasterOrder{});
   return cells;
 }
 

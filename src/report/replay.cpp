@@ -8,6 +8,7 @@
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/report/run_record_reader.hpp>
 
 namespace vantage::detail {
@@ -41,7 +42,7 @@ std::vector<VoxelIndex> touched_by(const std::vector<BrickState>& changes) {
       touched.push_back(change.brick + step);
     }
   }
-  std::sort(touched.begin(), touched.end());
+  std::sort(touched.begin(), touched.end(), RasterOrder{});
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   return touched;
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/report/run_recorder.hpp>
 
 #include "report/cycle_codec.hpp"
@@ -31,7 +32,9 @@ class AppendFile {
     }
   }
   AppendFile(const AppendFile&) = delete;
+  AppendFile(AppendFile&&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
+  AppendFile& operator=(AppendFile&&) = delete;
   ~AppendFile() { ::close(file_); }
 
   void append(std::string_view bytes) {
@@ -118,7 +121,7 @@ std::vector<FieldArrow> samples_of(const HarmonicField& field, std::size_t most)
 
 std::vector<BrickState> changes_since(const OccupancyMap& map, OccupancyMap::Revision revision) {
   std::vector<VoxelIndex> bricks = map.changed_since(revision);
-  std::sort(bricks.begin(), bricks.end());
+  std::sort(bricks.begin(), bricks.end(), RasterOrder{});
   std::vector<BrickState> changes;
   changes.reserve(bricks.size());
   for (const VoxelIndex& address : bricks) {

@@ -160,9 +160,9 @@ TEST_F(Program, RefusesWhatItCannotDo) {
     EXPECT_EQ(ran.err.rfind("vantage: ", 0), 0U) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
-  EXPECT_NE(run("dance").err.find(
-                "no command 'dance'; there are: explore, reconstruct, replay, report, compare, map, list"),
-            std::string::npos);
+  const std::string names = run("dance").err;
+  EXPECT_NE(names.find("no command 'dance'; there are: explore, reconstruct, replay, "), std::string::npos) << names;
+  EXPECT_NE(names.find("report, compare, map, list"), std::string::npos) << names;
 }
 
 TEST_F(Program, HelpsAndLists) {
@@ -174,7 +174,8 @@ TEST_F(Program, HelpsAndLists) {
         "--seed", "--threads", "--out", "--json", "--set", "--up", "--scale", "--set", "[harmonic]"}) {
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
   }
-  for (const char* command : {"--help", "explore --help", "map --help", "list --help", "list"}) {
+  for (const char* command :
+       {"--help", "explore --help", "report --help", "compare --help", "map --help", "list --help", "list"}) {
     std::istringstream text(run(command).out);
     std::size_t lines = 0;
     for (std::string line; std::getline(text, line); ++lines) {
@@ -247,7 +248,7 @@ TEST_F(Program, DrawsOneBarOnATerminal) {
     const std::string bar = text.substr(at + 1, text.find('\x1b', at) - at - 1);
     EXPECT_LE(bar.size(), 100U);
     EXPECT_NE(bar.find(" %  view " + std::to_string(bars) + "  "), std::string::npos) << bar;
-    EXPECT_NE(bar.find("views/s"), std::string::npos) << bar;
+    EXPECT_EQ(bar.find("views/s") != std::string::npos, bars > 1) << bar;
   }
   EXPECT_EQ(bars, 4U) << text;
 }

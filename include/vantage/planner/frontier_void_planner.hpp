@@ -101,6 +101,7 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   struct Choice {
     TargetView view;
     std::vector<Pose> path;
+    std::vector<View> candidates;  // that were weighed
   };
 
   template <class Visit>
