@@ -99,7 +99,7 @@ class DirectionDraw {
       const auto drawn = std::upper_bound(up_to_.begin(), up_to_.end(), dice_.below(total_));
       const std::vector<VoxelIndex>& frontier = voids_[static_cast<std::size_t>(drawn - up_to_.begin())].frontier;
       const VoxelIndex cell = frontier[dice_.below(frontier.size())];
-      const Eigen::Vector3d line = map_.frame().centre_of(cell) - place;
+      Eigen::Vector3d line = map_.frame().centre_of(cell) - place;
       if (line.norm() >= sensor_.min_range_m && line.norm() <= sensor_.max_range_m && line.norm() > 0.0 &&
           in_plain_sight(map_, place, cell, operations)) {
         return line;

@@ -40,8 +40,9 @@ class Overlay {
   // Mixes a colour into the pixel of a column.
   void paint(std::int32_t x, std::int32_t y, Colour colour, double share) {
     const VoxelIndex extent = cells_.extent();
-    const int column = static_cast<int>(std::int64_t{x - cells_.lo.x} * image_.cols / extent.x);
-    const int row = image_.rows - 1 - static_cast<int>(std::int64_t{y - cells_.lo.y} * image_.rows / extent.y);
+    const int column = static_cast<int>(std::int64_t{x - cells_.lo.x} * image_.cols / std::max(1, extent.x));
+    const int row =
+        image_.rows - 1 - static_cast<int>(std::int64_t{y - cells_.lo.y} * image_.rows / std::max(1, extent.y));
     auto& pixel = image_.at<cv::Vec3b>(row, column);
     const Colour mixed = drawing::mix({pixel[0], pixel[1], pixel[2]}, colour, share);
     pixel = cv::Vec3b(mixed.red, mixed.green, mixed.blue);
