@@ -39,6 +39,7 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
   const ReplayedFrame& frame = record.frames.back();
   const RecordedFrame& recorded = recording.frames()[frame.frame];
   std::vector<Picture> pictures;
+  std::vector<Picture> plans;
   if (!recorded.colour.empty()) {
     try {
       pictures.push_back(read_picture(recorded.colour));
@@ -54,10 +55,12 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
     if (timed.plan.outcome == Outcome::Move) {
       content.next = timed.plan.goal.pose;
     }
-    pictures.push_back(draw_floor_plan(map, content));
+    plans.push_back(draw_floor_plan(map, content));
   }
   constexpr std::size_t kHeight = 480;
-  return side_by_side(pictures, kHeight);
+  constexpr std::size_t kWidth = 1600;
+  return below_each_other(std::vector<Picture>{side_by_side(pictures, kHeight), side_by_side(plans, kHeight)},
+                          kWidth);
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

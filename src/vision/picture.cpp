@@ -23,6 +23,27 @@ cv::Mat mat_of(const Picture& picture) {
           const_cast<std::uint8_t*>(picture.rgb.data())};  // NOLINT(cppcoreguidelines-pro-type-const-cast)
 }
 
+void check_pictures(const char* what, std::span<const Picture> pictures, std::size_t size) {
+  if (pictures.empty() || size == 0 || !std::all_of(pictures.begin(), pictures.end(), is_whole)) {
+    throw std::invalid_argument(std::string(what) + ": there must be pictures, none of them empty, and a size");
+  }
+}
+
+// Rounded alike for all pictures that are to have a side in common.
+cv::Mat scaled_by(const Picture& picture, double scale) {
+  const auto side = [scale](std::size_t pixels) {
+    return std::max(1, static_cast<int>(std::lround(scale * static_cast<double>(pixels))));
+  };
+  cv::Mat scaled;
+  cv::resize(mat_of(picture), scaled, cv::Size(side(picture.width), side(picture.height)), 0.0, 0.0,
+             scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return scaled;
+}
+
+Picture picture_of(const cv::Mat& rgb) {
+  return {static_cast<std::size_t>(rgb.cols), static_cast<std::size_t>(rgb.rows), {rgb.datastart, rgb.dataend}};
+}
+
 }  // namespace
 
 void write_png(const Picture& picture, const std::filesystem::path& file) {
@@ -51,19 +72,25 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
 }
 
 Picture side_by_side(std::span<const Picture> pictures, std::size_t height) {
-  if (pictures.empty() || height == 0 || !std::all_of(pictures.begin(), pictures.end(), is_whole)) {
-    throw std::invalid_argument("side_by_side: there must be pictures, none of them empty, and a height");
-  }
+  check_pictures("side_by_side", pictures, height);
   std::vector<cv::Mat> scaled;
   for (const Picture& picture : pictures) {
-    const double scale = static_cast<double>(height) / static_cast<double>(picture.height);
-    const int width = std::max(1, static_cast<int>(std::lround(scale * static_cast<double>(picture.width))));
-    cv::resize(mat_of(picture), scaled.emplace_back(), cv::Size(width, static_cast<int>(height)), 0.0, 0.0,
-               scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+    scaled.push_back(scaled_by(picture, static_cast<double>(height) / static_cast<double>(picture.height)));
   }
   cv::Mat row;
   cv::hconcat(scaled, row);
-  return {static_cast<std::size_t>(row.cols), height, {row.datastart, row.dataend}};
+  return picture_of(row);
+}
+
+Picture below_each_other(std::span<const Picture> pictures, std::size_t width) {
+  check_pictures("below_each_other", pictures, width);
+  std::vector<cv::Mat> scaled;
+  for (const Picture& picture : pictures) {
+    scaled.push_back(scaled_by(picture, static_cast<double>(width) / static_cast<double>(picture.width)));
+  }
+  cv::Mat column;
+  cv::vconcat(scaled, column);
+  return picture_of(column);
 }
 
 Picture read_picture(const std::filesystem::path& file) {

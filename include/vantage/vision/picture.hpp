@@ -24,6 +24,9 @@ void write_png(const Picture& picture, const std::filesystem::path& file);
 /// empty or the height is 0.
 [[nodiscard]] Picture side_by_side(std::span<const Picture> pictures, std::size_t height);
 
+/// The pictures one below the other, each scaled to `width` columns. Errors as side_by_side.
+[[nodiscard]] Picture below_each_other(std::span<const Picture> pictures, std::size_t width);
+
 /// Reads a picture file, PNG or JPEG, as colour. Throws std::runtime_error with the file and what is wrong with it.
 [[nodiscard]] Picture read_picture(const std::filesystem::path& file);
 

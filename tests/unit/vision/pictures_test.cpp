@@ -95,6 +95,11 @@ TEST(Picture, SideBySideAndBackFromAFile) {
   EXPECT_EQ(both.height, 4U);
   EXPECT_EQ(count(both, 200, 0, 0), 16U);
   EXPECT_EQ(count(both, 0, 200, 0), 4U);
+  const Picture column = below_each_other(std::vector<Picture>{red, green}, 2);
+  EXPECT_EQ(column.width, 2U);
+  EXPECT_EQ(column.height, 2U + 8U);
+  EXPECT_EQ(count(column, 0, 200, 0), 16U);
+  EXPECT_THROW((void)below_each_other({}, 4), std::invalid_argument);
   EXPECT_THROW((void)side_by_side({}, 4), std::invalid_argument);
   EXPECT_THROW((void)side_by_side(std::vector<Picture>{red, Picture{}}, 4), std::invalid_argument);
   EXPECT_THROW((void)side_by_side(std::vector<Picture>{red}, 0), std::invalid_argument);
