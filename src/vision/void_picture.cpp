@@ -19,7 +19,7 @@ using drawing::Colour;
 using drawing::MapSheet;
 
 constexpr Colour kVoid{148, 74, 196};
-constexpr Colour kFrontier{226, 38, 45};
+constexpr Colour kFrontierCell{226, 38, 45};
 constexpr Colour kEllipsoid{72, 20, 110};
 constexpr Colour kLow{215, 48, 39};
 constexpr Colour kMedium{254, 224, 80};
@@ -137,7 +137,7 @@ Picture draw_voids(const OccupancyMap& map, const VoidContent& content) {
       overlay.paint(column.x, column.y, kVoid, 0.15 + 0.8 * std::min(1.0, 1.5 * voids[column] / height));
     }
     if (frontier[column] > 0) {
-      overlay.paint(column.x, column.y, kFrontier, std::min(1.0, 0.4 + 3.0 * frontier[column] / height));
+      overlay.paint(column.x, column.y, kFrontierCell, std::min(1.0, 0.4 + 3.0 * frontier[column] / height));
     }
   });
   MapSheet sheet(map.frame().box_of(cells), content.title,
@@ -148,7 +148,7 @@ Picture draw_voids(const OccupancyMap& map, const VoidContent& content) {
   }
   sheet.draw_axes();
   sheet.legend_swatch(kVoid, "void: unknown, in the hull");
-  sheet.legend_swatch(kFrontier, "frontier");
+  sheet.legend_swatch(kFrontierCell, "frontier");
   sheet.legend(
       [](Canvas& canvas, cv::Point2d at) {
         canvas.line(at - cv::Point2d(12.0, 0.0), at + cv::Point2d(12.0, 0.0), kEllipsoid, 2.0);
