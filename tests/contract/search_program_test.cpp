@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/temporary_folder.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Drives the real program.
+class SearchProgram : public testing::Test {
+ protected:
+  [[nodiscard]] static std::string text_in(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] int run(const std::string& arguments) {
+    const fs::path out = folder_ / "stdout.txt";
+    const fs::path err = folder_ / "stderr.txt";
+    const int status = std::system(
+        ("'" VANTAGE_PROGRAM "' search " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'").c_str());
+    out_ = text_in(out);
+    err_ = text_in(err);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void expect_refused(const std::string& arguments, const std::string& words) {
+    EXPECT_EQ(run(arguments + " --json '" + (folder_ / "refused.json").string() + "'"), 2) << arguments;
+    EXPECT_EQ(err_.rfind("vantage: ", 0), 0U) << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    EXPECT_NE(err_.find(words), std::string::npos) << err_;
+    EXPECT_FALSE(fs::exists(folder_ / "refused.json")) << arguments;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string out_;
+  std::string err_;
+};
+
+TEST_F(SearchProgram, MovesTheArmFromViewToViewTheSameEveryTime) {
+  const std::string arguments = "--world crates-closed --resolution 0.05 --max-views 3 --json -";
+  ASSERT_EQ(run(arguments), 3) << err_;
+  const nlohmann::json report = nlohmann::json::parse(out_);
+  EXPECT_EQ(report["command"], "search");
+  EXPECT_EQ(report["planner"], "frontier-void");
+  EXPECT_EQ(report["outcome"], "budget");
+  EXPECT_EQ(report["views"], 3);
+  EXPECT_EQ(report["collisions"], 0);
+  ASSERT_EQ(report["cycles"].size(), 3U);
+  EXPECT_GT(report["cycles"][0]["utility"].get<double>(), 10.0);
+  EXPECT_GT(report["path_length_m"].get<double>(), 0.1);
+  for (const nlohmann::json& cycle : report["cycles"]) {
+    const double x = cycle["pose"][0];
+    const double y = cycle["pose"][1];
+    const double z = cycle["pose"][2];
+    EXPECT_LT(x * x + y * y + (z - 0.4) * (z - 0.4), 1.01) << "the arm reaches 1 m from its shoulder";
+  }
+  EXPECT_NE(err_.find("dm^3"), std::string::npos) << "progress goes to stderr where the report goes to stdout";
+  ASSERT_EQ(run(arguments), 3) << err_;
+  const nlohmann::json again = nlohmann::json::parse(out_);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(report["cycles"][i]["pose"], again["cycles"][i]["pose"]);
+    EXPECT_EQ(report["cycles"][i]["utility"], again["cycles"][i]["utility"]);
+  }
+}
+
+TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {
+  expect_refused("--world crates-open --arm /nowhere/arm.urdf", "/nowhere/arm.urdf: cannot be opened");
+  expect_refused("--world crates-open --links base_link", "--links 'base_link' must be BASE,SENSOR");
+  expect_refused("--world crates-open --links base_link,hand", "has no link 'hand'");
+  expect_refused("--world crates-open --joints 0,0,0", "--joints must be 5 angles in degrees");
+  expect_refused("--world crates-open --base 1,2", "--base has 2 numbers");
+  expect_refused("--world moon", "there is no world \"moon\"");
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_NE(out_.find("--exhaustive"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vantage
