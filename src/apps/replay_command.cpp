@@ -54,8 +54,8 @@ void print_summary(std::ostream& out, const ReplayRecord& record, const Recordin
   }
 }
 
-void write_outputs(const ReplayRequest& request, const ReplayRecord& record, const Recording& recording,
-                   const OccupancyMap& map, std::ostream& progress) {
+void write_replay_outputs(const ReplayRequest& request, const ReplayRecord& record, const Recording& recording,
+                          const OccupancyMap& map, std::ostream& progress) {
   const std::string json = replay_json(record, recording, request.format);
   if (!request.run.out.empty()) {
     progress << "\nwrote\n";
@@ -103,7 +103,7 @@ int replay(const ReplayRequest& request) {
   record.run.threads = request.run.threads;
   record.run.resolution_m = request.run.resolution_m;
   print_summary(progress, record, recording);
-  write_outputs(request, record, recording, map, progress);
+  write_replay_outputs(request, record, recording, map, progress);
   return record.to_the_end ? kDone : kBudget;
 }
 
