@@ -42,7 +42,7 @@ class ParserMessages final : public console_bridge::OutputHandler {
   std::string first_;
 };
 
-Pose pose_of(const urdf::Pose& pose) {
+Pose from_urdf_pose(const urdf::Pose& pose) {
   Pose result = Pose::Identity();
   result.linear() = Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z)
                         .normalized()
@@ -107,7 +107,7 @@ class UrdfReader {
 
   void add_joint(KinematicChain::Parts& parts, const urdf::Link& link) const {
     const urdf::Joint& joint = *link.parent_joint;
-    const Pose parent_from_link = pose_of(joint.parent_to_joint_origin_transform);
+    const Pose parent_from_link = from_urdf_pose(joint.parent_to_joint_origin_transform);
     if (joint.type == urdf::Joint::FIXED) {
       parts.add(KDL::Segment(link.name, KDL::Joint(joint.name, KDL::Joint::None), frame_of(parent_from_link)));
       return;
@@ -139,13 +139,13 @@ class UrdfReader {
                     const Pose& number_from_link, const urdf::Link* next) const {
     for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
       parts.capsules.push_back(
-          capsule_of(*collision->geometry, number, number_from_link * pose_of(collision->origin), link.name));
+          capsule_of(*collision->geometry, number, number_from_link * from_urdf_pose(collision->origin), link.name));
     }
     for (const urdf::JointSharedPtr& joint : link.child_joints) {
       const urdf::LinkConstSharedPtr child = model_->getLink(joint->child_link_name);
       if (joint->type == urdf::Joint::FIXED && child.get() != next) {
-        add_capsules(parts, *child, number, number_from_link * pose_of(joint->parent_to_joint_origin_transform),
-                     next);
+        add_capsules(parts, *child, number,
+                     number_from_link * from_urdf_pose(joint->parent_to_joint_origin_transform), next);
       }
     }
   }
