@@ -65,6 +65,7 @@ int explore(const ExploreRequest& request) {
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
+  options.map.keep_grazed_cells = request.keep_grazed;
   options.max_views = request.max_views;
   options.scan_spacing_m = request.scan_spacing_m;
   options.seed = request.seed;
@@ -148,6 +149,10 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   command->add_option("--planner", request->planner, "By name (vantage list)")
       ->type_name("NAME")
       ->capture_default_str()
+      ->group("Run");
+  command
+      ->add_flag("--keep-grazed", request->keep_grazed,
+                 "Rays at a small angle do not wear away the surface they end in, as they do in OctoMap")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);

@@ -28,6 +28,7 @@ struct ExploreRequest {
   double robot_radius_m = 0.15;
   double scan_spacing_m = 0.5;
   bool yaw_only = false;
+  bool keep_grazed = false;
   double noise = 0.0;
   std::size_t max_views = 500;
   std::uint64_t seed = 1;

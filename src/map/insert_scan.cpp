@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <map/grazed_cells.hpp>
 #include <map/mark_rays.hpp>
 #include <map/update_word.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -20,6 +21,9 @@ class ScanInserter {
     if (!rays.empty()) {
       ScanMarks marks(rays.cells(), map_.frame_.cell_of(rays.origin()));
       mark_rays(rays, map_.frame_, policy, marks);
+      if (map_.options_.keep_grazed_cells) {
+        unmark_grazed_cells(rays, map_, policy, marks);
+      }
       marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed,
                                          const std::uint64_t* hit) { update(address, passed, hit); });
     }

@@ -10,45 +10,57 @@ namespace {
 
 class Walker {
  public:
-  Walker(const VoxelFrame& frame, const std::optional<VoxelBox>& region, const Eigen::Vector3d& origin,
-         ScanCells& cells)
-      : frame_(frame), region_(region), origin_(origin), cells_(cells) {}
+  Walker(const OccupancyMap& map, const Eigen::Vector3d& origin, ScanCells& cells)
+      : map_(map), origin_(origin), cells_(cells) {}
 
   void hit(const Eigen::Vector3d& end) {
-    clear_before(end);
-    if (in_region(frame_.cell_of(end))) {
-      cells_.hit.insert(frame_.cell_of(end));
+    clear_before(end, true);
+    if (map_.in_region(map_.frame().cell_of(end))) {
+      cells_.hit.insert(map_.frame().cell_of(end));
     }
   }
   // As OctoMap: the cell in which the ray ends without a return is left alone.
-  void clear_before(const Eigen::Vector3d& end) {
-    const VoxelIndex last = frame_.cell_of(end);
-    for (const VoxelIndex& cell : VoxelRay(frame_, origin_, end)) {
-      if (cell != last && in_region(cell)) {
+  void clear_before(const Eigen::Vector3d& end, bool is_return = false) {
+    const VoxelIndex last = map_.frame().cell_of(end);
+    const VoxelRay ray(map_.frame(), origin_, end);
+    for (const VoxelIndex& cell : ray) {
+      if (cell != last && map_.in_region(cell)) {
         cells_.cleared.insert(cell);
       }
     }
+    if (map_.options().keep_grazed_cells) {
+      (void)ray.all_from_the_end([&](const VoxelIndex& cell) {
+        const bool in_surface = map_.at(cell) == Occupancy::Occupied;
+        if (in_surface) {
+          grazed_.insert(cell);
+        }
+        return in_surface || (is_return && cell == last);
+      });
+    }
+  }
+  // After all rays: what does not count as passed.
+  void spare_grazed_and_hit() {
+    std::erase_if(cells_.cleared,
+                  [&](const VoxelIndex& cell) { return cells_.hit.contains(cell) || grazed_.contains(cell); });
   }
 
  private:
-  bool in_region(const VoxelIndex& cell) const { return !region_ || region_->contains(cell); }
-
-  const VoxelFrame& frame_;
-  const std::optional<VoxelBox>& region_;
+  const OccupancyMap& map_;
   const Eigen::Vector3d& origin_;
   ScanCells& cells_;
+  std::unordered_set<VoxelIndex> grazed_;
 };
 
 }  // namespace
 
-ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy,
-                     const std::optional<VoxelBox>& region) {
+ScanCells scan_cells(const Scan& scan, const OccupancyMap& map, RayPolicy policy) {
   detail::validate(scan);
+  const VoxelFrame& frame = map.frame();
   ScanCells cells;
   ScanReport& report = cells.report;
   const Eigen::Vector3d origin = scan.world_from_sensor.translation();
   const SensorFrame sensor(scan.world_from_sensor);
-  Walker walk(frame, region, origin, cells);
+  Walker walk(map, origin, cells);
   std::unordered_set<VoxelIndex> end_cells;
 
   const auto shoot = [&](const Eigen::Vector3d& point_sensor, bool is_return) {
@@ -86,9 +98,7 @@ ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame, RayPolicy policy
   for (const Eigen::Vector3f& direction : scan.no_return) {
     shoot(direction.cast<double>(), false);
   }
-  for (const VoxelIndex& cell : cells.hit) {
-    cells.cleared.erase(cell);
-  }
+  walk.spare_grazed_and_hit();
   report.cells_hit = cells.hit.size();
   report.cells_cleared = cells.cleared.size();
   return cells;

@@ -86,6 +86,13 @@ bool ScanMarks::all_marked(const VoxelBox& cells) const {
   return true;
 }
 
+void ScanMarks::unmark_passed(const VoxelIndex& cell) {
+  const std::uint64_t position = in_window(cell) ? position_of(cell) : Brick::offset_of(cell);
+  std::uint64_t& word =
+      in_window(cell) ? passed_[position >> 6U] : far_brick(Brick::of_cell(cell)).passed[position >> 6U];
+  word &= ~(std::uint64_t{1} << (position & 63U));
+}
+
 BrickMarks& ScanMarks::far_brick(const VoxelIndex& brick) {
   if (last_far_ == nullptr || brick != last_far_->address) {  // a ray stays in a brick for some steps
     BrickDirectory::Number& number = far_numbers_.place(brick);

@@ -61,6 +61,8 @@ class ScanMarks {
   [[nodiscard]] bool all_marked(const VoxelBox& cells) const;
 
   void mark_passed(const VoxelIndex& cell) { mark(cell, passed_.get(), &BrickMarks::passed); }
+  /// Takes the mark back.
+  void unmark_passed(const VoxelIndex& cell);
   /// Whether the mark is new.
   bool mark_hit(const VoxelIndex& cell) { return mark(cell, hit_.get(), &BrickMarks::hit); }
 

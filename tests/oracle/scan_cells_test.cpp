@@ -3,6 +3,7 @@
 // rays have nothing to add, images that are none, and rays that run exactly through edges and corners of cells.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -44,8 +45,7 @@ enum class Kind { Pinhole, Spherical, Shuffled };
 
 // An image of a random room with noise, holes and rays without a return. A shuffled one is none: neighbours have
 // nothing to do with each other.
-Scan random_image(std::mt19937& engine, Kind kind, std::size_t width, std::size_t height) {
-  const Room room(engine);
+Scan random_image(std::mt19937& engine, Kind kind, std::size_t width, std::size_t height, const Room& room) {
   Scan scan;
   scan.width = width;
   scan.height = height;
@@ -84,7 +84,7 @@ std::size_t compare_images(Kind kind, std::uint32_t seed, int images) {
   for (int i = 0; i < images; ++i) {
     const auto width = static_cast<std::size_t>(uniform(engine, 5, 170));
     const auto height = static_cast<std::size_t>(uniform(engine, 5, 130));
-    const Scan scan = random_image(engine, kind, width, height);
+    const Scan scan = random_image(engine, kind, width, height, Room(engine));
     EXPECT_TRUE(scan.organised());
     OccupancyMapOptions options{.resolution_m = std::exp(uniform(engine, std::log(0.02), std::log(0.5)))};
     cells += test::compare_with_definition(scan, options, RayPolicy::EveryReturn);
@@ -138,6 +138,76 @@ TEST(ScanCells, OfRaysThroughEdgesAndCorners) {
     }
   }
   EXPECT_GT(cells, 500'000U);
+}
+
+// Inserts the scan and expects every log-odds to move as the definition says. Returns how many cells were spared.
+std::size_t insert_beside_definition(const Scan& scan, RayPolicy policy, OccupancyMap& map) {
+  OccupancyMapOptions of_octomap = map.options();
+  of_octomap.keep_grazed_cells = false;
+  const std::size_t would_clear = scan_cells(scan, OccupancyMap(of_octomap), policy).cleared.size();
+  const ScanCells expected = scan_cells(scan, map, policy);
+  const OccupancyMap before = map;
+  EXPECT_EQ(map.insert(scan, policy).cells_cleared, expected.cleared.size());
+  std::size_t wrong = 0;
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy) {
+    const double moved = expected.hit.contains(cell) ? 0.85 : expected.cleared.contains(cell) ? -0.4 : 0.0;
+    const double log_odds = std::clamp(before.log_odds(cell).value_or(0.0) + moved, -2.0, 3.5);
+    wrong += std::abs(map.log_odds(cell).value() - log_odds) < 1e-9 ? 0U : 1U;
+  });
+  EXPECT_EQ(wrong, 0U);
+  return would_clear - expected.cleared.size();
+}
+
+TEST(ScanCells, OfRaysThatGraze) {
+  std::mt19937 engine(15);
+  std::size_t spared = 0;
+  for (int world = 0; world < 9; ++world) {
+    const Room room(engine);
+    const Kind kind = world % 3 == 0 ? Kind::Pinhole : world % 3 == 1 ? Kind::Spherical : Kind::Shuffled;
+    const RayPolicy policy = world % 2 == 0 ? RayPolicy::EveryReturn : RayPolicy::EachEndCell;
+    OccupancyMapOptions options{.resolution_m = uniform(engine, 0.05, 0.3), .keep_grazed_cells = true};
+    if (world % 4 == 3) {
+      options.region = Box{{-1.0, -2.0, 0.2}, {1.5, 0.7, 1.9}};
+    }
+    OccupancyMap map(options);
+    for (int scan = 0; scan < 12; ++scan) {
+      spared += insert_beside_definition(random_image(engine, kind, 64, 48, room), policy, map);
+    }
+  }
+  EXPECT_GT(spared, 1'000U);
+}
+
+// A sensor that passes along a known wall. Returns how many cells of the wall were worn away at most.
+std::size_t worn_cells(bool keep_grazed_cells) {
+  OccupancyMap map({.resolution_m = 0.1, .keep_grazed_cells = keep_grazed_cells});
+  for (std::int32_t x = -5; x < 80; ++x) {
+    map.set(VoxelIndex{x, 10, 0}, Occupancy::Occupied);
+  }
+  std::size_t worn = 0;
+  constexpr double kWallM = 1.09;  // near the far side of its cells
+  for (int step = 0; step < 400; ++step) {
+    Scan scan;
+    scan.world_from_sensor.translation() = Eigen::Vector3d(0.017 * step, 0.6, 0.05);
+    for (double angle = 0.1; angle < 3.0; angle += 0.02) {
+      const double range_m = (kWallM - 0.6) / std::sin(angle);
+      const Eigen::Vector3d end =
+          scan.world_from_sensor.translation() + range_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      if (end.x() > -0.4 && end.x() < 7.9) {
+        scan.points.emplace_back((scan.world_from_sensor.inverse() * end).cast<float>());
+      }
+    }
+    map.insert(scan);
+    for (std::int32_t x = -5, free = 0; x < 80; ++x) {
+      free += map.at({x, 10, 0}) == Occupancy::Free ? 1 : 0;
+      worn = std::max(worn, static_cast<std::size_t>(free));
+    }
+  }
+  return worn;
+}
+
+TEST(ScanCells, GrazingRaysWearAWallAwayUnlessItsCellsAreKept) {
+  EXPECT_GT(worn_cells(false), 5U);
+  EXPECT_EQ(worn_cells(true), 0U);
 }
 
 TEST(ScanCells, AnImageWhoseSidesOverflowIsNone) {

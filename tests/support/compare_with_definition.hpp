@@ -11,7 +11,7 @@ namespace vantage::test {
 /// Inserts `scan` into a new map and expects the cells and the counts of its definition. Returns the number of cells.
 inline std::size_t compare_with_definition(const Scan& scan, const OccupancyMapOptions& options, RayPolicy policy) {
   OccupancyMap map(options);
-  const ScanCells expected = scan_cells(scan, map.frame(), policy, map.region());
+  const ScanCells expected = scan_cells(scan, map, policy);
   const ScanReport report = map.insert(scan, policy);
   EXPECT_EQ(report.hits, expected.report.hits);
   EXPECT_EQ(report.beyond_range, expected.report.beyond_range);

@@ -23,6 +23,10 @@ struct OccupancyMapOptions {
   double log_odds_min = -2.0;                ///< lower clamp, < 0
   double log_odds_max = 3.5;                 ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
   std::optional<Box> region = std::nullopt;  ///< only cells whose centre lies in it are ever known; none: no limit
+  /// Whether a ray speaks against the surface it ends in. OctoMap lets it: a ray that meets a wall at a small angle
+  /// passes occupied cells of that wall before the one it ends in, and many such rays wear the wall away. If true,
+  /// the unbroken run of occupied cells that ends with a ray is not counted as passed, by any ray of the scan.
+  bool keep_grazed_cells = false;
 };
 
 /// How rays are drawn from the returns of a scan.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <unordered_set>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/map/scan.hpp>
@@ -15,10 +14,9 @@ struct ScanCells {
   ScanReport report;                       ///< rays counted by what became of them
 };
 
-/// The definition of what OccupancyMap::insert does, written to be read: one exact walk per ray, into sets. Slow; it
-/// is what the fast insertion is tested against. Errors as OccupancyMap::insert.
-[[nodiscard]] ScanCells scan_cells(const Scan& scan, const VoxelFrame& frame,
-                                   RayPolicy policy = RayPolicy::EveryReturn,
-                                   const std::optional<VoxelBox>& region = std::nullopt);
+/// The definition of what OccupancyMap::insert would do to `map`, written to be read: one exact walk per ray, into
+/// sets. Slow; it is what the fast insertion is tested against. Errors as OccupancyMap::insert.
+[[nodiscard]] ScanCells scan_cells(const Scan& scan, const OccupancyMap& map,
+                                   RayPolicy policy = RayPolicy::EveryReturn);
 
 }  // namespace vantage

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <map/grazed_cells.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
+
+namespace vantage {
+namespace {
+
+// Where drawn rays end: `visit(end, whether by a return)`.
+template <class Visit>
+void for_each_end(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, const ScanMarks& marks,
+                  Visit&& visit) {
+  const bool to_centres = policy == RayPolicy::EachEndCell;
+  if (to_centres) {
+    marks.for_each_marked_brick([&](const VoxelIndex& address, const std::uint64_t*, const std::uint64_t* hit) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        for_each_offset(hit[word], word, [&](std::size_t offset) {
+          visit(frame.centre_of(Brick::first_cell(address) + Brick::cell_at(offset)), true);
+        });
+      }
+    });
+  }
+  RayBlock block;
+  for (std::size_t number = 0; number < rays.blocks(); ++number) {
+    rays.block(number, 1, block);
+    for (std::size_t i = 0; i < RayBlock::kRays && !(to_centres && block.all_hit()); ++i) {
+      if (block.usable(i) && !(to_centres && block.hits(i))) {
+        visit(Eigen::Vector3d(block.end[0][i], block.end[1][i], block.end[2][i]), block.hits(i));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks) {
+  for_each_end(rays, map.frame(), policy, marks, [&](const Eigen::Vector3d& end, bool is_return) {
+    const VoxelIndex last = map.frame().cell_of(end);
+    (void)VoxelRay(map.frame(), rays.origin(), end).all_from_the_end([&](const VoxelIndex& cell) {
+      const bool in_surface = map.at(cell) == Occupancy::Occupied;
+      if (in_surface) {
+        marks.unmark_passed(cell);
+      }
+      return in_surface || (is_return && cell == last);
+    });
+  });
+}
+
+}  // namespace vantage
