@@ -185,7 +185,7 @@ bool Arm::admits(const OccupancyMap& map, const Pose& pose) const {
 }
 
 Pose Arm::facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const {
-  const Pose wanted = pose_looking_along(position_m, direction);
+  Pose wanted = pose_looking_along(position_m, direction);
   const Pose base_from_wanted = options_.world_from_base.inverse() * wanted;
   const std::vector<std::uint32_t> guesses = postures_->near(base_from_wanted, options_.guesses, true);
   const auto reached = [&](const Pose& target, std::uint32_t posture) -> std::optional<Pose> {

@@ -25,6 +25,8 @@ class ParserMessages final : public console_bridge::OutputHandler {
   ~ParserMessages() override { console_bridge::restorePreviousOutputHandler(); }
   ParserMessages(const ParserMessages&) = delete;
   ParserMessages& operator=(const ParserMessages&) = delete;
+  ParserMessages(ParserMessages&&) = delete;
+  ParserMessages& operator=(ParserMessages&&) = delete;
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) {
@@ -67,7 +69,7 @@ class UrdfReader {
     const ParserMessages messages;
     model_ = urdf::parseURDF(text);
     if (!model_) {
-      refuse("is no URDF" + (messages.first().empty() ? "" : ": " + messages.first()));
+      refuse(messages.first().empty() ? "is no URDF" : std::string("is no URDF: ").append(messages.first()));
     }
   }
 
@@ -77,7 +79,7 @@ class UrdfReader {
     std::vector<urdf::LinkConstSharedPtr> links;  // from the sensor to the one after the base
     for (urdf::LinkConstSharedPtr at = link(sensor); at != first; at = at->getParent()) {
       if (!at->parent_joint) {
-        refuse("has no chain from link '" + base + "' to link '" + sensor + "'");
+        refuse(std::string("has no chain from link '").append(base).append("' to link '").append(sensor).append("'"));
       }
       links.push_back(at);
     }
@@ -98,7 +100,7 @@ class UrdfReader {
   [[noreturn]] void refuse(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
 
   urdf::LinkConstSharedPtr link(const std::string& name) const {
-    const urdf::LinkConstSharedPtr found = model_->getLink(name);
+    urdf::LinkConstSharedPtr found = model_->getLink(name);
     if (!found) {
       refuse("has no link '" + name + "'");
     }

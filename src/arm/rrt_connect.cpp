@@ -31,6 +31,8 @@ class Quiet {
   ~Quiet() { ompl::msg::useOutputHandler(before_); }
   Quiet(const Quiet&) = delete;
   Quiet& operator=(const Quiet&) = delete;
+  Quiet(Quiet&&) = delete;
+  Quiet& operator=(Quiet&&) = delete;
 
  private:
   static std::mutex& one_at_a_time() {

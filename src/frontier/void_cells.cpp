@@ -5,12 +5,11 @@
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 
+#include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
 
 namespace vantage {
 namespace {
-
-Eigen::Vector3d point_of(const VoxelIndex& cell) { return Eigen::Vector3d(cell.x, cell.y, cell.z); }
 
 // The cells of the row (., y, z) inside the hull: [first, last), by cutting the row with every facet's plane.
 std::pair<std::int32_t, std::int32_t> row_span(const ConvexHull& hull, const VoxelBox& box, std::int32_t y,
@@ -84,9 +83,9 @@ ConvexHull occupied_hull(const OccupancyMap& map) {
   });
   std::vector<Eigen::Vector3d> points;
   for (const auto& [row, xs] : ends) {
-    points.push_back(point_of({xs.first, row.second, row.first}));
+    points.push_back(detail::lattice_point({xs.first, row.second, row.first}));
     if (xs.second != xs.first) {
-      points.push_back(point_of({xs.second, row.second, row.first}));
+      points.push_back(detail::lattice_point({xs.second, row.second, row.first}));
     }
   }
   return ConvexHull(points);

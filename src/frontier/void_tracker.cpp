@@ -9,6 +9,7 @@
 #include <vantage/geometry/raster_order.hpp>
 
 #include "frontier/brick_plane.hpp"
+#include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
 
 namespace vantage {
@@ -20,14 +21,12 @@ constexpr BrickPlane kAll = [] {
   return all;
 }();
 
-Eigen::Vector3d point_of(const VoxelIndex& cell) { return Eigen::Vector3d(cell.x, cell.y, cell.z); }
-
 using Planes = std::vector<const ConvexHull::Plane*>;
 
 // Those of the planes that cut the cells of a box; none at all where one has all of the box beyond it.
 std::optional<Planes> cutting(const Planes& planes, const VoxelBox& cells) {
-  const Eigen::Vector3d lo = point_of(cells.lo);
-  const Eigen::Vector3d hi = point_of(cells.hi - VoxelIndex{1, 1, 1});
+  const Eigen::Vector3d lo = detail::lattice_point(cells.lo);
+  const Eigen::Vector3d hi = detail::lattice_point(cells.hi - VoxelIndex{1, 1, 1});
   const Eigen::Vector3d middle = 0.5 * (lo + hi);
   const Eigen::Vector3d half = 0.5 * (hi - lo);
   Planes cut;
@@ -53,7 +52,7 @@ std::uint64_t inside_word(const Planes& planes, const VoxelIndex& brick, std::si
   }
   std::uint64_t inside = ~std::uint64_t{0};
   for (std::size_t bit = 0; bit < 64 && !cut->empty(); ++bit) {
-    const Eigen::Vector3d point = point_of(Brick::first_cell(brick) + Brick::cell_at(word * 64 + bit));
+    const Eigen::Vector3d point = detail::lattice_point(Brick::first_cell(brick) + Brick::cell_at(word * 64 + bit));
     const bool within = std::all_of(cut->begin(), cut->end(), [&](const ConvexHull::Plane* plane) {
       return plane->distance(point) <= detail::kOnFacet;
     });
@@ -208,7 +207,7 @@ void VoidTracker::collect_outside(const VoxelIndex& address, const Brick& brick,
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     const std::uint64_t inside = known == numbers_.end() ? 0 : bricks_[known->second].inside[word];
     for_each_offset(brick.occupied[word] & ~inside, word, [&](std::size_t offset) {
-      points.push_back(point_of(Brick::first_cell(address) + Brick::cell_at(offset)));
+      points.push_back(detail::lattice_point(Brick::first_cell(address) + Brick::cell_at(offset)));
     });
   }
 }
