@@ -152,7 +152,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       ->group("Run");
   command
       ->add_flag("--keep-grazed", request->keep_grazed,
-                 "Rays at a small angle do not wear away the surface they end in, as they do in OctoMap")
+                 "Rays at a small angle do not wear away the surface they end in")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);
