@@ -22,7 +22,7 @@ void change(OccupancyMap& map, int step, std::mt19937& engine) {
     Scan scan;
     scan.world_from_sensor = pose_looking(map.frame().centre_of(lo), 0.0);
     scan.max_range_m = 3.0;
-    std::normal_distribution<float> metre(0.0F, 0.03F * static_cast<float>(step));
+    std::normal_distribution<float> metre(0.0F, 0.03F * static_cast<float>(step) + 1e-6F);
     for (int i = 0; i < 40; ++i) {
       scan.points.emplace_back(metre(engine), metre(engine), metre(engine));
     }
