@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
@@ -14,6 +12,7 @@
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 #include "apps/run_recording.hpp"
@@ -74,10 +73,9 @@ int explore(const ExploreRequest& request) {
   options.threads = request.threads;
   ExplorationRun run(world, sensor, platform, options);
 
-  const bool json_on_stdout = request.json == "-";
-  std::ostream silence(nullptr);
-  std::ostream& progress = request.quiet ? silence : json_on_stdout ? std::cerr : std::cout;
-  RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
+  ProgressStream told(request);
+  std::ostream& progress = told.stream();
+  RunPrinter printer(progress, told.is_terminal());
   PlanPictures pictures;
   RunRecording recording(*planner, request.out, recorder_setup(request, "explore", request.world, sensor));
   RunRecord record =

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +16,7 @@
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 #include "apps/run_recording.hpp"
@@ -220,10 +219,9 @@ int reconstruct(const ReconstructRequest& request) {
   const Pose start = start_of(shared).value_or(pose_looking_along(aside, box.centre() - aside));
   ExplorationRun run(world, sensor, platform, options);
 
-  const bool json_on_stdout = shared.json == "-";
-  std::ostream silence(nullptr);
-  std::ostream& progress = shared.quiet ? silence : json_on_stdout ? std::cerr : std::cout;
-  RunPrinter printer(progress, isatty(json_on_stdout ? STDERR_FILENO : STDOUT_FILENO) != 0);
+  ProgressStream told(shared);
+  std::ostream& progress = told.stream();
+  RunPrinter printer(progress, told.is_terminal());
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
   RunRecord record = run.run(recording, start, [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {

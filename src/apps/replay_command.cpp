@@ -7,6 +7,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/help_format.hpp"
+#include "apps/progress_stream.hpp"
 #include "apps/replay_files.hpp"
 #include "apps/replay_request.hpp"
 #include "apps/replay_run.hpp"
@@ -78,7 +79,8 @@ int replay(const ReplayRequest& request) {
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
   const auto planners = planners_of(request, recording.sensor(), platform);
   OccupancyMap map(map_options_of(request));
-  std::ostream& progress = request.run.json == "-" ? std::cerr : std::cout;
+  ProgressStream told(request.run);
+  std::ostream& progress = told.stream();
   progress << request.dataset << ": " << recording.frames().size() << " frames, cells of " << request.run.resolution_m
            << " m, range " << recording.camera().trusted_range_m() << " m\n";
   if (request.select) {

@@ -22,9 +22,11 @@
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 #include "apps/run_recording.hpp"
+#include "apps/shared_options.hpp"
 #include "apps/tracked_arm.hpp"
 
 namespace vantage::apps {
@@ -191,6 +193,7 @@ int search(const SearchRequest& request) {
   ExplorationRunOptions options;
   options.map.resolution_m = shared.resolution_m;
   options.map.region = region_of(shared).value_or(world.region);
+  check_cell_count(*options.map.region, shared.resolution_m);
   options.max_views = shared.max_views;
   options.scan_spacing_m = 0.0;
   options.seed = shared.seed;
@@ -200,8 +203,8 @@ int search(const SearchRequest& request) {
   options.declared_clear = arm_options.declared_clear;
   ExplorationRun run(world, sensor, arm, options);
 
-  const bool json_on_stdout = shared.json == "-";
-  std::ostream& progress = json_on_stdout ? std::cerr : std::cout;
+  ProgressStream told(shared);
+  std::ostream& progress = told.stream();
   RunPrinter printer(progress, false);
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "search", shared.world, sensor));
   PlanPictures pictures;
@@ -241,28 +244,6 @@ void add_arm_options(CLI::App& command, SearchRequest& request) {
   option("--noise", request.run.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
 }
 
-void add_run_options(CLI::App& command, SearchRequest& request) {
-  ExploreRequest& run = request.run;
-  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
-    return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Run");
-  };
-  option("--planner", run.planner, "NAME", "By name (vantage list)");
-  option("--set", run.settings, "key=value", "A setting of the planner, as often as needed; a wrong key lists them")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->default_str("");
-  option("--resolution", run.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
-  option("--max-views", run.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
-  option("--seed", run.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
-  option("--threads", run.threads, "N", "How many to use; the result is the same for any number")
-      ->check(a_whole_number(1024));
-  command
-      .add_flag("--exhaustive", request.exhaustive,
-                "At the end, tell what thousands of poses of the arm would still see of the voids; slow")
-      ->group("Run");
-}
-
 }  // namespace
 
 void add_search_command(CLI::App& app, int& exit_code) {
@@ -278,13 +259,17 @@ void add_search_command(CLI::App& app, int& exit_code) {
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("World");
   add_arm_options(*command, *request);
-  add_run_options(*command, *request);
-  command->add_option("--out", run.out, "Folder for report.json, map.ot and pictures")
-      ->type_name("DIR")
-      ->group("Output");
-  command->add_option("--json", run.json, "The report; -: on stdout, and all else on stderr")
-      ->type_name("FILE|-")
-      ->group("Output");
+  command->add_option("--planner", run.planner, "By name (vantage list)")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group("Run");
+  add_setting_option(*command, run, "A setting of the planner, as often as needed; a wrong key lists them");
+  add_run_options(*command, run);
+  command
+      ->add_flag("--exhaustive", request->exhaustive,
+                 "At the end, tell what thousands of poses of the arm would still see of the voids; slow")
+      ->group("Run");
+  add_output_options(*command, run);
   command->footer(
       "Example:\n"
       "  vantage search --world crates-open --out crates\n"
