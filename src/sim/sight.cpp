@@ -2,11 +2,11 @@
 #include "sim/sight.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <thread>
 #include <vantage/geometry/voxel_ray.hpp>
+
+#include "raytrace/shared_work.hpp"
 
 namespace vantage {
 namespace {
@@ -140,23 +140,13 @@ std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region, c
       static_cast<std::int32_t>(std::min(1e6, sight.sensor().max_range_m / sight.frame().size_m)) + 1;
   std::vector<std::uint8_t> seen(cells.size(), 0);
   constexpr std::size_t kChunk = 1024;
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t first = next.fetch_add(kChunk); first < cells.size(); first = next.fetch_add(kChunk)) {
-      for (std::size_t i = first; i < std::min(first + kChunk, cells.size()); ++i) {
-        const auto ask = [&](const VoxelIndex& pose) { return sight.sees(pose, cells[i]); };
-        seen[i] = blocks.any_from_near(cells[i], furthest, ask) ? 1 : 0;
-      }
+  const std::size_t chunks = (cells.size() + kChunk - 1) / kChunk;
+  detail::share_work(chunks, static_cast<std::size_t>(threads), [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, cells.size()); ++i) {
+      const auto ask = [&](const VoxelIndex& pose) { return sight.sees(pose, cells[i]); };
+      seen[i] = blocks.any_from_near(cells[i], furthest, ask) ? 1 : 0;
     }
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) {
-    helpers.emplace_back(work);
-  }
-  work();
-  for (std::thread& helper : helpers) {
-    helper.join();
-  }
+  });
   std::vector<VoxelIndex> found;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (seen[i] != 0) {

@@ -40,6 +40,17 @@ cv::Mat scaled_by(const Picture& picture, double scale) {
   return scaled;
 }
 
+// All of them with this side of the same length.
+std::vector<cv::Mat> scaled_alike(const char* what, std::span<const Picture> pictures, std::size_t Picture::*side,
+                                  std::size_t length) {
+  check_pictures(what, pictures, length);
+  std::vector<cv::Mat> scaled;
+  for (const Picture& picture : pictures) {
+    scaled.push_back(scaled_by(picture, static_cast<double>(length) / static_cast<double>(picture.*side)));
+  }
+  return scaled;
+}
+
 Picture picture_of(const cv::Mat& rgb) {
   return {static_cast<std::size_t>(rgb.cols), static_cast<std::size_t>(rgb.rows), {rgb.datastart, rgb.dataend}};
 }
@@ -72,24 +83,14 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
 }
 
 Picture side_by_side(std::span<const Picture> pictures, std::size_t height) {
-  check_pictures("side_by_side", pictures, height);
-  std::vector<cv::Mat> scaled;
-  for (const Picture& picture : pictures) {
-    scaled.push_back(scaled_by(picture, static_cast<double>(height) / static_cast<double>(picture.height)));
-  }
   cv::Mat row;
-  cv::hconcat(scaled, row);
+  cv::hconcat(scaled_alike("side_by_side", pictures, &Picture::height, height), row);
   return picture_of(row);
 }
 
 Picture below_each_other(std::span<const Picture> pictures, std::size_t width) {
-  check_pictures("below_each_other", pictures, width);
-  std::vector<cv::Mat> scaled;
-  for (const Picture& picture : pictures) {
-    scaled.push_back(scaled_by(picture, static_cast<double>(width) / static_cast<double>(picture.width)));
-  }
   cv::Mat column;
-  cv::vconcat(scaled, column);
+  cv::vconcat(scaled_alike("below_each_other", pictures, &Picture::width, width), column);
   return picture_of(column);
 }
 
