@@ -49,6 +49,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
   static inline const std::vector<Peers> kPeers{{"/vantage", {"/octomap"}},
                                                 {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}},
                                                 {"/incremental", {"/full", "/full_cells"}},
+                                                {"/record", {"/cycle"}},
                                                 {"/default/vantage",
                                                  {"/uniform/octomap", "/culled/octomap", "/hierarchical/octomap",
                                                   "/uniform/vantage", "/hierarchical/vantage"}}};
