@@ -81,7 +81,10 @@ void write_path(const std::vector<Eigen::Vector3d>& behind, const std::vector<Po
                 const std::filesystem::path& file) {
   detail::VtkPolyData data;
   data.points = behind;
-  data.line_lengths = {static_cast<std::int32_t>(behind.size())};
+  if (behind.size() == 1) {  // VTK stumbles over a line without a second end
+    data.points.push_back(behind.front());
+  }
+  data.line_lengths = {static_cast<std::int32_t>(data.points.size())};
   std::vector<std::uint8_t> planned{0};
   if (ahead.size() > 1) {
     for (const Pose& pose : ahead) {
