@@ -28,7 +28,10 @@ void add_map_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("FILE.bt|FILE.ot");
   command->add_option("--json", request->json, "The same as JSON; -: on stdout")->type_name("FILE|-");
-  command->footer("Example:\n  vantage map rooms/map.ot --json -");
+  command->footer(
+      "Examples:\n"
+      "  vantage map rooms/map.ot\n"
+      "  vantage map geb079.bt --json -");
   command->callback([request, &exit_code] { exit_code = run_map_command(request->file, request->json, std::cout); });
 }
 

@@ -171,10 +171,7 @@ void compare(const CompareRequest& request) {
     write_png(overlaid_coverage(runs), files.back());
   }
   print_table(runs, std::cout);
-  std::cout << "\nwrote\n";
-  for (const std::filesystem::path& file : files) {
-    std::cout << "  " << file.string() << '\n';
-  }
+  tell_files(std::cout, files);
 }
 
 }  // namespace
@@ -188,7 +185,10 @@ void add_compare_command(CLI::App& app) {
   command->add_option("--out", request->out, "Folder for report.html and coverage.png; must be given")
       ->required()
       ->type_name("DIR");
-  command->footer("Example:\n  vantage compare harmonic/report.json gain/report.json --out both");
+  command->footer(
+      "Examples:\n"
+      "  vantage compare harmonic/report.json gain/report.json --out both\n"
+      "  vantage compare seed*/report.json --out seeds");
   command->callback([request] { compare(*request); });
 }
 

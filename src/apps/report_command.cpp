@@ -49,10 +49,7 @@ void report(const ReportRequest& request) {
     const std::vector<std::filesystem::path> series = write_paraview(request.record, folder);
     files.insert(files.end(), series.begin(), series.end());
   }
-  std::cout << "\nwrote\n";
-  for (const std::filesystem::path& file : files) {
-    std::cout << "  " << file.string() << '\n';
-  }
+  tell_files(std::cout, files);
 }
 
 }  // namespace
@@ -69,7 +66,10 @@ void add_report_command(CLI::App& app) {
   command->add_flag("--ply", request->ply, "The last map besides, as a mesh (map.ply) and as points (points.ply)");
   command->add_flag("--paraview", request->paraview,
                     "The run besides, as time series for ParaView: cells, frontiers, path, field");
-  command->footer("Example:\n  vantage report night/run.record --out morning --ply");
+  command->footer(
+      "Examples:\n"
+      "  vantage report night/run.record --out morning\n"
+      "  vantage report night/run.record --out morning --ply --paraview");
   command->callback([request] { report(*request); });
 }
 

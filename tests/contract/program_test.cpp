@@ -23,6 +23,33 @@ std::string read_all(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// The names under "Commands" of the help.
+std::vector<std::string> commands_of(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help.substr(help.find("Commands")));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.rfind("  ", 0) == 0) {
+    names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return names;
+}
+
+// "-q", "--quiet", ... in the order of a command's help.
+std::vector<std::string> options_of(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("  -", 0) == 0) {
+      std::istringstream words(line.substr(2, line.find(' ', 2) - 2));
+      for (std::string name; std::getline(words, name, ',');) {
+        names.push_back(name);
+      }
+    }
+  }
+  return names;
+}
+
 struct Ran {
   int code = -1;
   std::string out;
@@ -229,6 +256,47 @@ TEST_F(Program, CompletesInBash) {
   EXPECT_EQ(completed("explore --planner near", 3), "nearest-frontier ");
   EXPECT_EQ(completed("reconstruct --sensor v", 3), "vpl ");
   EXPECT_EQ(completed("compare --o", 2), "--out ");
+  EXPECT_EQ(completed("reconstruct --method h", 3), "hierarchical ");
+  EXPECT_EQ(completed("replay --format ki", 3), "kitti-stereo ");
+  EXPECT_EQ(completed("replay --planner harmonic,next", 3), "harmonic,next-best-view ");
+
+  // Every command, and every option of each: what its help describes at the beginning of a line, and nothing else.
+  const std::vector<std::string> commands = commands_of(run("--help").out);
+  EXPECT_GE(commands.size(), 7U);
+  std::string all;
+  for (const std::string& command : commands) {
+    all += command + ' ';
+    std::string options;
+    for (const std::string& option : options_of(run(command + " --help").out)) {
+      options += option + ' ';
+    }
+    EXPECT_EQ(completed(command + " -", 2), options) << command;
+    EXPECT_NE(options.find("--help "), std::string::npos) << command;
+  }
+  EXPECT_EQ(completed("''", 1), all + "--help --version ");
+}
+
+TEST_F(Program, HelpsWithEveryCommandByExamplesThatItTakes) {
+  std::size_t examples = 0;
+  for (const std::string& command : commands_of(run("--help").out)) {
+    const std::string help = run(command + " --help").out;
+    const std::vector<std::string> known = options_of(help);
+    std::istringstream lines(help.substr(help.find("Example")));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("  vantage ", 0) != 0) {
+        continue;
+      }
+      ++examples;
+      EXPECT_EQ(line.rfind("  vantage " + command, 0), 0U) << line;
+      std::istringstream words(line.substr(0, line.find(" | ")));
+      for (std::string word; words >> word;) {
+        EXPECT_TRUE(word.rfind("--", 0) != 0 || std::find(known.begin(), known.end(), word) != known.end())
+            << command << " has no option " << word;
+      }
+    }
+    EXPECT_NE(help.find("\n  vantage " + command), std::string::npos) << command << " has no example";
+  }
+  EXPECT_GE(examples, 12U);
 }
 
 // As on a terminal, which `script` plays.
