@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/commands.hpp"
 #include "apps/help_format.hpp"
@@ -12,6 +13,8 @@
 #include "apps/replay_request.hpp"
 #include "apps/replay_run.hpp"
 #include "apps/run_files.hpp"
+#include "apps/run_printer.hpp"
+#include "apps/run_recording.hpp"
 #include "apps/select_run.hpp"
 #include "apps/shared_options.hpp"
 
@@ -41,10 +44,10 @@ std::string frame_line(const ReplayRecord& record, const Recording& recording, c
   return lines;
 }
 
-void print_summary(std::ostream& out, const ReplayRecord& record, const Recording& recording) {
+void print_summary(std::ostream& out, const ReplayRecord& record, const Recording& recording, bool after_bar) {
   char text[128];
-  std::snprintf(text, sizeof text, "\n  %-12s %zu, over a path of %.1f m\n", "frames", record.frames.size(),
-                record.run.path_length_m());
+  std::snprintf(text, sizeof text, "%s\n  %-12s %zu, over a path of %.1f m\n", after_bar ? "\n" : "", "frames",
+                record.frames.size(), record.run.path_length_m());
   out << text << "  outcome      " << to_string(record.run.outcome) << ": " << record.run.reason << '\n'
       << "  left out     " << record.skipped.size() << (record.skipped.size() == 1 ? " frame\n" : " frames\n");
   for (const SkippedFrame& frame : record.skipped) {
@@ -56,20 +59,21 @@ void print_summary(std::ostream& out, const ReplayRecord& record, const Recordin
 }
 
 void write_replay_outputs(const ReplayRequest& request, const ReplayRecord& record, const Recording& recording,
-                          const OccupancyMap& map, std::ostream& progress) {
+                          const OccupancyMap& map, const std::optional<std::filesystem::path>& run_record,
+                          std::ostream& progress) {
   const std::string json = replay_json(record, recording, request.format);
-  if (!request.run.out.empty()) {
-    progress << "\nwrote\n";
-    for (const std::filesystem::path& file : write_replay_files(request.run.out, record, json, map)) {
-      progress << "  " << file.string() << '\n';
-    }
-    progress << "  " << (std::filesystem::path(request.run.out) / "frames").string() << "/*.png\n";
+  if (run_record) {
+    tell_files(progress, write_replay_files(request.run.out, record, json, map, *run_record));
   }
-  if (request.run.json == "-") {
-    std::cout << json << std::flush;
-  } else if (!request.run.json.empty()) {
-    write_text(request.run.json, json);
-  }
+  give_json(request.run.json, json);
+}
+
+void write_frame_sheet(const std::string& out, const ReplayRecord& record, const Recording& recording,
+                       const RecordedReading& reading, const OccupancyMap& map) {
+  const std::filesystem::path folder = std::filesystem::path(out) / "frames";
+  make_folder(folder);
+  write_png(frame_sheet(record, recording, reading, map),
+            folder / (recording.frames()[record.frames.back().frame].name + ".png"));
 }
 
 int replay(const ReplayRequest& request) {
@@ -77,35 +81,47 @@ int replay(const ReplayRequest& request) {
   check_targets(request.run.out, request.run.json);
   const Recording recording = recording_of(request);
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
-  const auto planners = planners_of(request, recording.sensor(), platform);
+  auto planners = planners_of(request, recording.sensor(), platform);
   OccupancyMap map(map_options_of(request));
   ProgressStream told(request.run);
   std::ostream& progress = told.stream();
   progress << request.dataset << ": " << recording.frames().size() << " frames, cells of " << request.run.resolution_m
            << " m, range " << recording.camera().trusted_range_m() << " m\n";
   if (request.select) {
-    return select_views(request, recording, progress);
+    return select_views(request, recording, told);
   }
 
+  // The first planner's plans are those that the record and its page show.
+  const std::unique_ptr<ExplorationPlanner> first = std::move(planners.front());
+  RunRecorderSetup setup = recorder_setup(request.run, "replay", request.dataset, recording.sensor());
+  setup.planner = first->name();
+  planners.front() = std::make_unique<RunRecording>(*first, request.run.out, setup);
+  auto& recorder = static_cast<RunRecording&>(*planners.front());
+  const ReplaySpan span{.every = request.every, .max_views = request.run.max_views};
+  RunPrinter printer(progress, told.is_terminal(), {.count = frame_count(recording, span), .at_most = false});
   ReplayRecord record =
-      apps::replay(recording, {.every = request.every, .max_views = request.run.max_views}, map, *platform, planners,
+      apps::replay(recording, span, map, *platform, planners,
                    [&](const ReplayRecord& so_far, const RecordedReading& reading, const OccupancyMap& known) {
-                     progress << frame_line(so_far, recording, so_far.run.views.back().pose) << std::flush;
+                     if (told.is_terminal()) {
+                       printer.view(so_far.run.views.back());
+                     } else {
+                       progress << frame_line(so_far, recording, so_far.run.views.back().pose) << std::flush;
+                     }
+                     recorder.look(so_far.run.views.back(), known);
                      if (!request.run.out.empty()) {
-                       const std::filesystem::path folder = std::filesystem::path(request.run.out) / "frames";
-                       make_folder(folder);
-                       write_png(frame_sheet(so_far, recording, reading, known),
-                                 folder / (recording.frames()[so_far.frames.back().frame].name + ".png"));
+                       write_frame_sheet(request.run.out, so_far, recording, reading, known);
                      }
                    });
   record.run.command = "replay";
   record.run.world = request.dataset;
-  record.run.planner = planners.front()->name();
+  record.run.planner = first->name();
   record.run.seed = request.run.seed;
   record.run.threads = request.run.threads;
   record.run.resolution_m = request.run.resolution_m;
-  print_summary(progress, record, recording);
-  write_replay_outputs(request, record, recording, map, progress);
+  print_summary(progress, record, recording, told.is_terminal());
+  recorder.finish(record.run);
+  progress << recorder.cost(record.run);
+  write_replay_outputs(request, record, recording, map, recorder.file(), progress);
   return record.to_the_end ? kDone : kBudget;
 }
 
@@ -152,8 +168,10 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, request->run);
   add_output_options(*command, request->run);
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  vantage replay --dataset rgbd_dataset_freiburg1_desk --format tum --out desk\n"
+      "  vantage replay --dataset redkitchen --format 7scenes --robot-radius 0 --select --planner "
+      "next-best-view,harmonic\n"
       "Exit codes: 0 the recording was played to its end, 2 bad input (nothing was written), 3 the views were "
       "spent.");
   command->callback([request, &exit_code] { exit_code = replay(*request); });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "apps/replay_files.hpp"
 
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/report/report_html.hpp>
 #include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/line_plot.hpp>
 
@@ -63,17 +63,9 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
                           kWidth);
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
-}
-
 std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
-                                                      const std::string& json, const OccupancyMap& map) {
+                                                      const std::string& json, const OccupancyMap& map,
+                                                      const std::filesystem::path& run_record) {
   make_folder(folder);
   std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
                                            folder / "known.png"};
@@ -97,6 +89,8 @@ std::vector<std::filesystem::path> write_replay_files(const std::filesystem::pat
       {.title = "free volume", .x_label = "frames", .y_label = "m^3", .series = {free}},
       {.title = "occupied cells", .x_label = "frames", .y_label = "thousands of cells", .series = {occupied}}};
   write_png(draw_line_plots(plots), files[3]);
+  files.insert(files.end(), {run_record, folder / "report.html", folder / "frames"});
+  write_report_html(std::vector<ReportedRun>{{json, run_record}}, folder / "report.html");
   return files;
 }
 

@@ -17,12 +17,11 @@ namespace vantage::apps {
 [[nodiscard]] Picture frame_sheet(const ReplayRecord& record, const Recording& recording,
                                   const RecordedReading& reading, const OccupancyMap& map);
 
-/// Writes report.json, map.ot, floor_plan.png and known.png (cells known over frames) into a folder, which is made;
-/// returns the files in order. Throws std::runtime_error naming what cannot be written.
+/// Writes report.json, map.ot, floor_plan.png, known.png (cells known over frames) and, of the record that the replay
+/// left, report.html into a folder, which is made; returns the files in order, the record and the folder of the
+/// frames' pictures among them. Throws std::runtime_error naming what cannot be written.
 std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
-                                                      const std::string& json, const OccupancyMap& map);
-
-/// Writes a text. Throws std::runtime_error naming the file.
-void write_text(const std::filesystem::path& file, const std::string& text);
+                                                      const std::string& json, const OccupancyMap& map,
+                                                      const std::filesystem::path& run_record);
 
 }  // namespace vantage::apps

@@ -49,6 +49,7 @@ void add_view(RunRecord& run, const ReplayedFrame& frame, const Pose& pose, doub
   view.frontier_cells = frame.frontier_cells;
   view.void_cells = frame.void_cells;
   view.outcome = first.plan.outcome;
+  view.passed = {pose.translation()};
   run.views.push_back(view);
   run.travelled.push_back(pose.translation());
   run.integration_operations += frame.scan.cells_hit + frame.scan.cells_cleared;
@@ -91,6 +92,10 @@ Json json_of(const TimedPlan& timed) {
 }
 
 }  // namespace
+
+std::size_t frame_count(const Recording& recording, const ReplaySpan& span) {
+  return (first_out_of_use(recording, span) + span.every - 1) / span.every;
+}
 
 ReplayRecord replay(const Recording& recording, const ReplaySpan& span, OccupancyMap& map, const Platform& platform,
                     const std::vector<std::unique_ptr<ExplorationPlanner>>& planners, const OnFrame& on_frame) {

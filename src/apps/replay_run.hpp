@@ -50,6 +50,9 @@ struct ReplaySpan {
   std::size_t max_views = 500;
 };
 
+/// How many frames are going to be played, if all can be read.
+[[nodiscard]] std::size_t frame_count(const Recording& recording, const ReplaySpan& span);
+
 /// Integrates the frames of a recording in their order and asks every planner after each what it would do next. The
 /// space that the body takes is free: the sensor was there. Frames that cannot be read are left out and told. Throws
 /// std::runtime_error if none can be read.

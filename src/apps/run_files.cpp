@@ -2,6 +2,7 @@
 #include "apps/run_files.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <numbers>
@@ -181,6 +182,30 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
   return files;
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) {
+    throw std::runtime_error(file.string() + ": cannot be written");
+  }
+}
+
+void tell_files(std::ostream& out, const std::vector<std::filesystem::path>& files) {
+  out << "\nwrote\n";
+  for (const std::filesystem::path& file : files) {
+    out << "  " << file.string() << '\n';
+  }
+}
+
+void give_json(const std::string& json, const std::string& report) {
+  if (json == "-") {
+    std::cout << report << std::flush;
+  } else if (!json.empty()) {
+    write_text(json, report);
+  }
+}
+
 void check_targets(const std::string& out, const std::string& json) {
   if (!out.empty() && std::filesystem::exists(out) && !std::filesystem::is_directory(out)) {
     throw std::runtime_error("--out " + out + ": is not a folder");
@@ -198,16 +223,9 @@ void write_outputs(const std::string& out, const std::string& json, const RunRec
                    const RangeSensor& sensor, const std::map<std::string, Picture>& pictures, std::ostream& progress,
                    const std::optional<std::filesystem::path>& record) {
   if (!out.empty()) {
-    progress << "\nwrote\n";
-    for (const std::filesystem::path& file : write_run_files(out, run, map, sensor, pictures, record)) {
-      progress << "  " << file.string() << '\n';
-    }
+    tell_files(progress, write_run_files(out, run, map, sensor, pictures, record));
   }
-  if (json == "-") {
-    std::cout << report_json(run) << std::flush;
-  } else if (!json.empty()) {
-    write_report_json(run, json);
-  }
+  give_json(json, report_json(run));
 }
 
 }  // namespace vantage::apps

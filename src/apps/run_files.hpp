@@ -42,6 +42,13 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
                                                    const std::map<std::string, Picture>& pictures,
                                                    const std::optional<std::filesystem::path>& record = std::nullopt);
 
+/// Writes a text. Throws std::runtime_error naming the file.
+void write_text(const std::filesystem::path& file, const std::string& text);
+/// Tells, at the end, which files there are now.
+void tell_files(std::ostream& out, const std::vector<std::filesystem::path>& files);
+/// The report of a run to where `json` names a file or, as "-", to stdout; nowhere where it is empty.
+void give_json(const std::string& json, const std::string& report);
+
 /// Refuses, before a run, an --out or a --json that could not be written. Throws std::runtime_error naming it.
 void check_targets(const std::string& out, const std::string& json);
 /// After a run: its files where `out` names a folder, telling `progress` which, and its report where `json` names a

@@ -23,24 +23,6 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
-std::string drawn_bar(double share) {
-  constexpr int kWidth = 24;
-  const int full = std::clamp(static_cast<int>(std::floor(share * kWidth + 1e-9)), 0, kWidth);
-  std::string drawn(kWidth + 3, '.');
-  std::fill_n(drawn.begin() + 1, full, '#');
-  drawn.front() = '[';
-  drawn[kWidth + 1] = ']';
-  drawn.back() = ' ';
-  return drawn;
-}
-
-// "about 3 min": nobody needs it more exactly.
-std::string about(double seconds) {
-  return seconds < 99.5    ? format("about %.0f s", seconds)
-         : seconds < 5940. ? format("about %.0f min", seconds / 60.0)
-                           : format("about %.1f h", seconds / 3600.0);
-}
-
 double median(std::vector<double> values) {
   if (values.empty()) {
     return 0.0;
@@ -65,18 +47,43 @@ void RunPrinter::head(const std::string& planner, const std::string& world, cons
        << format(", cells of %g m, seed %llu\n", resolution_m, static_cast<unsigned long long>(seed)) << std::flush;
 }
 
-std::string bar_text(const ViewRecord& view, double seconds) {
-  const std::optional<double> share = view.coverage ? view.coverage : view.surface_coverage;
+std::string drawn_bar(double share) {
+  constexpr int kWidth = 24;
+  const int full = std::clamp(static_cast<int>(std::floor(share * kWidth + 1e-9)), 0, kWidth);
+  return '[' + std::string(static_cast<std::size_t>(full), '#') +
+         std::string(static_cast<std::size_t>(kWidth - full), '.') + format("] %5.1f %%  ", 100.0 * share);
+}
+
+std::string rounded_time(double seconds) {
+  return seconds < 99.5    ? format("%.0f s", seconds)
+         : seconds < 5940. ? format("%.0f min", seconds / 60.0)
+                           : format("%.1f h", seconds / 3600.0);
+}
+
+std::string bar_text(const ViewRecord& view, double seconds, const ExpectedViews& expected) {
+  const std::optional<double> known = view.coverage ? view.coverage : view.surface_coverage;
+  const bool counted = !known && expected.count > 0;
+  const auto done = static_cast<double>(view.view);
   std::string text;
-  if (share) {
-    text += drawn_bar(*share) + format("%5.1f %%  ", 100.0 * *share);
+  if (known) {
+    text += drawn_bar(*known);
+  } else if (counted && !expected.at_most) {
+    text += drawn_bar(done / static_cast<double>(expected.count));
   }
-  text += format("view %zu  %.1f m", view.view, view.path_length_m);
-  if (view.view > 1 && seconds > 0.0) {  // counted from the first, with which the clock starts
-    text += format("  %.1f views/s", static_cast<double>(view.view - 1) / seconds);
+  text += format("view %zu", view.view);
+  if (counted) {
+    text += format(expected.at_most ? " of at most %zu" : " of %zu", expected.count);
   }
-  if (share && *share > 0.0 && *share < 1.0 && view.view > 1) {
-    text += "  " + about(seconds * (1.0 - *share) / *share) + " left";
+  text += format("  %.1f m", view.path_length_m);
+  if (view.view == 1 || !(seconds > 0.0)) {  // counted from the first, with which the clock starts
+    return text;
+  }
+  text += format("  %.1f views/s", (done - 1.0) / seconds);
+  if (known && *known > 0.0 && *known < 1.0) {
+    text += "  about " + rounded_time(seconds * (1.0 - *known) / *known) + " left";
+  } else if (counted && view.view < expected.count) {
+    const double left_s = seconds * (static_cast<double>(expected.count) - done) / (done - 1.0);
+    text += (expected.at_most ? "  at most " : "  about ") + rounded_time(left_s) + " left";
   }
   return text;
 }
@@ -85,7 +92,8 @@ void RunPrinter::view(const ViewRecord& view) { terminal_ ? bar(view) : line(vie
 
 void RunPrinter::bar(const ViewRecord& view) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  out_ << "\r" << bar_text(view, seconds) << "\x1b[K" << std::flush;  // to the end of the line nothing stays
+  out_ << "\r" << bar_text(view, seconds, expected_) << "\x1b[K"
+       << std::flush;  // to the end of the line nothing stays
 }
 
 void RunPrinter::line(const ViewRecord& view) {

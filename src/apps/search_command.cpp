@@ -205,14 +205,18 @@ int search(const SearchRequest& request) {
 
   ProgressStream told(shared);
   std::ostream& progress = told.stream();
-  RunPrinter printer(progress, false);
+  RunPrinter printer(progress, told.is_terminal(), {.count = shared.max_views, .at_most = true});
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "search", shared.world, sensor));
   PlanPictures pictures;
   const auto on_view = [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       printer.head(shared.planner, shared.world, shared.sensor, shared.resolution_m, shared.seed);
     }
-    print_view(progress, view, shared.resolution_m);
+    if (told.is_terminal()) {
+      printer.view(view);
+    } else {
+      print_view(progress, view, shared.resolution_m);
+    }
     recording.look(view, map);
     if (view.plan_ms > 0.0 && !shared.out.empty()) {
       pictures.look(*planner, map, view);
@@ -271,8 +275,9 @@ void add_search_command(CLI::App& app, int& exit_code) {
       ->group("Run");
   add_output_options(*command, run);
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  vantage search --world crates-open --out crates\n"
+      "  vantage search --world crates-closed --arm my_arm.urdf --links base_link,camera --exhaustive --json -\n"
       "Exit codes: 0 no view of the arm sees more of a void, 2 bad input (nothing was written), 3 the views were "
       "spent.");
   command->callback([request, &exit_code] { exit_code = search(*request); });

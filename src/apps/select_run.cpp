@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <ostream>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vantage/planner/make_planner.hpp>
@@ -15,8 +16,8 @@
 #include <vantage/vision/line_plot.hpp>
 
 #include "apps/commands.hpp"
-#include "apps/replay_files.hpp"
 #include "apps/run_files.hpp"
+#include "apps/run_printer.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -40,6 +41,43 @@ struct Comparison {
   std::vector<Contender> contenders;
   ViewOrderCurve greedy_volume;
   ViewOrderCurve greedy_surface;
+};
+
+// Tells how far choosing has come: one bar over all that choose, or a line for each that is done.
+class ChoosingPrinter {
+ public:
+  ChoosingPrinter(ProgressStream& told, std::size_t choices) : told_(told), choices_(choices) {}
+
+  // Before a view is chosen.
+  void choosing(const std::string& name, std::size_t view, std::size_t views) {
+    if (!told_.is_terminal()) {
+      return;
+    }
+    const double share = static_cast<double>(chosen_++) / static_cast<double>(choices_);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+    told_.stream() << '\r' << drawn_bar(share) << name << ", view " << view << " of " << views;
+    if (share > 0.0) {
+      told_.stream() << "  about " << rounded_time(took.count() * (1.0 - share) / share) << " left";
+    }
+    told_.stream() << "\x1b[K" << std::flush;
+  }
+  void done(const Contender& contender) {
+    if (!told_.is_terminal()) {
+      told_.stream() << "chosen by " << contender.curve.name << std::endl;
+    }
+  }
+  // Once everybody has chosen.
+  void finish() {
+    if (told_.is_terminal()) {
+      told_.stream() << "\r\x1b[K";
+    }
+  }
+
+ private:
+  ProgressStream& told_;
+  std::size_t choices_;
+  std::size_t chosen_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 double share_below(const std::vector<double>& areas, double area) {
@@ -66,31 +104,39 @@ RecordedViews views_of(const ReplayRequest& request, const Recording& recording,
   return {std::move(scans), map_options_of(request)};
 }
 
-template <class Choose>
-Contender chosen(const RecordedViews& views, const std::string& name, const Choose& choose) {
+Contender chosen(const RecordedViews& views, const std::string& name, const ChooseView& choose,
+                 ChoosingPrinter& printer) {
   const auto start = std::chrono::steady_clock::now();
   Contender contender;
-  contender.curve = views.curve(name, chosen_order(views, 0, choose));
+  const auto told = [&](const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left) {
+    printer.choosing(name, views.size() - left.size() + 1, views.size());
+    return choose(map, last, left);
+  };
+  contender.curve = views.curve(name, chosen_order(views, 0, told));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   contender.choose_ms = took.count() / static_cast<double>(views.size() - 1);
+  printer.done(contender);
   return contender;
 }
 
 void add_choosers(const ReplayRequest& request, const Recording& recording, const RecordedViews& views,
-                  std::vector<Contender>& contenders) {
+                  ProgressStream& told, std::vector<Contender>& contenders) {
   const RangeSensor sensor = recording.sensor();
-  contenders.push_back(chosen(views, "expected cells", most_expected_cells(views, sensor)));
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
-  for (const auto& planner : planners_of(request, sensor, platform)) {
+  const auto planners = planners_of(request, sensor, platform);
+  ChoosingPrinter printer(told, (planners.size() + 1) * (views.size() - 1));
+  contenders.push_back(chosen(views, "expected cells", most_expected_cells(views, sensor), printer));
+  for (const auto& planner : planners) {
     const std::string name(planner->name());
-    contenders.push_back(
-        name == "next-best-view"
-            ? chosen(views, name, most_unknown_cells(views, sensor, static_cast<std::size_t>(request.run.threads)))
-            : chosen(views, name, nearest_to_goal(views, *planner, kMetresPerRadian)));
+    const ChooseView choose = name == "next-best-view"
+                                  ? most_unknown_cells(views, sensor, static_cast<std::size_t>(request.run.threads))
+                                  : nearest_to_goal(views, *planner, kMetresPerRadian);
+    contenders.push_back(chosen(views, name, choose, printer));
   }
+  printer.finish();
 }
 
-Comparison compare(const ReplayRequest& request, const Recording& recording) {
+Comparison compare(const ReplayRequest& request, const Recording& recording, ProgressStream& told) {
   Comparison comparison;
   const RecordedViews views = views_of(request, recording, comparison);
   std::vector<double> random_volume;
@@ -106,7 +152,7 @@ Comparison compare(const ReplayRequest& request, const Recording& recording) {
   std::sort(random.begin(), random.end(),
             [](const auto& a, const auto& b) { return a.volume_area() < b.volume_area(); });
   comparison.contenders.push_back({random[random.size() / 2]});
-  add_choosers(request, recording, views, comparison.contenders);
+  add_choosers(request, recording, views, told, comparison.contenders);
   for (Contender& contender : comparison.contenders) {
     contender.above_random_volume = share_below(random_volume, contender.curve.volume_area());
     contender.above_random_surface = share_below(random_surface, contender.curve.surface_area());
@@ -208,8 +254,9 @@ Picture selection_plot(const Comparison& comparison) {
 
 }  // namespace
 
-int select_views(const ReplayRequest& request, const Recording& recording, std::ostream& progress) {
-  const Comparison comparison = compare(request, recording);
+int select_views(const ReplayRequest& request, const Recording& recording, ProgressStream& told) {
+  std::ostream& progress = told.stream();
+  const Comparison comparison = compare(request, recording, told);
   print_table(progress, comparison);
   for (const SkippedFrame& frame : comparison.skipped) {
     progress << "left out " << frame.name << ": " << frame.reason << '\n';
@@ -218,16 +265,12 @@ int select_views(const ReplayRequest& request, const Recording& recording, std::
   if (!request.run.out.empty()) {
     const std::filesystem::path folder(request.run.out);
     make_folder(folder);
-    write_text(folder / "selection.json", json);
-    write_png(selection_plot(comparison), folder / "selection.png");
-    progress << "\nwrote\n  " << (folder / "selection.json").string() << "\n  " << (folder / "selection.png").string()
-             << '\n';
+    const std::vector<std::filesystem::path> files{folder / "selection.json", folder / "selection.png"};
+    write_text(files[0], json);
+    write_png(selection_plot(comparison), files[1]);
+    tell_files(progress, files);
   }
-  if (request.run.json == "-") {
-    std::cout << json << std::flush;
-  } else if (!request.run.json.empty()) {
-    write_text(request.run.json, json);
-  }
+  give_json(request.run.json, json);
   return kDone;
 }
 

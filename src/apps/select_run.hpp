@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <iosfwd>
 #include <string>
 #include <vantage/vision/recording.hpp>
 #include <vector>
 
+#include "apps/progress_stream.hpp"
 #include "apps/replay_request.hpp"
 
 namespace vantage::apps {
@@ -14,6 +14,6 @@ namespace vantage::apps {
 /// have known what there is to know? Compares them with the recorded order, views spread evenly, random orders and
 /// the greedy order of one who has seen all; prints a table, and writes selection.json and selection.png where an
 /// --out is given. Returns the exit code; throws std::runtime_error if no frame can be read.
-[[nodiscard]] int select_views(const ReplayRequest& request, const Recording& recording, std::ostream& progress);
+[[nodiscard]] int select_views(const ReplayRequest& request, const Recording& recording, ProgressStream& told);
 
 }  // namespace vantage::apps

@@ -73,6 +73,10 @@ class Follower {
       follow_voids(now);
     }
   }
+  [[nodiscard]] std::size_t known_cells() const {
+    const OccupancyMap::Counts counts = map_.counts();
+    return counts.free + counts.occupied;
+  }
   void finish(Replay& replay) const {
     replay.surfaces = surfaces_.quads();
     replay.voids = voids_.quads();
@@ -117,6 +121,7 @@ Replay replay_of(const std::filesystem::path& record) {
       follower.emplace(reader.new_map());
     }
     follower->follow(*cycle, static_cast<std::uint16_t>(replay.cycles.size() + 1));
+    replay.known_cells.push_back(follower->known_cells());
     cycle->changes.clear();
     replay.cycles.push_back(std::move(*cycle));
   }

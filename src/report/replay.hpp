@@ -21,6 +21,7 @@ struct Replay {
   std::array<std::vector<TimedQuad>, 6> surfaces;  ///< of occupied cells towards free ones, by direction
   std::array<std::vector<TimedQuad>, 6> voids;     ///< of void cells towards free ones, where a planner counts voids
   std::vector<TimedCell> frontiers;                ///< frontier cells
+  std::vector<std::size_t> known_cells;            ///< free or occupied, after each view
   std::vector<RecordedCycle> cycles;               ///< without their changes, one per view
 };
 

@@ -186,6 +186,7 @@ json replay_json(const Replay& replay) {
           {"voids", quads_json(replay.voids, extent.lo)},
           {"frontiers", cells_json(replay.frontiers, extent.lo)},
           {"field", field_json(replay.cycles, extent.lo)},
+          {"known_cells", replay.known_cells},
           {"cycles", std::move(cycles)},
           {"travelled", std::move(travelled)},
           {"sensor",

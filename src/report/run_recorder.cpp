@@ -190,8 +190,9 @@ void RunRecorder::record(const OccupancyMap& map, ViewRecord view, const Plan* p
   RecordedCycle cycle;
   if (plan != nullptr) {
     view.utility = plan->goal.utility;
-    view.frontier_cells = plan->statistics.frontier_cells;
-    view.void_cells = plan->statistics.void_cells;
+    // A planner that counts none of a kind does not know better than the host.
+    view.frontier_cells = plan->statistics.frontier_cells > 0 ? plan->statistics.frontier_cells : view.frontier_cells;
+    view.void_cells = plan->statistics.void_cells > 0 ? plan->statistics.void_cells : view.void_cells;
     view.outcome = plan->outcome;
     cycle.planned = true;
     cycle.reason = plan->reason;

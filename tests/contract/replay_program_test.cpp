@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vantage/report/run_record_reader.hpp>
 #include <vector>
 
 #include "support/depth_files.hpp"
@@ -76,11 +78,70 @@ TEST_F(ReplayProgram, PlaysARecordingAndTellsWhatEveryPlannerWouldDo) {
   EXPECT_EQ(replay.at("skipped")[0].at("frame"), "frame-000002");
   EXPECT_NE(replay.at("skipped")[0].at("reason").get<std::string>().find("cut off"), std::string::npos);
   EXPECT_NE(err_.find("frame-000002: "), std::string::npos);
-  for (const char* name : {"report.json", "map.ot", "floor_plan.png", "known.png", "frames/frame-000004.png"}) {
+  for (const char* name : {"report.json", "map.ot", "floor_plan.png", "known.png", "run.record", "report.html",
+                           "frames/frame-000004.png"}) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   EXPECT_FALSE(fs::exists(out / "frames/frame-000002.png"));
   EXPECT_EQ(nlohmann::json::parse(test::bytes_in(out / "report.json")).at("replay").at("format"), "7scenes");
+}
+
+TEST_F(ReplayProgram, LeavesARecordThatTellsTheSame) {
+  const fs::path out = folder_ / "out";
+  ASSERT_EQ(
+      run(on_data() + "--planner harmonic,nearest-frontier --robot-radius 0 --quiet --out '" + out.string() + "'"), 0)
+      << err_;
+  EXPECT_EQ(out_ + err_, "") << "it is quiet";
+  const auto report = nlohmann::json::parse(test::bytes_in(out / "report.json"));
+  RunRecordReader reader(out / "run.record");
+  OccupancyMap map = reader.new_map();
+  std::size_t views = 0;
+  std::size_t plans_with_field = 0;
+  while (const std::optional<RecordedCycle> cycle = reader.next()) {
+    apply_changes(*cycle, map);
+    const auto& told = report.at("replay").at("frames").at(views);
+    const auto& plan = told.at("plans").at(0);
+    const OccupancyMap::Counts counts = map.counts();
+    EXPECT_EQ(counts.free, told.at("free_cells"));
+    EXPECT_EQ(counts.occupied, told.at("occupied_cells"));
+    EXPECT_EQ(cycle->view.void_cells, told.at("void_cells"));
+    EXPECT_EQ(cycle->view.frontier_cells, told.at("frontier_cells"));
+    EXPECT_EQ(cycle->reason, plan.at("reason"));
+    EXPECT_EQ(to_string(cycle->view.outcome), plan.at("outcome").get<std::string>());
+    ASSERT_EQ(cycle->view.passed.size(), 1U);
+    EXPECT_LT((cycle->view.passed[0] - cycle->view.pose.translation()).norm(), 1e-5);
+    plans_with_field += cycle->field.empty() ? 0U : 1U;
+    ++views;
+  }
+  EXPECT_EQ(views, 5U);
+  EXPECT_GT(plans_with_field, 0U) << "of the first planner, which is the harmonic one";
+  EXPECT_EQ(reader.run().command, "replay");
+  EXPECT_EQ(reader.run().planner, "harmonic");
+  EXPECT_EQ(reader.run().reason, report.at("reason").get<std::string>());
+}
+
+// As on a terminal, which `script` plays: one bar over the frames.
+TEST_F(ReplayProgram, DrawsABarOnATerminal) {
+  if (std::system("command -v script >/dev/null") != 0) {
+    GTEST_SKIP() << "there is no program `script` here to play a terminal";
+  }
+  for (const std::string more : {"", "--select "}) {
+    const fs::path typed = folder_ / "typed.txt";
+    const std::string command = "script -qec \"'" VANTAGE_PROGRAM "' replay " + on_data() + more +
+                                "--planner nearest-frontier\" '" + typed.string() + "' >/dev/null </dev/null";
+    EXPECT_EQ(std::system(command.c_str()), 0) << more;
+    const std::string text = test::bytes_in(typed);
+    EXPECT_EQ(text.find("pixels"), std::string::npos) << "no lines beside the bar\n" << text;
+    std::size_t bars = 0;
+    for (std::size_t at = text.find("\r["); at != std::string::npos; at = text.find("\r[", at + 1)) {
+      ++bars;
+      const std::string bar = text.substr(at + 1, text.find('\x1b', at) - at - 1);
+      EXPECT_LE(bar.size(), 100U);
+      EXPECT_NE(bar.find("view "), std::string::npos) << bar;
+      EXPECT_NE(bar.find(" of 5"), std::string::npos) << bar;
+    }
+    EXPECT_EQ(bars, more.empty() ? 5U : 8U) << text;
+  }
 }
 
 TEST_F(ReplayProgram, ABudgetEndsIt) {

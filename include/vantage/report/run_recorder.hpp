@@ -57,9 +57,9 @@ class RunRecorder {
 
   /// Records the scan just inserted into `map` and, where one was made, the plan that came of it, with the field
   /// behind it. Views come in order, all of one map and one resolution, which the first call sets. The numbers of
-  /// `view` are taken as they are, but frontier and void cells, utility and outcome from a plan. Throws
-  /// std::runtime_error naming the file if it cannot be written, which ends the record with the cycle before;
-  /// std::invalid_argument if the resolution changes; std::logic_error if the record has ended.
+  /// `view` are taken as they are, but utility and outcome from a plan, and frontier and void cells too where it
+  /// counted any. Throws std::runtime_error naming the file if it cannot be written, which ends the record with
+  /// the cycle before; std::invalid_argument if the resolution changes; std::logic_error if the record has ended.
   void record(const OccupancyMap& map, ViewRecord view, const Plan* plan = nullptr,
               const HarmonicField* field = nullptr);
   /// The same for hosts that keep no ViewRecord: counts views and metres (straight from pose to pose) itself.

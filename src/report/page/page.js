@@ -26,10 +26,24 @@ function percent(share, digits = 1) {
   return share === null || share === undefined ? "–" : `${(100 * share).toFixed(digits)} %`;
 }
 
-// What a run is measured by: the world's cells, an object's surface, or nothing where the truth is not known.
+// What a run is measured by where the truth is known: the world's cells or an object's surface.
 function shareOf({ report, surface }, cycle) {
   if (report.coverage !== null && report.coverage !== undefined) return cycle.coverage;
   return surface ? surface[cycle.view - 1] : null;
+}
+
+// Cubic metres known after a view: what there is to tell of a run of which nobody knows the truth.
+function knownOf({ replay }, i) {
+  return replay ? replay.known_cells[i] * replay.cell_m ** 3 : null;
+}
+
+// What the first plot shows of a run at a cycle: shares in percent where anything is measured, else cubic metres.
+function progressOf(run, i) {
+  return measured() ? percentOrNull(shareOf(run, run.report.cycles[i])) : knownOf(run, i);
+}
+
+function measured() {
+  return runs.some((run) => run.report.cycles.some((cycle) => shareOf(run, cycle) !== null));
 }
 
 function prepare(run, index) {
@@ -146,14 +160,14 @@ function drawCurves() {
   const ends = runs.map((run) => abscissaOf(run, run.report.cycles.length - 1));
   const label = { view: "views", metres: "path [m]", seconds: "computing [s]" }[state.abscissa];
   const from = state.abscissa === "view" ? 1 : 0;
-  const measured = runs.some((run) => run.report.cycles.some((cycle) => shareOf(run, cycle) !== null));
-  $("coverage-title").textContent = !measured ? "Coverage (no truth to measure by)"
+  const progress = runs.map((run) => run.report.cycles.map((_, i) => progressOf(run, i)));
+  $("coverage-title").textContent = !measured() ? "Known volume"
     : runs[0].report.coverage === null ? "Surface measured" : "Cells known rightly";
-  plots.coverage.begin([from, Math.max(...ends)], [0, 100], label, " %");
-  for (const run of runs) {
-    plots.coverage.curve(run.report.cycles.map((_, i) => abscissaOf(run, i)),
-      run.report.cycles.map((cycle) => percentOrNull(shareOf(run, cycle))), run.colour);
-  }
+  plots.coverage.begin([from, Math.max(...ends)], [0, measured() ? 100 : Math.max(...progress.flat(), 0)], label,
+    measured() ? " %" : " m³");
+  runs.forEach((run, k) => {
+    plots.coverage.curve(run.report.cycles.map((_, i) => abscissaOf(run, i)), progress[k], run.colour);
+  });
   const most = Math.max(...runs.flatMap((run) => run.report.cycles.map((cycle) => cycle.frontier_cells)));
   $("frontier").parentElement.hidden = most === 0;  // a planner that counts none
   plots.frontier.begin([from, Math.max(...ends)], [0, most], label, "");
@@ -195,12 +209,12 @@ function drawTimes() {
 function markCurves() {
   const dots = (valueOf) => runs.filter((run) => run.report.cycles.length > 0).map((run) => {
     const i = Math.min(state.now, run.report.cycles.length) - 1;
-    return { x: abscissaOf(run, i), y: valueOf(run, run.report.cycles[i]), colour: run.colour };
+    return { x: abscissaOf(run, i), y: valueOf(run, i), colour: run.colour };
   });
-  const coverage = dots((run, cycle) => percentOrNull(shareOf(run, cycle)));
+  const coverage = dots(progressOf);
   const line = (list) => (several ? null : list[0].x);
   plots.coverage.mark(line(coverage), coverage);
-  const frontier = dots((_, cycle) => cycle.frontier_cells);
+  const frontier = dots((run, i) => run.report.cycles[i].frontier_cells);
   if (!several) frontier[0].colour = "#f0524f";
   plots.frontier.mark(line(frontier), frontier);
   plots.times.mark(state.now, []);
