@@ -31,6 +31,11 @@ struct CacheLineAllocator {
 #endif
     return static_cast<T*>(memory);
   }
+  /// Without a value, none is written: whoever uses a page first decides which processor it is near to.
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
   void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count * sizeof(T))); }
   [[nodiscard]] static constexpr std::align_val_t alignment(std::size_t bytes) {
     return std::align_val_t{bytes >= kHugePage ? kHugePage : 64};

@@ -97,12 +97,14 @@ struct Residual {
 
 }  // namespace
 
-BlockLevel::BlockLevel(const FineLevel& fine)
-    : x(fine.brick_count * kBrickBlocks, 0.0F), right(fine.brick_count * kBrickBlocks, 0.0F) {}
+BlockLevel::BlockLevel(const FineLevel& fine) {
+  clear(fine, x, kBrickBlocks);
+  clear(fine, right, kBrickBlocks);
+}
 
 void BlockLevel::smooth(const FineLevel& fine, bool even_first) {
   for (const bool even : {even_first, !even_first}) {
-    for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
+    for_bricks(fine, [&](std::size_t brick) {
       // The parity changes from brick to brick along x, or rows relaxed together would meet there.
       const bool flipped = (fine.address[brick].x & 1) != 0;
       const BlocksAround around(fine, x, brick);
@@ -113,25 +115,30 @@ void BlockLevel::smooth(const FineLevel& fine, bool even_first) {
       } else {
         run(Smooth<0>{around, load_here, own});
       }
-    }
+    });
   }
 }
 
 void BlockLevel::restrict_to(const FineLevel& fine, std::vector<float>& sums) const {
   std::fill(sums.begin(), sums.end(), 0.0F);
-  std::array<float, kBrickBlocks> residual{};
-  for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
+  const std::size_t nodes = sums.size() - 1;
+  for_bricks(fine, [&](std::size_t brick) {
+    std::array<float, kBrickBlocks> residual{};
     run(Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
     for (std::size_t i = 0; i < kBrickBlocks; ++i) {
-      sums[node[brick * kBrickBlocks + i]] += residual[i];
+      if (const std::uint32_t to = node[brick * kBrickBlocks + i]; to < nodes) {
+        sums[to] += residual[i];  // all its blocks are in this brick
+      }
     }
-  }
+  });
 }
 
-void BlockLevel::prolong(const std::vector<float>& correction) {
-  for (std::size_t i = kBrickBlocks; i < node.size(); ++i) {
-    x[i] += correction[node[i]];
-  }
+void BlockLevel::prolong(const FineLevel& fine, const std::vector<float>& correction) {
+  for_bricks(fine, [&](std::size_t brick) {
+    for (std::size_t i = brick * kBrickBlocks; i < (brick + 1) * kBrickBlocks; ++i) {
+      x[i] += correction[node[i]];
+    }
+  });
 }
 
 }  // namespace vantage::detail

@@ -28,7 +28,7 @@ struct BlockLevel {
   /// Sums the residual over the nodes of the next level; `sums` is one longer than there are nodes.
   void restrict_to(const FineLevel& fine, std::vector<float>& sums) const;
   /// Adds the correction of the next level; its last entry must be 0.
-  void prolong(const std::vector<float>& correction);
+  void prolong(const FineLevel& fine, const std::vector<float>& correction);
 
   [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(x) + bytes_of(right) + bytes_of(node); }
 };

@@ -21,7 +21,7 @@ auto* at(Field& field, std::size_t brick) {
 
 BrickSolver::BrickSolver(FineLevel fine) : fine_(std::move(fine)), coarse_(fine_), sums_(fine_.brick_count, 0.0) {
   for (HalfField<float>* field : {&x_, &r_, &z_, &p_, &q_, &red_}) {
-    field->assign(fine_.brick_count * kHalfBrick, 0.0F);
+    clear(fine_, *field, kHalfBrick);
   }
 }
 
@@ -82,7 +82,7 @@ double BrickSolver::turn(float share) {
 
 std::size_t BrickSolver::solve(double reduction, std::size_t most) {
   for (HalfField<float>* field : {&x_, &p_, &q_}) {
-    std::fill(field->begin(), field->end(), 0.0F);
+    clear(fine_, *field, kHalfBrick);
   }
   const double stop = reduction * reduction * advance(0.0F);
   std::size_t iterations = 0;

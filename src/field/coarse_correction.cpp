@@ -44,14 +44,14 @@ CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
   coarsest_ = matrix.llt().solve(Eigen::MatrixXd::Identity(size, size)).cast<float>();
 }
 
-void CoarseCorrection::solve_coarsest() {
+void CoarseCorrection::solve_coarsest(ThreadTeam& team) {
   GraphLevel& last = graphs_.back();
   if (coarsest_.size() == 0) {
     for (int i = 0; i < kSweepsOfMany; ++i) {
-      last.smooth(true);
+      last.smooth(team, true);
     }
     for (int i = 0; i < kSweepsOfMany; ++i) {
-      last.smooth(false);
+      last.smooth(team, false);
     }
     return;
   }
@@ -60,39 +60,39 @@ void CoarseCorrection::solve_coarsest() {
       coarsest_ * Eigen::Map<const Eigen::VectorXf>(last.right.data(), size);
 }
 
-void CoarseCorrection::cycle(std::size_t level) {
+void CoarseCorrection::cycle(ThreadTeam& team, std::size_t level) {
   if (level + 1 == graphs_.size()) {
-    solve_coarsest();
+    solve_coarsest(team);
     return;
   }
   GraphLevel& graph = graphs_[level];
   GraphLevel& next = graphs_[level + 1];
   for (int i = 0; i < kSweeps; ++i) {
-    graph.smooth(true);
+    graph.smooth(team, true);
   }
-  graph.restrict_to(next.right);
+  graph.restrict_to(team, next.right);
   std::fill(next.x.begin(), next.x.end(), 0.0F);
   for (int i = 0; i < kCycles; ++i) {
-    cycle(level + 1);
+    cycle(team, level + 1);
   }
-  graph.prolong(next.x);
+  graph.prolong(team, next.x);
   for (int i = 0; i < kSweeps; ++i) {
-    graph.smooth(false);
+    graph.smooth(team, false);
   }
 }
 
 void CoarseCorrection::solve(const FineLevel& fine) {
   GraphLevel& next = graphs_.front();
-  std::fill(blocks_.x.begin(), blocks_.x.end(), 0.0F);
+  clear(fine, blocks_.x, kBrickBlocks);
   for (int i = 0; i < kSweeps; ++i) {
     blocks_.smooth(fine, true);
   }
   blocks_.restrict_to(fine, next.right);
   std::fill(next.x.begin(), next.x.end(), 0.0F);
   for (int i = 0; i < kCycles; ++i) {
-    cycle(0);
+    cycle(*fine.team, 0);
   }
-  blocks_.prolong(next.x);
+  blocks_.prolong(fine, next.x);
   for (int i = 0; i < kSweeps; ++i) {
     blocks_.smooth(fine, false);
   }

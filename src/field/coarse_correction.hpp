@@ -30,8 +30,8 @@ class CoarseCorrection {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  void cycle(std::size_t level);
-  void solve_coarsest();
+  void cycle(ThreadTeam& team, std::size_t level);
+  void solve_coarsest(ThreadTeam& team);
 
   BlockLevel blocks_;
   std::vector<GraphLevel> graphs_;

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 namespace vantage::detail {
 namespace {
+
+// A thread with fewer of them waits for the others most of the time.
+constexpr std::size_t kFewestBricks = 96;
 
 using Rows = std::array<std::uint16_t, kBrickRows>;
 
@@ -101,11 +105,13 @@ void add_to_blocks(std::array<std::uint64_t, 7>& faces, std::size_t row, std::ui
   }
 }
 
-void fill_brick(FineLevel& level, const std::vector<LaplaceDomain::Brick>& bricks, std::size_t b,
-                const std::array<std::uint32_t, 6>& links) {
+// Returns how many unknowns the brick has.
+std::uint32_t fill_brick(FineLevel& level, const std::vector<LaplaceDomain::Brick>& bricks, std::size_t b,
+                         const std::array<std::uint32_t, 6>& links) {
   const Neighbourhood cells(bricks, b, links, &LaplaceDomain::Brick::cells);
   const Neighbourhood sinks(bricks, b, links, &LaplaceDomain::Brick::sinks);
   std::array<std::array<std::uint64_t, 7>, 16> blocks{};
+  std::uint32_t unknowns = 0;
   for (std::size_t row = 0; row < kBrickRows; ++row) {
     const std::uint32_t interior = bricks[b].cells[row] & ~static_cast<std::uint32_t>(bricks[b].sinks[row]);
     if (interior == 0) {
@@ -117,7 +123,7 @@ void fill_brick(FineLevel& level, const std::vector<LaplaceDomain::Brick>& brick
     for (std::size_t face = 0; face < 6; ++face) {
       unknown[face] = open[face] & ~sink[face];
     }
-    level.unknowns += static_cast<std::size_t>(std::popcount(interior));
+    unknowns += static_cast<std::uint32_t>(std::popcount(interior));
     write_degrees(level, b + 1, row, interior, open, sink);
     add_to_blocks(blocks[row / 16 * 4 + row % 8 / 2], row, interior, unknown, sink);
   }
@@ -130,18 +136,48 @@ void fill_brick(FineLevel& level, const std::vector<LaplaceDomain::Brick>& brick
       level.blocks[(b + 1) * kBrickBlocks + line * 8 + k] = packed;
     }
   }
+  return unknowns;
+}
+
+// Equal parts for all threads; needs the links.
+void share_bricks(FineLevel& level) {
+  level.shares.resize(level.team->size());
+  level.passes.assign(level.brick_count, 3);
+  for (std::size_t i = 0; i < level.shares.size(); ++i) {
+    BrickShare& share = level.shares[i];
+    share.begin = 1 + (level.brick_count - 1) * i / level.shares.size();
+    share.end = 1 + (level.brick_count - 1) * (i + 1) / level.shares.size();
+    for (std::size_t b = share.begin; b < share.end; ++b) {
+      for (const std::uint32_t link : level.links[b]) {
+        if (link != 0 && (link < share.begin || link >= share.end)) {
+          level.passes[b] = 1;
+        }
+      }
+      if (level.passes[b] == 1) {
+        share.late_second.push_back(static_cast<std::uint32_t>(b));
+      }
+    }
+  }
+  for (BrickShare& share : level.shares) {
+    for (std::size_t b = share.begin; b < share.end; ++b) {
+      const auto is_late = [&](std::uint32_t link) { return link != 0 && level.passes[link] == 1; };
+      if (level.passes[b] == 3 && std::any_of(level.links[b].begin(), level.links[b].end(), is_late)) {
+        level.passes[b] = 2;
+      }
+      if (level.passes[b] < 3) {
+        share.late_third.push_back(static_cast<std::uint32_t>(b));
+      }
+    }
+  }
 }
 
 }  // namespace
 
-FineLevel make_fine_level(const LaplaceDomain& domain) {
+FineLevel make_fine_level(const LaplaceDomain& domain, std::size_t threads) {
   const std::vector<LaplaceDomain::Brick>& bricks = domain.bricks();
   FineLevel level;
   level.brick_count = bricks.size() + 1;
-  for (const std::size_t colour : {kRed, kBlack}) {
-    level.faces[colour].assign(level.brick_count * kBrickRows, 0);
-  }
-  level.blocks.assign(level.brick_count * kBrickBlocks, 0);
+  level.team = std::make_unique<ThreadTeam>(std::clamp<std::size_t>(bricks.size() / kFewestBricks, 1, threads));
   level.links.assign(level.brick_count, {});
   level.address.assign(level.brick_count, {});
   level.ready.assign(level.brick_count, 0);
@@ -153,14 +189,20 @@ FineLevel make_fine_level(const LaplaceDomain& domain) {
       level.links[b + 1][face] = links[b][face] == LaplaceDomain::kNone ? 0 : links[b][face] + 1;
       level.ready[b + 1] = std::max(level.ready[b + 1], level.links[b + 1][face]);
     }
-    fill_brick(level, bricks, b, links[b]);
   }
+  share_bricks(level);
+  clear(level, level.faces[kRed], kBrickRows);
+  clear(level, level.faces[kBlack], kBrickRows);
+  clear(level, level.blocks, kBrickBlocks);
+  std::vector<std::uint32_t> unknowns(level.brick_count, 0);
+  for_bricks(level, [&](std::size_t b) { unknowns[b] = fill_brick(level, bricks, b - 1, links[b - 1]); });
+  level.unknowns = std::accumulate(unknowns.begin(), unknowns.end(), std::size_t{0});
   return level;
 }
 
 std::size_t FineLevel::memory_bytes() const {
-  return bytes_of(address) + bytes_of(links) + bytes_of(ready) + bytes_of(faces[0]) + bytes_of(faces[1]) +
-         bytes_of(blocks);
+  return bytes_of(address) + bytes_of(links) + bytes_of(ready) + bytes_of(passes) + bytes_of(faces[0]) +
+         bytes_of(faces[1]) + bytes_of(blocks);
 }
 
 }  // namespace vantage::detail

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vantage/field/laplace_domain.hpp>
 #include <vector>
 
 #include "field/aligned_vector.hpp"
+#include "field/thread_team.hpp"
 
 namespace vantage::detail {
 
@@ -28,6 +31,14 @@ inline constexpr std::uint32_t kBesideSink = 8;
 [[nodiscard]] inline std::size_t half_offset(std::size_t row, std::size_t x) { return row * 8 + x / 2; }
 [[nodiscard]] inline std::size_t colour_of(std::size_t row, std::size_t x) { return (row ^ row >> 3U ^ x) & 1U; }
 
+/// The bricks of one thread: in three passes over them, those at the border to another thread's bricks come late.
+struct BrickShare {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::vector<std::uint32_t> late_second;  ///< with a neighbour in another share
+  std::vector<std::uint32_t> late_third;   ///< beside a brick that is late for the second pass, or late itself
+};
+
 /// The 7-point operator over the cells of a domain, sinks held at 0: A u = degree * u - the sum of the neighbours,
 /// where degree is the number of open faces and u is stored as 0 wherever there is no unknown.
 ///
@@ -43,6 +54,9 @@ struct FineLevel {
   std::array<AlignedVector<std::uint32_t>, 2> faces;
   AlignedVector<std::uint32_t> blocks;  ///< the operator of the blocks, see BlockLevel
   std::size_t unknowns = 0;
+  std::unique_ptr<ThreadTeam> team;
+  std::vector<BrickShare> shares;    ///< one for each of the team
+  std::vector<std::uint8_t> passes;  ///< that a brick takes part in without being late, of three
 
   /// Open faces of a cell.
   [[nodiscard]] std::uint32_t degree(std::size_t colour, std::size_t brick, std::size_t offset) const {
@@ -51,24 +65,57 @@ struct FineLevel {
   [[nodiscard]] std::size_t memory_bytes() const;
 };
 
-/// Cells of a domain without isolated ones; its bricks keep their order.
-[[nodiscard]] FineLevel make_fine_level(const LaplaceDomain& domain);
+/// Cells of a domain without isolated ones; its bricks keep their order. `threads` at most, in all passes over it.
+[[nodiscard]] FineLevel make_fine_level(const LaplaceDomain& domain, std::size_t threads = 1);
 
-/// Calls `first` for every brick in order, `second` for each as soon as `first` has passed it and its neighbours, and
-/// `third` likewise after `second`: what one has written is still in the cache when the next reads it.
+/// Calls `each` for every brick, in order within a share.
+template <class Each>
+void for_bricks(const FineLevel& fine, const Each& each) {
+  fine.team->run([&](std::size_t i) {
+    for (std::size_t brick = fine.shares[i].begin; brick < fine.shares[i].end; ++brick) {
+      each(brick);
+    }
+  });
+}
+
+/// So many zeros for each brick, the empty one included.
+template <class T>
+void clear(const FineLevel& fine, AlignedVector<T>& values, std::size_t per_brick) {
+  values.resize(fine.brick_count * per_brick);
+  std::fill_n(values.data(), per_brick, T{});
+  for_bricks(fine, [&](std::size_t brick) { std::fill_n(values.data() + brick * per_brick, per_brick, T{}); });
+}
+
+/// Calls `first` for every brick, `second` for each when `first` has passed it and its neighbours, and `third`
+/// likewise after `second`; as soon as that, for what one has written is still in the cache when the next reads it.
 template <class First, class Second, class Third>
-void in_waves(const FineLevel& fine, First&& first, Second&& second, Third&& third) {
-  std::size_t b = 1;
-  std::size_t c = 1;
-  for (std::size_t a = 1; a < fine.brick_count; ++a) {
-    first(a);
-    for (; b <= a && fine.ready[b] <= a; ++b) {
-      second(b);
+void in_waves(const FineLevel& fine, const First& first, const Second& second, const Third& third) {
+  fine.team->run([&](std::size_t i) {
+    std::size_t b = fine.shares[i].begin;
+    std::size_t c = b;
+    for (std::size_t a = b; a < fine.shares[i].end; ++a) {
+      first(a);
+      for (; b <= a && (fine.ready[b] <= a || fine.passes[b] < 2); ++b) {
+        if (fine.passes[b] >= 2) {
+          second(b);
+        }
+      }
+      for (; c < b && (fine.ready[c] < b || fine.passes[c] < 3); ++c) {
+        if (fine.passes[c] >= 3) {
+          third(c);
+        }
+      }
     }
-    for (; c < b && fine.ready[c] < b; ++c) {
-      third(c);
-    }
+  });
+  if (fine.shares.size() == 1) {
+    return;
   }
+  fine.team->run([&](std::size_t i) {
+    std::for_each(fine.shares[i].late_second.begin(), fine.shares[i].late_second.end(), second);
+  });
+  fine.team->run([&](std::size_t i) {
+    std::for_each(fine.shares[i].late_third.begin(), fine.shares[i].late_third.end(), third);
+  });
 }
 
 }  // namespace vantage::detail

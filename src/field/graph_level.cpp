@@ -12,6 +12,8 @@ namespace {
 
 // Relaxation goes a little too far (SOR), which smooths better than Gauss-Seidel in three dimensions.
 constexpr float kNodeWeight = 1.15F;
+// Fewer nodes per thread are done before a second thread has begun.
+constexpr std::size_t kGrain = 2000;
 
 VoxelIndex halved(const VoxelIndex& at) { return {at.x >> 1, at.y >> 1, at.z >> 1}; }
 bool is_even(const VoxelIndex& at) { return ((at.x ^ at.y ^ at.z) & 1) == 0; }
@@ -92,11 +94,13 @@ inline float GraphLevel::inflow(std::size_t of) const {
   return sum;
 }
 
-void GraphLevel::smooth(bool even_first) {
-  const auto relax = [this](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      x[i] += kNodeWeight * ((right[i] + inflow(i)) * inverse[i] - x[i]);
-    }
+void GraphLevel::smooth(ThreadTeam& team, bool even_first) {
+  const auto relax = [&](std::size_t first, std::size_t last) {
+    team.split(last - first, kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        x[i] += kNodeWeight * ((right[i] + inflow(i)) * inverse[i] - x[i]);
+      }
+    });
   };
   if (even_first) {
     relax(0, even);
@@ -107,22 +111,31 @@ void GraphLevel::smooth(bool even_first) {
   }
 }
 
-void GraphLevel::restrict_to(std::vector<float>& sums) const {
-  std::fill(sums.begin(), sums.end(), 0.0F);
-  for (std::size_t i = 0; i < size; ++i) {
-    sums[node[i]] += right[i] - diagonal[i] * x[i] + inflow(i);
-  }
+void GraphLevel::restrict_to(ThreadTeam& team, std::vector<float>& sums) const {
+  team.split(first_child.size() - 1, kGrain / 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t to = begin; to < end; ++to) {
+      float sum = 0.0F;
+      for (std::uint32_t c = first_child[to]; c < first_child[to + 1]; ++c) {
+        const std::uint32_t i = children[c];
+        sum += right[i] - diagonal[i] * x[i] + inflow(i);
+      }
+      sums[to] = sum;
+    }
+  });
 }
 
-void GraphLevel::prolong(const std::vector<float>& correction) {
-  for (std::size_t i = 0; i < size; ++i) {
-    x[i] += correction[node[i]];
-  }
+void GraphLevel::prolong(ThreadTeam& team, const std::vector<float>& correction) {
+  team.split(size, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      x[i] += correction[node[i]];
+    }
+  });
 }
 
 std::size_t GraphLevel::memory_bytes() const {
   return bytes_of(at) + bytes_of(six) + bytes_of(first_more) + bytes_of(more) + bytes_of(diagonal) + bytes_of(leak) +
-         bytes_of(inverse) + bytes_of(node) + bytes_of(x) + bytes_of(right);
+         bytes_of(inverse) + bytes_of(node) + bytes_of(children) + bytes_of(first_child) + bytes_of(x) +
+         bytes_of(right);
 }
 
 GraphLevel coarsen(GraphLevel& finer) {
@@ -145,6 +158,16 @@ GraphLevel coarsen(GraphLevel& finer) {
         }
       });
     }
+  }
+  finer.first_child.assign(at.size() + 1, 0);
+  for (const std::uint32_t parent : finer.node) {
+    ++finer.first_child[parent + 1];
+  }
+  std::partial_sum(finer.first_child.begin(), finer.first_child.end(), finer.first_child.begin());
+  finer.children.resize(finer.size);
+  std::vector<std::uint32_t> next_place(finer.first_child.begin(), finer.first_child.end() - 1);
+  for (std::uint32_t i = 0; i < finer.size; ++i) {
+    finer.children[next_place[finer.node[i]]++] = i;
   }
   std::vector<float> leaks(at.size(), 0.0F);
   std::vector<GraphLevel::Join> joins;

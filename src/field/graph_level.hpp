@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "field/aligned_vector.hpp"
+#include "field/thread_team.hpp"
 
 namespace vantage::detail {
 
@@ -36,12 +37,14 @@ struct GraphLevel {
   std::vector<std::uint32_t>
       first_more;  ///< where in `more` the edges of a node beyond six start; one more than nodes
   std::vector<Edge> more;
-  std::vector<float> leak;          ///< to the sinks
-  std::vector<float> diagonal;      ///< the sum of all conductances
-  std::vector<float> inverse;       ///< of that
-  std::vector<std::uint32_t> node;  ///< of the next coarser level
-  std::vector<float> x;             ///< the correction, and a 0
-  std::vector<float> right;         ///< the right hand side, and one that is not used
+  std::vector<float> leak;                 ///< to the sinks
+  std::vector<float> diagonal;             ///< the sum of all conductances
+  std::vector<float> inverse;              ///< of that
+  std::vector<std::uint32_t> node;         ///< of the next coarser level
+  std::vector<std::uint32_t> children;     ///< the nodes in the order of those of the next coarser level
+  std::vector<std::uint32_t> first_child;  ///< of each of those, in `children`; one more than there are
+  std::vector<float> x;                    ///< the correction, and a 0
+  std::vector<float> right;                ///< the right hand side, and one that is not used
 
   /// Nodes by their addresses (even ones first) and leaks; several joins of one pair add up.
   GraphLevel(std::vector<VoxelIndex> addresses, std::vector<float> leaks, const std::vector<Join>& joins);
@@ -58,9 +61,9 @@ struct GraphLevel {
       visit(more[e]);
     }
   }
-  void smooth(bool even_first);
-  void restrict_to(std::vector<float>& sums) const;
-  void prolong(const std::vector<float>& correction);
+  void smooth(ThreadTeam& team, bool even_first);
+  void restrict_to(ThreadTeam& team, std::vector<float>& sums) const;
+  void prolong(ThreadTeam& team, const std::vector<float>& correction);
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
@@ -71,7 +74,7 @@ struct GraphLevel {
 /// small because it has steps where the solution has slopes.
 inline constexpr float kOverCorrection = 0.5F;
 
-/// The next level: pieces of 2 x 2 x 2 cubes that hang together. Sets `finer.node`.
+/// The next level: pieces of 2 x 2 x 2 cubes that hang together. Sets `finer.node` and its children.
 [[nodiscard]] GraphLevel coarsen(GraphLevel& finer);
 
 }  // namespace vantage::detail

@@ -40,6 +40,7 @@ void MultigridOptions::validate() const {
   detail::require_option(uniform_source >= 0.0 && std::isfinite(uniform_source), "MultigridOptions::uniform_source",
                          uniform_source, ">= 0 and finite");
   detail::require_option(max_iterations > 0, "MultigridOptions::max_iterations", max_iterations, "> 0");
+  detail::require_option(threads > 0, "MultigridOptions::threads", threads, "> 0");
 }
 
 struct LaplaceMultigrid::State {
@@ -86,7 +87,7 @@ void LaplaceMultigrid::State::solve(const VoxelIndex& source, const MultigridOpt
     report.setup_seconds = seconds_since(started);
     return;
   }
-  detail::BrickSolver solver(detail::make_fine_level(domain));
+  detail::BrickSolver solver(detail::make_fine_level(domain, options.threads));
   const detail::CellPlace place = detail::CellPlace::of(domain, source);
   report.source_per_cell = options.uniform_source / static_cast<double>(report.unknowns);
   report.levels = solver.level_count();

@@ -185,8 +185,8 @@ CellPlace CellPlace::of(const LaplaceDomain& domain, const VoxelIndex& cell) {
 
 Refinement::Refinement(const FineLevel& fine, const CellPlace& source, double uniform)
     : source_(source), uniform_(uniform), partial_(fine.brick_count, Partial{}) {
-  values_.u[kRed].assign(fine.brick_count * kHalfBrick, 0.0);
-  values_.u[kBlack].assign(fine.brick_count * kHalfBrick, 0.0);
+  clear(fine, values_.u[kRed], kHalfBrick);
+  clear(fine, values_.u[kBlack], kHalfBrick);
 }
 
 // What the value at the source is as soon as the red cells are solved for.
@@ -218,9 +218,9 @@ void Refinement::pass(const FineLevel& fine) {
 }
 
 Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correction, double scale, bool check) {
-  for (std::size_t b = 1; b < fine.brick_count; ++b) {
+  for_bricks(fine, [&](std::size_t b) {
     run(Add{correction.data() + b * kHalfBrick, scale, values_.u[kBlack].data() + b * kHalfBrick});
-  }
+  });
   values_.at_source = source_value(fine);
   if (check) {
     pass<true>(fine);
@@ -239,11 +239,11 @@ Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correct
 }
 
 void Refinement::residual(const FineLevel& fine, double scale, HalfField<float>& out) const {
-  for (std::size_t b = 1; b < fine.brick_count; ++b) {
+  for_bricks(fine, [&](std::size_t b) {
     run(BlackResidual{fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
                       Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_), scale,
                       out.data() + b * kHalfBrick});
-  }
+  });
 }
 
 }  // namespace vantage::detail

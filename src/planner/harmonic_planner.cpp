@@ -32,10 +32,11 @@ RelaxationOptions relaxation_options(const HarmonicOptions& options) {
   return relaxation;
 }
 
-MultigridOptions multigrid_options(const HarmonicOptions& options) {
+MultigridOptions multigrid_options(const HarmonicOptions& options, int threads) {
   MultigridOptions multigrid;
   multigrid.neumann = options.neumann;
   multigrid.uniform_source = options.uniform_source;
+  multigrid.threads = static_cast<std::size_t>(threads);
   return multigrid;
 }
 
@@ -195,7 +196,7 @@ void HarmonicPlanner::solve(const OccupancyMap& map, const FrontierSurvey& surve
 
 // Only a certified field is followed: then the way down from any cell ends at a sink.
 void HarmonicPlanner::solve_by_multigrid() {
-  const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_));
+  const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_, setup_.threads));
   const MultigridReport& report = multigrid.report();
   field_->phi = multigrid.values(field_->problem);
   field_->stuck_cells = report.stuck_cells;

@@ -293,5 +293,32 @@ TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
   EXPECT_EQ(LaplaceMultigrid(rooms.domain(), rooms.source).values(rooms.problem()), first);
 }
 
+// Threads that meet at every border of their shares, of worlds with fewer bricks than threads to some that keep them
+// all busy on the first coarse levels, too.
+TEST(MultigridOracle, AnyNumberOfThreadsComputesTheSameBits) {
+  std::vector<Worlds> worlds = kinds_of_worlds();
+  worlds.push_back({"one brick", {.extent = {12, 7, 8}, .room_cells = 12}});
+  worlds.push_back({"large", {.extent = {120, 100, 90}, .room_cells = 23, .door_cells = 6}});
+  worlds.push_back({"large maze", {.extent = {110, 95, 60}, .room_cells = 7, .door_cells = 3}});
+  std::size_t cases = 0;
+  std::size_t largest = 0;
+  for (const Worlds& kind : worlds) {
+    const RandomRooms rooms(kind.options);
+    const LaplaceProblem problem = rooms.problem();
+    const LaplaceMultigrid alone(rooms.domain(), rooms.source);
+    const std::vector<double> expected = alone.values(problem);
+    for (const std::size_t threads : {2U, 3U, 7U}) {
+      const LaplaceMultigrid field(rooms.domain(), rooms.source, {.threads = threads});
+      ASSERT_EQ(field.values(problem), expected) << kind.name << ", " << threads;
+      ASSERT_EQ(field.report().iterations, alone.report().iterations);
+      ASSERT_EQ(field.report().residual, alone.report().residual);
+      ++cases;
+    }
+    largest = std::max(largest, alone.report().unknowns);
+  }
+  EXPECT_EQ(cases, 33U);
+  EXPECT_GE(largest, 500000U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -22,6 +22,7 @@ struct MultigridOptions {
   /// certificate: phi falls below what a double can tell apart, and is level in dead ends.
   double uniform_source = 1e-4;
   std::size_t max_iterations = 400;  ///< of the Krylov method, in all, > 0
+  std::size_t threads = 1;           ///< at most, > 0; never changes a bit of the field
 
   /// Throws std::invalid_argument naming the option at fault.
   void validate() const;
@@ -83,7 +84,7 @@ struct MultigridReport {
 /// values given are compared to make sure (docs/harmonic.md). Behind the sensor, seen from the sinks, phi rises above
 /// 1 by as little.
 ///
-/// The same input gives the same bits on every processor.
+/// The same input gives the same bits on every processor and for any number of threads.
 class LaplaceMultigrid {
  public:
   /// Solves on the component of `source`, which must be in the domain and no sink. Throws std::invalid_argument

@@ -30,6 +30,7 @@ TEST(LaplaceMultigrid, NamesTheOptionAtFault) {
   EXPECT_NE(error({.tolerance = 1.0}).find("MultigridOptions::tolerance"), std::string::npos);
   EXPECT_NE(error({.uniform_source = -1.0}).find("MultigridOptions::uniform_source"), std::string::npos);
   EXPECT_NE(error({.max_iterations = 0}).find("MultigridOptions::max_iterations"), std::string::npos);
+  EXPECT_NE(error({.threads = 0}).find("MultigridOptions::threads"), std::string::npos);
   EXPECT_EQ(error({}), "");
 }
 
