@@ -13,6 +13,19 @@ namespace {
 // so that it still smooths where a corridor leaves nothing but that.
 constexpr float kBlockWeight = 0.95F;
 
+VANTAGE_INLINE Lanes<float> as_floats(const Lanes<std::uint32_t>& counts) {
+  return __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(counts), Lanes<float>);
+}
+
+// Sum of all conductances.
+VANTAGE_INLINE Lanes<float> diagonal_of(const Lanes<std::uint32_t>& packed) {
+  Lanes<std::uint32_t> faces = packed & 7U;
+  for (std::uint32_t face = 1; face < 6; ++face) {
+    faces += packed >> (3U * face) & 7U;
+  }
+  return 0.5F * as_floats(faces) + as_floats(packed >> 18U);
+}
+
 struct BlockSums {
   Lanes<float> inflow;    // sum of conductance * neighbour
   Lanes<float> diagonal;  // sum of all conductances
@@ -44,17 +57,33 @@ struct BlocksAround {
     const Lanes<std::uint32_t> counts = load(packed + line * 8);
     BlockSums sums{};
     for (std::uint32_t face = 0; face < 6; ++face) {
-      const Lanes<std::uint32_t> faces = counts >> (3U * face) & 7U;
-      const Lanes<float> conductance =
-          __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(faces), Lanes<float>);
-      sums.inflow += conductance * neighbour[face];
-      sums.diagonal += conductance;
+      sums.inflow += as_floats(counts >> (3U * face) & 7U) * neighbour[face];
     }
-    const Lanes<std::uint32_t> leaks = counts >> 18U;
     sums.inflow *= 0.5F;
-    sums.diagonal = 0.5F * sums.diagonal +
-                    __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(leaks), Lanes<float>);
+    sums.diagonal = diagonal_of(counts);
     return sums;
+  }
+};
+
+// The same as below where x is 0 everywhere, and whatever is there instead.
+template <std::size_t parity>
+struct SmoothFromZero {
+  const std::uint32_t* packed;
+  const float* right;
+  float* x;
+
+  VANTAGE_INLINE void operator()() const {
+    unrolled(
+        [&](auto line) VANTAGE_INLINE_LAMBDA {
+          constexpr bool kRelaxed = ((line / 4 ^ line ^ parity) & 1U) == 0;
+          Lanes<float> relaxed{};
+          if constexpr (kRelaxed) {
+            const Lanes<float> diagonal = diagonal_of(load(packed + line * 8));
+            relaxed = diagonal > 0.0F ? kBlockWeight * (load(right + line * 8) / diagonal) : relaxed;
+          }
+          store<float>(x + line * 8, relaxed);
+        },
+        std::make_index_sequence<16>{});
   }
 };
 
@@ -102,43 +131,65 @@ BlockLevel::BlockLevel(const FineLevel& fine) {
   clear(fine, right, kBrickBlocks);
 }
 
-void BlockLevel::smooth(const FineLevel& fine, bool even_first) {
-  for (const bool even : {even_first, !even_first}) {
-    for_bricks(fine, [&](std::size_t brick) {
-      // The parity changes from brick to brick along x, or rows relaxed together would meet there.
-      const bool flipped = (fine.address[brick].x & 1) != 0;
-      const BlocksAround around(fine, x, brick);
-      const float* load_here = right.data() + brick * kBrickBlocks;
-      float* own = x.data() + brick * kBrickBlocks;
-      if (even == flipped) {
-        run(Smooth<1>{around, load_here, own});
-      } else {
-        run(Smooth<0>{around, load_here, own});
-      }
-    });
+namespace {
+
+// The parity of rows changes from brick to brick along x, or rows relaxed together would meet there.
+bool is_flipped(const FineLevel& fine, std::size_t brick) { return (fine.address[brick].x & 1) != 0; }
+
+}  // namespace
+
+void BlockLevel::begin(const FineLevel& fine, std::size_t brick) {
+  const std::size_t at = brick * kBrickBlocks;
+  if (is_flipped(fine, brick)) {
+    run(SmoothFromZero<1>{fine.blocks.data() + at, right.data() + at, x.data() + at});
+  } else {
+    run(SmoothFromZero<0>{fine.blocks.data() + at, right.data() + at, x.data() + at});
   }
 }
 
-void BlockLevel::restrict_to(const FineLevel& fine, std::vector<float>& sums) const {
-  std::fill(sums.begin(), sums.end(), 0.0F);
-  const std::size_t nodes = sums.size() - 1;
-  for_bricks(fine, [&](std::size_t brick) {
-    std::array<float, kBrickBlocks> residual{};
-    run(Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
-    for (std::size_t i = 0; i < kBrickBlocks; ++i) {
-      if (const std::uint32_t to = node[brick * kBrickBlocks + i]; to < nodes) {
-        sums[to] += residual[i];  // all its blocks are in this brick
-      }
-    }
-  });
+void BlockLevel::relax(const FineLevel& fine, std::size_t brick, bool even) {
+  const BlocksAround around(fine, x, brick);
+  const std::size_t at = brick * kBrickBlocks;
+  if (even == is_flipped(fine, brick)) {
+    run(Smooth<1>{around, right.data() + at, x.data() + at});
+  } else {
+    run(Smooth<0>{around, right.data() + at, x.data() + at});
+  }
 }
 
-void BlockLevel::prolong(const FineLevel& fine, const std::vector<float>& correction) {
-  for_bricks(fine, [&](std::size_t brick) {
-    for (std::size_t i = brick * kBrickBlocks; i < (brick + 1) * kBrickBlocks; ++i) {
-      x[i] += correction[node[i]];
+void BlockLevel::restrict_brick(const FineLevel& fine, std::size_t brick, std::vector<float>& sums) const {
+  std::array<float, kBrickBlocks> residual{};
+  run(Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
+  const std::size_t nodes = sums.size() - 1;
+  for (std::size_t i = 0; i < kBrickBlocks; ++i) {
+    if (const std::uint32_t to = node[brick * kBrickBlocks + i]; to < nodes) {
+      sums[to] += residual[i];  // all its blocks are in this brick
     }
-  });
+  }
+}
+
+void BlockLevel::descend(const FineLevel& fine, std::vector<float>& sums) {
+  in_waves(
+      fine, [&](std::size_t b) { begin(fine, b); }, [&](std::size_t b) { relax(fine, b, false); },
+      [&](std::size_t b) { relax(fine, b, true); });
+  std::fill(sums.begin(), sums.end(), 0.0F);
+  in_waves(
+      fine, [&](std::size_t b) { relax(fine, b, false); }, [&](std::size_t b) { restrict_brick(fine, b, sums); },
+      [](std::size_t) {});
+}
+
+void BlockLevel::ascend(const FineLevel& fine, const std::vector<float>& correction) {
+  in_waves(
+      fine,
+      [&](std::size_t b) {
+        for (std::size_t i = b * kBrickBlocks; i < (b + 1) * kBrickBlocks; ++i) {
+          x[i] += correction[node[i]];
+        }
+      },
+      [&](std::size_t b) { relax(fine, b, false); }, [&](std::size_t b) { relax(fine, b, true); });
+  in_waves(
+      fine, [&](std::size_t b) { relax(fine, b, false); }, [&](std::size_t b) { relax(fine, b, true); },
+      [](std::size_t) {});
 }
 
 }  // namespace vantage::detail

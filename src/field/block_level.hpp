@@ -23,14 +23,18 @@ struct BlockLevel {
 
   explicit BlockLevel(const FineLevel& fine);
 
-  /// One relaxation, rows of even y + z before the others or after them.
-  void smooth(const FineLevel& fine, bool even_first);
-  /// Sums the residual over the nodes of the next level; `sums` is one longer than there are nodes.
-  void restrict_to(const FineLevel& fine, std::vector<float>& sums) const;
-  /// Adds the correction of the next level; its last entry must be 0.
-  void prolong(const FineLevel& fine, const std::vector<float>& correction);
+  /// Two relaxations from 0, in each the rows of even y + z before the others, and the sums of the residual over the
+  /// nodes of the next level; `sums` is one longer than there are nodes.
+  void descend(const FineLevel& fine, std::vector<float>& sums);
+  /// Adds the correction of the next level, its last entry 0; then two relaxations in the reverse order.
+  void ascend(const FineLevel& fine, const std::vector<float>& correction);
 
   [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(x) + bytes_of(right) + bytes_of(node); }
+
+ private:
+  void begin(const FineLevel& fine, std::size_t brick);
+  void relax(const FineLevel& fine, std::size_t brick, bool even);
+  void restrict_brick(const FineLevel& fine, std::size_t brick, std::vector<float>& sums) const;
 };
 
 }  // namespace vantage::detail

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "field/brick_solver.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -27,14 +26,11 @@ BrickSolver::BrickSolver(FineLevel fine) : fine_(std::move(fine)), coarse_(fine_
 
 double BrickSolver::total() const { return std::accumulate(sums_.begin(), sums_.end(), 0.0); }
 
-// x += step p, r -= step q, and the way down: z = first relaxation, its residual to the blocks. Returns r * r.
-double BrickSolver::advance(float step) {
+// `first` for every brick, which leaves z relaxed once, and its residual to the blocks. Returns r * r.
+template <class First>
+double BrickSolver::way_down(const First& first) {
   in_waves(
-      fine_,
-      [&](std::size_t b) {
-        run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b),
-                    at(z_, b), step, kBlackWeight, &sums_[b]});
-      },
+      fine_, first,
       [&](std::size_t b) {
         run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
       },
@@ -43,6 +39,21 @@ double BrickSolver::advance(float step) {
                           Around<float>(fine_, red_, b), coarse_.right(b)});
       });
   return total();
+}
+
+// x = 0, and the way down.
+double BrickSolver::begin() {
+  return way_down([&](std::size_t b) {
+    run(Begin{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(x_, b), at(z_, b), kBlackWeight, &sums_[b]});
+  });
+}
+
+// x += step p, r -= step q, and the way down.
+double BrickSolver::advance(float step) {
+  return way_down([&](std::size_t b) {
+    run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b),
+                step, kBlackWeight, &sums_[b]});
+  });
 }
 
 // The correction of the coarser levels and the last relaxation. Returns r * z.
@@ -81,10 +92,7 @@ double BrickSolver::turn(float share) {
 }
 
 std::size_t BrickSolver::solve(double reduction, std::size_t most) {
-  for (HalfField<float>* field : {&x_, &p_, &q_}) {
-    clear(fine_, *field, kHalfBrick);
-  }
-  const double stop = reduction * reduction * advance(0.0F);
+  const double stop = reduction * reduction * begin();
   std::size_t iterations = 0;
   double previous = 0.0;
   while (iterations < most) {
@@ -103,9 +111,7 @@ std::size_t BrickSolver::solve(double reduction, std::size_t most) {
 }
 
 void BrickSolver::precondition(HalfField<float>& out) {
-  std::fill(q_.begin(), q_.end(), 0.0F);
-  std::fill(p_.begin(), p_.end(), 0.0F);
-  advance(0.0F);
+  begin();
   correct();
   out = z_;
 }

@@ -33,6 +33,9 @@ class BrickSolver {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
+  template <class First>
+  double way_down(const First& first);
+  double begin();
   double advance(float step);
   double correct();
   double turn(float share);

@@ -11,8 +11,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kSweeps = 2;            // before and after the correction of the next level
-constexpr int kCycles = 2;            // per visit: W
 constexpr std::size_t kDirect = 100;  // unknowns that are solved outright
 constexpr int kSweepsOfMany = 20;     // on the last level where it is larger than that
 
@@ -44,14 +42,13 @@ CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
   coarsest_ = matrix.llt().solve(Eigen::MatrixXd::Identity(size, size)).cast<float>();
 }
 
+// Exactly if there is the inverse; else by relaxation of what `x` holds.
 void CoarseCorrection::solve_coarsest(ThreadTeam& team) {
   GraphLevel& last = graphs_.back();
   if (coarsest_.size() == 0) {
-    for (int i = 0; i < kSweepsOfMany; ++i) {
-      last.smooth(team, true);
-    }
-    for (int i = 0; i < kSweepsOfMany; ++i) {
-      last.smooth(team, false);
+    std::fill(last.x.begin(), last.x.end(), 0.0F);
+    for (int i = 0; i < 2 * kSweepsOfMany; ++i) {
+      last.smooth(team, i < kSweepsOfMany);
     }
     return;
   }
@@ -60,42 +57,37 @@ void CoarseCorrection::solve_coarsest(ThreadTeam& team) {
       coarsest_ * Eigen::Map<const Eigen::VectorXf>(last.right.data(), size);
 }
 
-void CoarseCorrection::cycle(ThreadTeam& team, std::size_t level) {
+// Two visits: W. The last level is solved at once.
+void CoarseCorrection::visit(ThreadTeam& team, std::size_t level) {
   if (level + 1 == graphs_.size()) {
     solve_coarsest(team);
     return;
   }
+  cycle(team, level, true);
+  cycle(team, level, false);
+}
+
+void CoarseCorrection::cycle(ThreadTeam& team, std::size_t level, bool from_zero) {
   GraphLevel& graph = graphs_[level];
   GraphLevel& next = graphs_[level + 1];
-  for (int i = 0; i < kSweeps; ++i) {
+  if (from_zero) {
+    graph.smooth_from_zero(team);
+  } else {
     graph.smooth(team, true);
   }
+  graph.smooth(team, true);
   graph.restrict_to(team, next.right);
-  std::fill(next.x.begin(), next.x.end(), 0.0F);
-  for (int i = 0; i < kCycles; ++i) {
-    cycle(team, level + 1);
-  }
+  visit(team, level + 1);
   graph.prolong(team, next.x);
-  for (int i = 0; i < kSweeps; ++i) {
-    graph.smooth(team, false);
-  }
+  graph.smooth(team, false);
+  graph.smooth(team, false);
 }
 
 void CoarseCorrection::solve(const FineLevel& fine) {
   GraphLevel& next = graphs_.front();
-  clear(fine, blocks_.x, kBrickBlocks);
-  for (int i = 0; i < kSweeps; ++i) {
-    blocks_.smooth(fine, true);
-  }
-  blocks_.restrict_to(fine, next.right);
-  std::fill(next.x.begin(), next.x.end(), 0.0F);
-  for (int i = 0; i < kCycles; ++i) {
-    cycle(*fine.team, 0);
-  }
-  blocks_.prolong(fine, next.x);
-  for (int i = 0; i < kSweeps; ++i) {
-    blocks_.smooth(fine, false);
-  }
+  blocks_.descend(fine, next.right);
+  visit(*fine.team, 0);
+  blocks_.ascend(fine, next.x);
 }
 
 std::size_t CoarseCorrection::memory_bytes() const {

@@ -30,7 +30,8 @@ class CoarseCorrection {
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  void cycle(ThreadTeam& team, std::size_t level);
+  void visit(ThreadTeam& team, std::size_t level);
+  void cycle(ThreadTeam& team, std::size_t level, bool from_zero);
   void solve_coarsest(ThreadTeam& team);
 
   BlockLevel blocks_;

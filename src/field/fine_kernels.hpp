@@ -22,6 +22,7 @@ struct Around {
   const T* own;
   std::array<const T*, 6> side;
 
+  Around(const T* of_own, const std::array<const T*, 6>& of_sides) : own(of_own), side(of_sides) {}
   Around(const FineLevel& level, const HalfField<T>& field, std::size_t brick)
       : own(field.data() + brick * kHalfBrick) {
     for (std::size_t face = 0; face < 6; ++face) {
@@ -218,6 +219,27 @@ struct BlackSmooth {
           EachRow{});
     }
     *dot = sum_of<float>(sum);
+  }
+};
+
+/// Where conjugate gradients begin: `x = 0`, and the first relaxation, `z = weight r / degree`; adds up r * r.
+struct Begin {
+  const std::uint32_t* faces;
+  const float* r;
+  float* x;
+  float* z;
+  float weight;
+  double* square;
+
+  VANTAGE_INLINE void operator()() const {
+    Lanes<float> sum{};
+    for (std::size_t row = 0; row < kBrickRows; ++row) {
+      const Lanes<float> residual = load(r + row * 8);
+      store<float>(x + row * 8, Lanes<float>{});
+      store<float>(z + row * 8, weight * residual * inverse_of<float>(widen<float>(faces[row], kDegree)));
+      sum += residual * residual;
+    }
+    *square = sum_of<float>(sum);
   }
 };
 

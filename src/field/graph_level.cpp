@@ -111,6 +111,19 @@ void GraphLevel::smooth(ThreadTeam& team, bool even_first) {
   }
 }
 
+void GraphLevel::smooth_from_zero(ThreadTeam& team) {
+  team.split(even, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      x[i] = kNodeWeight * (right[i] * inverse[i]);
+    }
+  });
+  team.split(size - even, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = even + begin; i < even + end; ++i) {
+      x[i] = kNodeWeight * ((right[i] + inflow(i)) * inverse[i]);
+    }
+  });
+}
+
 void GraphLevel::restrict_to(ThreadTeam& team, std::vector<float>& sums) const {
   team.split(first_child.size() - 1, kGrain / 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t to = begin; to < end; ++to) {

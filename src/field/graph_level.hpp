@@ -61,7 +61,10 @@ struct GraphLevel {
       visit(more[e]);
     }
   }
+  /// One relaxation, the nodes of even parity before the others or after them.
   void smooth(ThreadTeam& team, bool even_first);
+  /// The same, even ones first, from 0, whatever `x` holds.
+  void smooth_from_zero(ThreadTeam& team);
   void restrict_to(ThreadTeam& team, std::vector<float>& sums) const;
   void prolong(ThreadTeam& team, const std::vector<float>& correction);
   [[nodiscard]] std::size_t memory_bytes() const;

@@ -126,21 +126,25 @@ detail::Defect LaplaceMultigrid::State::refine(detail::BrickSolver& solver, deta
                                                const MultigridOptions& options) {
   const detail::FineLevel& fine = solver.fine();
   const double most = reduction_in_float(report.unknowns);
-  detail::Defect defect = refinement.update(fine, solver.solution(), 0.0, false);
+  double unit = 1.0;
+  const auto update = [&](double step, bool check) {
+    return refinement.update(fine, {solver.solution(), step}, {solver.right(), unit}, check);
+  };
+  detail::Defect defect = update(0.0, false);
   for (double last = std::numeric_limits<double>::infinity(); may_go_on(defect, last, options);) {
     last = defect.norm;
     const double wanted = 0.5 * reduction_wanted(defect, options);
-    refinement.residual(fine, 1.0 / defect.norm, solver.right());
-    report.iterations += solver.solve(std::clamp(wanted, most, 0.1), options.max_iterations - report.iterations);
+    const double reduction = std::clamp(wanted, most, 0.1);
+    report.iterations += solver.solve(reduction, options.max_iterations - report.iterations);
     ++report.refinements;
     // A solution that is not meant to be the last is not worth checking; if it is good enough after all, it is looked
     // at again below.
-    defect = refinement.update(fine, solver.solution(), last, wanted >= most);
+    defect = update(std::exchange(unit, reduction * last), wanted >= most);
     if (!defect.checked && defect.norm <= options.tolerance) {
-      defect = refinement.update(fine, solver.solution(), 0.0, true);
+      defect = update(0.0, true);
     }
   }
-  return defect.checked ? defect : refinement.update(fine, solver.solution(), 0.0, true);
+  return defect.checked ? defect : update(0.0, true);
 }
 
 detail::Defect LaplaceMultigrid::State::refine(detail::MirrorSolver& solver, const MultigridOptions& options) {

@@ -74,6 +74,8 @@ struct BlackDefect {
   Around<double> red;
   Load load_of;
   double at_source;
+  double scale;
+  float* out;  // the residual, times `scale`
   double* square;
   double* largest;
   double* stuck;
@@ -88,6 +90,7 @@ struct BlackDefect {
       const SixNeighbours<double> beside = neighbours<kBlack>(red, row);
       const Lanes<double> all_cells = load_of.at(row) - (degree * own - beside.sum());
       const Lanes<double> residual = degree > 0.0 ? all_cells : Lanes<double>{};
+      store<float>(out + row * 8, __builtin_convertvector(scale * residual, Lanes<float>));
       sum += residual * residual;
       most = residual > most ? residual : most;
       if constexpr (checked) {
@@ -100,25 +103,6 @@ struct BlackDefect {
       *largest = most[lane] > *largest ? most[lane] : *largest;
     }
     *stuck += sum_of<double>(count);
-  }
-};
-
-struct BlackResidual {
-  const std::uint32_t* faces;
-  const double* black;
-  Around<double> red;
-  Load load_of;
-  double scale;
-  float* out;
-
-  VANTAGE_INLINE void operator()() const {
-    for (std::size_t row = 0; row < kBrickRows; ++row) {
-      const Lanes<double> degree = widen<double>(faces[row], kDegree);
-      const Lanes<double> residual =
-          load_of.at(row) - (degree * load(black + row * 8) - neighbours<kBlack>(red, row).sum());
-      const Lanes<double> kept = degree > 0.0 ? scale * residual : Lanes<double>{};
-      store<float>(out + row * 8, __builtin_convertvector(kept, Lanes<float>));
-    }
   }
 };
 
@@ -189,21 +173,36 @@ Refinement::Refinement(const FineLevel& fine, const CellPlace& source, double un
   clear(fine, values_.u[kBlack], kHalfBrick);
 }
 
-// What the value at the source is as soon as the red cells are solved for.
-double Refinement::source_value(const FineLevel& fine) const {
+// What the value at the source is going to be. The step is taken in copies of the brick and its neighbours.
+double Refinement::source_value(const FineLevel& fine, const Step& step) const {
+  const auto stepped = [&](std::size_t brick, std::size_t i) {
+    return values_.u[kBlack][brick * kHalfBrick + i] +
+           step.unit * static_cast<double>(step.correction[brick * kHalfBrick + i]);
+  };
   if (source_.colour == kBlack) {
-    return values_.u[kBlack][source_.brick * kHalfBrick + source_.offset];
+    return stepped(source_.brick, source_.offset);
   }
-  const std::size_t row = source_.offset / 8;
-  const Lanes<double> sum = neighbours<kRed>(Around<double>(fine, values_.u[kBlack], source_.brick), row).sum() +
-                            Load(source_, source_.brick, kRed, uniform_).at(row);
+  HalfField<double> black(7 * kHalfBrick);
+  Around<double> around{black.data(), {}};
+  for (std::size_t n = 0; n < 7; ++n) {
+    const std::size_t brick = n < 6 ? fine.links[source_.brick][n] : source_.brick;
+    for (std::size_t i = 0; i < kHalfBrick; ++i) {
+      black[n * kHalfBrick + i] = stepped(brick, i);
+    }
+    (n < 6 ? around.side[n] : around.own) = black.data() + n * kHalfBrick;
+  }
+  const Lanes<double> sum = neighbours<kRed>(around, source_.offset / 8).sum() +
+                            Load(source_, source_.brick, kRed, uniform_).at(source_.offset / 8);
   return sum[source_.offset % 8] / fine.degree(kRed, source_.brick, source_.offset);
 }
 
 template <bool checked>
-void Refinement::pass(const FineLevel& fine) {
+void Refinement::pass(const FineLevel& fine, const Step& step, const Remainder& remainder) {
   in_waves(
-      fine, [](std::size_t) {},
+      fine,
+      [&](std::size_t b) {
+        run(Add{step.correction.data() + b * kHalfBrick, step.unit, values_.u[kBlack].data() + b * kHalfBrick});
+      },
       [&](std::size_t b) {
         run(RedUpdate<checked>{fine.faces[kRed].data() + b * kBrickRows, Around<double>(fine, values_.u[kBlack], b),
                                values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_),
@@ -212,20 +211,18 @@ void Refinement::pass(const FineLevel& fine) {
       [&](std::size_t b) {
         run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows,
                                  values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
-                                 Load(source_, b, kBlack, uniform_), values_.at_source, &partial_[b].square,
+                                 Load(source_, b, kBlack, uniform_), values_.at_source, 1.0 / remainder.unit,
+                                 remainder.residual.data() + b * kHalfBrick, &partial_[b].square,
                                  &partial_[b].largest, &partial_[b].stuck});
       });
 }
 
-Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correction, double scale, bool check) {
-  for_bricks(fine, [&](std::size_t b) {
-    run(Add{correction.data() + b * kHalfBrick, scale, values_.u[kBlack].data() + b * kHalfBrick});
-  });
-  values_.at_source = source_value(fine);
+Defect Refinement::update(const FineLevel& fine, const Step& step, const Remainder& remainder, bool check) {
+  values_.at_source = source_value(fine, step);
   if (check) {
-    pass<true>(fine);
+    pass<true>(fine, step, remainder);
   } else {
-    pass<false>(fine);
+    pass<false>(fine, step, remainder);
   }
   Defect defect;
   for (const Partial& partial : partial_) {
@@ -236,14 +233,6 @@ Defect Refinement::update(const FineLevel& fine, const HalfField<float>& correct
   defect.norm = std::sqrt(defect.norm);
   defect.checked = check;
   return defect;
-}
-
-void Refinement::residual(const FineLevel& fine, double scale, HalfField<float>& out) const {
-  for_bricks(fine, [&](std::size_t b) {
-    run(BlackResidual{fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
-                      Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_), scale,
-                      out.data() + b * kHalfBrick});
-  });
 }
 
 }  // namespace vantage::detail

@@ -51,11 +51,19 @@ class Refinement {
   /// A unit source in the cell `source`, `uniform` in every cell.
   Refinement(const FineLevel& fine, const CellPlace& source, double uniform);
 
-  /// Adds `scale * correction` to the black cells, solves for the red ones, and if it is to `check` looks for cells
-  /// without a lower neighbour among the values divided by that of the source.
-  Defect update(const FineLevel& fine, const HalfField<float>& correction, double scale, bool check);
-  /// Writes the residual of the black cells, times `scale`.
-  void residual(const FineLevel& fine, double scale, HalfField<float>& out) const;
+  /// What is to be added to the black cells, in units of `unit`.
+  struct Step {
+    const HalfField<float>& correction;
+    double unit;
+  };
+  /// Where the residual of the black cells goes, in units of `unit`: about what it is expected to be.
+  struct Remainder {
+    HalfField<float>& residual;
+    double unit;
+  };
+  /// Takes the step, solves for the red cells and takes the residual; if it is to `check`, looks for cells without a
+  /// lower neighbour among the values divided by that of the source.
+  Defect update(const FineLevel& fine, const Step& step, const Remainder& remainder, bool check);
 
   /// The solution, which is no longer here after it.
   [[nodiscard]] CellValues take() { return std::move(values_); }
@@ -68,8 +76,8 @@ class Refinement {
     double stuck;
   };
   template <bool checked>
-  void pass(const FineLevel& fine);
-  [[nodiscard]] double source_value(const FineLevel& fine) const;
+  void pass(const FineLevel& fine, const Step& step, const Remainder& remainder);
+  [[nodiscard]] double source_value(const FineLevel& fine, const Step& step) const;
 
   CellValues values_;
   CellPlace source_;
