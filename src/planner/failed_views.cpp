@@ -32,9 +32,10 @@ void FailedViews::expect(const OccupancyMap& map, const Pose& goal, std::vector<
 }
 
 void FailedViews::review(const OccupancyMap& map, const Pose& current) {
-  if (reviewed_ == map.revision()) {
+  if (map_.is(map) && reviewed_ == map.revision()) {
     return;
   }
+  map_ = KnownMap(map);
   reviewed_ = map.revision();
   // By neighbours that are known, not by those that change their mind: surfaces flip between free and occupied for
   // ever, while what is known only grows, so no cell gets more than six chances

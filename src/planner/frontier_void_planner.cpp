@@ -167,20 +167,18 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
 }
 
 void FrontierVoidPlanner::follow(const OccupancyMap& map) {
-  // At the same address another map may lie now; one that has moved on since is taken for the same.
-  if (!caster_ || followed_ != &map || revision_ >= map.revision()) {
+  if (!followed_.is_in_place(map)) {
     caster_.emplace(map);
     frontier_.emplace(map);
     void_cells_.emplace(map);
     rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
     sparse_rays_.emplace(setup_.sensor.rays_for(kSparse * map.resolution_m()));
-    followed_ = &map;
+    followed_ = KnownMap(map);
   } else {
     caster_->update();
     frontier_->update();
     void_cells_->update();
   }
-  revision_ = map.revision();
 }
 
 // IV-A and IV-B: frontier clusters, voids and what they have to do with each other.

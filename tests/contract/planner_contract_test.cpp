@@ -205,6 +205,36 @@ TEST_P(PlannerContract, PlanningTwiceAndOnMoreThreadsChangesNothing) {
   EXPECT_GE(plans, 9U * 2U);
 }
 
+TEST_P(PlannerContract, ItFollowsTheMapAndNotItsAddress) {
+  std::size_t plans = 0;
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+    Robot robot(GetParam(), Furniture::Rooms, seed);
+    Robot elsewhere(GetParam(), Furniture::Boxes, seed);
+    const auto planner = make_planner(GetParam().planner, robot.setup(), kEveryCell);
+    const auto plans_as_one_made_now = [&](const OccupancyMap& map, const Pose& pose) {
+      const Plan plan = planner->plan(map, pose);
+      EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup(), kEveryCell)->plan(map, pose)));
+      ++plans;
+      return plan;
+    };
+    OccupancyMap here = robot.map();
+    plans_as_one_made_now(here, robot.pose());
+    while (elsewhere.map().revision() <= here.revision()) {
+      elsewhere.look();
+    }
+    here = elsewhere.map();  // another map at the same address, further on
+    plans_as_one_made_now(here, elsewhere.pose());
+    auto moved = std::make_unique<OccupancyMap>(std::move(here));
+    here = robot.map();
+    plans_as_one_made_now(*moved, elsewhere.pose());
+    moved.reset();
+    robot.go(plans_as_one_made_now(here, robot.pose()));
+    here = robot.map();
+    plans_as_one_made_now(here, robot.pose());
+  }
+  EXPECT_EQ(plans, 5U * kSeeds);
+}
+
 TEST_P(PlannerContract, RefusesAPoseThatIsNone) {
   const Robot robot(GetParam(), Furniture::Boxes, 1);
   const auto planner = make_planner(GetParam().planner, robot.setup(), kEveryCell);

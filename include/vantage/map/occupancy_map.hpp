@@ -9,6 +9,7 @@
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/brick.hpp>
 #include <vantage/map/brick_directory.hpp>
+#include <vantage/map/map_identity.hpp>
 #include <vantage/map/occupancy.hpp>
 #include <vantage/map/scan.hpp>
 #include <vector>
@@ -147,6 +148,9 @@ class OccupancyMap {
     });
   }
 
+  /// Which map this is; what it was made from does not matter (see KnownMap).
+  [[nodiscard]] const MapIdentity& identity() const { return identity_; }
+
   // --- what changed
   // --------------------------------------------------------------------------------------------------
   /// Grows by one with every call that writes to the map, a scan that confirms what is known included; 0 for a new
@@ -194,6 +198,7 @@ class OccupancyMap {
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
   [[nodiscard]] std::int8_t to_steps(double log_odds) const;
 
+  MapIdentity identity_;
   OccupancyMapOptions options_;
   VoxelFrame frame_;
   std::optional<VoxelBox> region_;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <unordered_map>
 #include <vantage/geometry/pose.hpp>
+#include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
@@ -47,7 +48,8 @@ class FailedViews {
 
   int patience_;
   std::optional<Expectation> expected_;
-  std::optional<OccupancyMap::Revision> reviewed_;
+  KnownMap map_;  // that was reviewed last
+  OccupancyMap::Revision reviewed_ = 0;
   std::unordered_map<VoxelIndex, Failures> failures_;
 };
 

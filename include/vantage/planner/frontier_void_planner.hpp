@@ -8,6 +8,7 @@
 #include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/frontier/void_tracker.hpp>
+#include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
@@ -135,8 +136,7 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   std::optional<VoidTracker> void_cells_;
   std::optional<ViewRays> rays_;  // as dense as its cells ask for
   std::optional<ViewRays> sparse_rays_;
-  const OccupancyMap* followed_ = nullptr;
-  OccupancyMap::Revision revision_ = 0;
+  KnownMap followed_;
 };
 
 }  // namespace vantage

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <set>
+#include <utility>
+#include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
 #include "support/compare_with_definition.hpp"
@@ -308,6 +311,30 @@ TEST(OccupancyMap, AssumeFreeLeavesWhatWasMeasured) {
   map.assume_free({{0, 0, 0}, {0.25, 0.25, 0.25}});
   EXPECT_EQ(map.at({1, 1, 1}), Occupancy::Occupied);
   EXPECT_EQ(map.counts().free, 26U);
+}
+
+TEST(OccupancyMap, IsKnownWhereverItIsMoved) {
+  OccupancyMap map({.resolution_m = 0.1});
+  const KnownMap known(map);
+  EXPECT_TRUE(known.is_in_place(map));
+  map.set({1, 2, 3}, Occupancy::Free);
+  EXPECT_TRUE(known.is_in_place(map)) << "changed, it is the same";
+  const OccupancyMap copy = map;
+  EXPECT_FALSE(known.is(copy));
+  OccupancyMap moved = std::move(map);
+  EXPECT_TRUE(known.is(moved));
+  EXPECT_FALSE(known.is_in_place(moved));
+  EXPECT_FALSE(known.is(map)) << "moved from";  // NOLINT(bugprone-use-after-move)
+  map = std::move(moved);
+  EXPECT_TRUE(known.is_in_place(map));
+  map = copy;
+  EXPECT_FALSE(known.is(map)) << "written over";
+  EXPECT_FALSE(KnownMap().is(map));
+  std::optional<OccupancyMap> short_lived(std::in_place);
+  const KnownMap gone(*short_lived);
+  short_lived.reset();
+  short_lived.emplace();
+  EXPECT_FALSE(gone.is(*short_lived)) << "another at the same address";
 }
 
 }  // namespace

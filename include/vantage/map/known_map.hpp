@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vantage/map/occupancy_map.hpp>
+
+namespace vantage {
+
+/// Which map something was made from: for whatever follows a map from call to call, and must not take another one for
+/// it. Does not keep the map.
+class KnownMap {
+ public:
+  /// No map.
+  KnownMap() = default;
+  /// This one.
+  explicit KnownMap(const OccupancyMap& map) : address_(&map), token_(map.identity().token_) {}
+
+  /// Whether `map` is that map, perhaps moved elsewhere; by now it may have changed (OccupancyMap::changed_since).
+  [[nodiscard]] bool is(const OccupancyMap& map) const {
+    const std::shared_ptr<const char> token = token_.lock();
+    return token != nullptr && token == map.identity().token_;
+  }
+  /// Whether it also lies where it lay, so that pointers to it still hold.
+  [[nodiscard]] bool is_in_place(const OccupancyMap& map) const { return address_ == &map && is(map); }
+
+ private:
+  const OccupancyMap* address_ = nullptr;
+  std::weak_ptr<const char> token_;  // a token that is still held belongs to that map alone
+};
+
+}  // namespace vantage
