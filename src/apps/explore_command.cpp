@@ -68,7 +68,7 @@ int explore(const ExploreRequest& request) {
   options.max_views = request.max_views;
   options.scan_spacing_m = request.scan_spacing_m;
   options.seed = request.seed;
-  options.noise.axial = request.noise;
+  options.noise = noise_of(request);
   options.body_radius_m = request.robot_radius_m;
   options.threads = request.threads;
   ExplorationRun run(world, sensor, platform, options);

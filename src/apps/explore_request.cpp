@@ -51,11 +51,26 @@ void check_numbers(const ExploreRequest& request) {
   detail::require_option(finite_at_least_0(request.scan_spacing_m), "--scan-spacing", request.scan_spacing_m,
                          ">= 0 metres");
   detail::require_option(finite_at_least_0(request.noise), "--noise", request.noise, ">= 0");
+  (void)noise_of(request);
   detail::require_option(request.max_views > 0, "--max-views", request.max_views, "> 0");
   detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
   if (request.up != "y" && request.up != "z") {
     throw std::invalid_argument("--up is '" + request.up + "', must be y or z");
   }
+}
+
+SensorNoise noise_of(const ExploreRequest& request) {
+  SensorNoise noise{.axial = request.noise};
+  if (!request.pose_noise.empty()) {
+    const std::vector<double> n = numbers_of("--pose-noise", request.pose_noise);
+    if (n.size() != 2 || n[0] < 0.0 || n[1] < 0.0) {
+      throw std::invalid_argument("--pose-noise '" + request.pose_noise +
+                                  "' must be two numbers >= 0, metres and degrees");
+    }
+    noise.position_m = n[0];
+    noise.angle_rad = n[1] * std::numbers::pi / 180.0;
+  }
+  return noise;
 }
 
 void check_cell_count(const Box& region, double resolution_m) {

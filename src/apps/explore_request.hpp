@@ -10,6 +10,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_recorder.hpp>
+#include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/world.hpp>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct ExploreRequest {
   bool yaw_only = false;
   bool keep_grazed = false;
   double noise = 0.0;
+  std::string pose_noise;  // "metres,degrees"
   std::size_t max_views = 500;
   std::uint64_t seed = 1;
   int threads = 1;
@@ -49,6 +51,8 @@ struct ExploreRequest {
 [[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
 /// The numbers of a list "1,2.5,-3" that `flag` was given.
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
+/// How far measurements are off.
+[[nodiscard]] SensorNoise noise_of(const ExploreRequest& request);
 /// Numbers and ranges that no file is needed for.
 void check_numbers(const ExploreRequest& request);
 /// That a region has no more cells than fit in memory: the truth keeps a byte and more for each, and a slip of the

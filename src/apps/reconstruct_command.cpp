@@ -206,7 +206,7 @@ int reconstruct(const ReconstructRequest& request) {
   options.max_views = shared.max_views;
   options.scan_spacing_m = 0.0;
   options.seed = shared.seed;
-  options.noise.axial = shared.noise;
+  options.noise = noise_of(shared);
   options.body_radius_m = shared.robot_radius_m;
   options.threads = shared.threads;
   options.measure_coverage = false;

@@ -197,7 +197,7 @@ int search(const SearchRequest& request) {
   options.max_views = shared.max_views;
   options.scan_spacing_m = 0.0;
   options.seed = shared.seed;
-  options.noise.axial = shared.noise;
+  options.noise = noise_of(shared);
   options.threads = shared.threads;
   options.measure_coverage = false;
   options.declared_clear = arm_options.declared_clear;

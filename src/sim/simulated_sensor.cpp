@@ -16,6 +16,10 @@ void validate(const SensorNoise& noise) {
   detail::require_option(std::isfinite(noise.axial) && noise.axial >= 0.0, "SensorNoise::axial", noise.axial, ">= 0");
   detail::require_option(noise.dropped_share >= 0.0 && noise.dropped_share <= 1.0, "SensorNoise::dropped_share",
                          noise.dropped_share, "in [0, 1]");
+  detail::require_option(std::isfinite(noise.position_m) && noise.position_m >= 0.0, "SensorNoise::position_m",
+                         noise.position_m, ">= 0");
+  detail::require_option(std::isfinite(noise.angle_rad) && noise.angle_rad >= 0.0, "SensorNoise::angle_rad",
+                         noise.angle_rad, ">= 0");
 }
 
 // Own transforms of the engine's bits: the distributions of the standard library differ between its implementations.
@@ -32,6 +36,17 @@ class Chance {
  private:
   std::mt19937_64 engine_;
 };
+
+// Where a sensor is that is said to be at `pose`.
+Pose misplaced(const Pose& pose, const SensorNoise& noise, Chance& chance) {
+  Pose actual = pose;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    actual.translation()[axis] += noise.position_m * chance.normal();
+    actual.linear() = actual.linear() * Eigen::AngleAxisd(noise.angle_rad * chance.normal(),
+                                                          Eigen::Vector3d(Eigen::Vector3d::Unit(axis)));
+  }
+  return actual;
+}
 
 double kinect_sigma_m(double depth_m) { return 0.0012 + 0.0019 * (depth_m - 0.4) * (depth_m - 0.4); }
 
@@ -62,10 +77,12 @@ Scan SimulatedSensor::scan(const Pose& world_from_sensor) {
   scan.max_range_m = sensor_.max_range_m;
   scan.points.reserve(directions_.size());
   const Eigen::Vector3f nothing = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-  const Eigen::Vector3d origin = world_from_sensor.translation();
+  const bool misplaces = noise_.position_m > 0.0 || noise_.angle_rad > 0.0;
+  const Pose actual = misplaces ? misplaced(world_from_sensor, noise_, chance) : world_from_sensor;
+  const Eigen::Vector3d origin = actual.translation();
   for (const Eigen::Vector3d& direction : directions_) {
     const std::optional<double> range_m =
-        scene_.hit_distance(origin, world_from_sensor.linear() * direction, sensor_.max_range_m);
+        scene_.hit_distance(origin, actual.linear() * direction, sensor_.max_range_m);
     if (!range_m) {
       if (sensor_.reports_no_return) {
         scan.no_return.emplace_back(direction.cast<float>());

@@ -123,9 +123,11 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--seed -1", "--seed");
   expect_refused(table + "--scan-spacing -1", "--scan-spacing");
   expect_refused(table + "--noise -1", "--noise");
+  expect_refused(table + "--pose-noise 0.01", "--pose-noise '0.01' must be two numbers");
+  expect_refused(table + "--pose-noise 0.01,-1", "--pose-noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 16);
+  EXPECT_EQ(refused_, 18);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -188,6 +189,41 @@ TEST(SimulatedSensor, NoiseIsSeededAndAsLargeAsItSays) {
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(returns)), 0.0012 + 0.0019 * 2.6 * 2.6, 1e-4);
   EXPECT_THROW(SimulatedSensor(scene, sensor, {.axial = -1.0}), std::invalid_argument);
   EXPECT_THROW(SimulatedSensor(scene, sensor, {.dropped_share = 1.5}), std::invalid_argument);
+}
+
+// The plane of the wall ahead, in the sensor frame: how far, and how far turned about x and about y.
+std::array<double, 3> wall_ahead(const Scan& scan) {
+  const auto at = [&](std::size_t column, std::size_t row) {
+    return Eigen::Vector3d(scan.points[row * scan.width + column].cast<double>());
+  };
+  const Eigen::Vector3d across = at(scan.width - 1, 0) - at(0, 0);
+  const Eigen::Vector3d down = at(0, scan.height - 1) - at(0, 0);
+  const Eigen::Vector3d normal = across.cross(down).normalized();
+  return {normal.dot(at(0, 0)), std::atan2(normal.y(), normal.z()), std::atan2(normal.x(), normal.z())};
+}
+
+TEST(SimulatedSensor, IsAsFarFromWhereItIsSaidToBeAsTheNoiseHasIt) {
+  const TriangleScene scene(box_room(3.0));
+  const RangeSensor sensor = RangeSensor::pinhole(8, 6, 0.5, 0.4, 0.0, 8.0);
+  const Pose pose = pose_looking({0, 0, 0}, 0.0);
+  SimulatedSensor simulated(scene, sensor, {.position_m = 0.01, .angle_rad = 0.02}, 3);
+  SimulatedSensor again(scene, sensor, {.position_m = 0.01, .angle_rad = 0.02}, 3);
+  std::array<double, 3> squares{};
+  constexpr int kScans = 2000;
+  for (int i = 0; i < kScans; ++i) {
+    const Scan scan = simulated.scan(pose);
+    EXPECT_EQ(scan.world_from_sensor.matrix(), pose.matrix());
+    EXPECT_EQ(again.scan(pose).points[7], scan.points[7]);
+    const auto [distance_m, about_x, about_y] = wall_ahead(scan);
+    squares[0] += std::pow(distance_m - 3.0, 2) / kScans;
+    squares[1] += about_x * about_x / kScans;
+    squares[2] += about_y * about_y / kScans;
+  }
+  EXPECT_NEAR(std::sqrt(squares[0]), 0.01, 6e-4);
+  EXPECT_NEAR(std::sqrt(squares[1]), 0.02, 12e-4);
+  EXPECT_NEAR(std::sqrt(squares[2]), 0.02, 12e-4);
+  EXPECT_THROW(SimulatedSensor(scene, sensor, {.position_m = -1.0}), std::invalid_argument);
+  EXPECT_THROW(SimulatedSensor(scene, sensor, {.angle_rad = -1.0}), std::invalid_argument);
 }
 
 }  // namespace
