@@ -9,10 +9,10 @@
 #include <ompl/datastructures/NearestNeighborsLinear.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
-#include <ompl/util/Console.h>
 
 #include <memory>
-#include <mutex>
+
+#include "arm/ompl_quiet.hpp"
 
 namespace vantage {
 namespace {
@@ -23,33 +23,6 @@ Joints joints_of(const ompl::base::State* state, std::size_t count) {
   const double* values = state->as<RealVectorState>()->values;
   return {values, values + count};
 }
-
-// While it lives, OMPL prints nothing.
-class Quiet {
- public:
-  Quiet() : lock_(one_at_a_time()), before_(ompl::msg::getOutputHandler()) { ompl::msg::noOutputHandler(); }
-  ~Quiet() { ompl::msg::useOutputHandler(before_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-  Quiet(Quiet&&) = delete;
-  Quiet& operator=(Quiet&&) = delete;
-
- private:
-  static std::mutex& one_at_a_time() {
-    static std::mutex mutex;
-    return mutex;
-  }
-  std::lock_guard<std::mutex> lock_;
-  ompl::msg::OutputHandler* before_;
-};
-
-// Draws from our own seed; OMPL's generators take theirs from the clock.
-class SeededSampler final : public ompl::base::RealVectorStateSampler {
- public:
-  SeededSampler(const ompl::base::StateSpace* space, std::uint64_t seed) : RealVectorStateSampler(space) {
-    rng_.setLocalSeed(static_cast<std::uint_fast32_t>((seed ^ seed >> 32U) & 0xFFFFFFFFU));
-  }
-};
 
 class JointMotions final : public ompl::base::MotionValidator {
  public:
@@ -92,7 +65,7 @@ ompl::base::SpaceInformationPtr information_of(const JointSpace& space, std::uin
 
 std::optional<std::vector<Joints>> rrt_connect(const JointSpace& space, const Joints& from, const Joints& to,
                                                std::size_t iterations, std::uint64_t seed) {
-  const Quiet quiet;
+  const OmplQuiet quiet;
   const ompl::base::SpaceInformationPtr information = information_of(space, seed);
   const auto problem = std::make_shared<ompl::base::ProblemDefinition>(information);
   ompl::base::ScopedState<ompl::base::RealVectorStateSpace> start(information);
