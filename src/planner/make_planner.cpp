@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -36,6 +39,15 @@ class SettingReader {
       if (error != std::errc{} || end != text->data() + text->size()) {
         refuse(name, *text, std::is_integral_v<Number> ? "a whole number" : "a number");
       }
+    }
+    return *this;
+  }
+  // Degrees, kept as radians.
+  SettingReader& degrees(std::string_view name, double& field) {
+    double angle_deg = std::numeric_limits<double>::quiet_NaN();
+    number(name, angle_deg);
+    if (!std::isnan(angle_deg)) {
+      field = angle_deg * std::numbers::pi / 180.0;
     }
     return *this;
   }
@@ -186,6 +198,10 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
 
 std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setup, SettingReader& read) {
   NextBestViewOptions options;
+  std::vector<std::pair<std::string_view, RayGainMaker>> gains{{"unknown-cells", nullptr}};
+  for (const std::string_view name : ray_gain_names()) {
+    gains.emplace_back(name, ray_gain_named(name));
+  }
   read_survey(read, options.survey)
       .box("object", options.object)
       .number("radius_m", options.radius_m)
@@ -193,6 +209,11 @@ std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setu
       .number("random_candidates", options.random_candidates)
       .number("min_overlap_cells", options.min_overlap_cells)
       .number("min_unknown_cells", options.min_unknown_cells)
+      .choice("gain", options.gain, gains)
+      .degrees("vision_angle_deg", options.sensing.max_incidence_rad)
+      .number("min_depth_m", options.sensing.min_depth_m)
+      .number("max_depth_m", options.sensing.max_depth_m)
+      .choice("choice", options.choice, {{"cover", ViewChoice::Cover}, {"greedy", ViewChoice::Greedy}})
       .choice("method", options.method,
               {{"default", VisibilityMethod::Exact},
                {"uniform", VisibilityMethod::Uniform},

@@ -14,11 +14,13 @@
 #include <vantage/raytrace/hierarchical_ray_tracer.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/view/candidate_views.hpp>
+#include <vantage/view/view_cover.hpp>
 #include <vantage/view/view_utility.hpp>
 
 #include "geometry/dice.hpp"
 #include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
+#include "raytrace/shared_work.hpp"
 
 namespace vantage {
 namespace {
@@ -37,6 +39,7 @@ void validate(const NextBestViewOptions& options) {
   detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
                          "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
   detail::require_option(options.hypotheses >= 1, "NextBestViewOptions::hypotheses", options.hypotheses, ">= 1");
+  validate(options.sensing);
   detail::validate(options.survey);
 }
 
@@ -47,7 +50,6 @@ VoxelBox cells_of_interest(const OccupancyMap& map) { return map.region() ? *map
 struct Rank {
   double utility;
   std::size_t candidate;
-  bool exact;  // cells given up are no longer counted
 
   friend bool operator<(const Rank& a, const Rank& b) {
     return a.utility != b.utility ? a.utility < b.utility : a.candidate > b.candidate;
@@ -124,70 +126,122 @@ Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
 }
 
 void NextBestViewPlanner::follow(const OccupancyMap& map) {
-  // At the same address another map may lie now; one that has moved on since is taken for the same.
-  if (!caster_ || followed_ != &map || revision_ >= map.revision()) {
+  if (!followed_.is_in_place(map)) {
     caster_.emplace(map);
     rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
-    followed_ = &map;
+    followed_ = KnownMap(map);
   } else {
     caster_->update();
   }
-  revision_ = map.revision();
 }
 
-// Lines 9 to 20: what every candidate is worth.
+// Lines 9 to 20: what every candidate that the platform admits is worth.
+std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(const OccupancyMap& map,
+                                                                            const Pose& current,
+                                                                            const VoxelBox& object) const {
+  std::vector<Pose> views = candidates_for(map, setup_, options_);
+  std::erase_if(views, [&](const Pose& view) { return !setup_.platform->admits(map, view); });
+  std::vector<CellSet> seen(views.size());
+  const std::vector<ViewEvaluation> evaluations = evaluate(map, object, views, seen);
+  const std::vector<ScoredView> scored = score(map, current, object, views, evaluations);
+  std::vector<Candidate> candidates(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    Candidate& candidate = candidates[i];
+    candidate.view = scored[i];
+    candidate.sought = CellSet(object);
+    const VoxelIndex viewpoint = map.frame().cell_of(views[i].translation());
+    std::size_t all = 0;
+    seen[i].for_each([&](const VoxelIndex& cell) {
+      if (caster_->at(cell) == Occupancy::Unknown) {
+        ++all;
+        if (failed_.size() == 0 || (!failed_.gave_up(cell) && !failed_.failed_from(cell, viewpoint))) {
+          candidate.sought.insert(cell);
+        }
+      }
+    });
+    const double share =
+        static_cast<double>(candidate.sought.size()) / static_cast<double>(std::max<std::size_t>(all, 1));
+    candidate.counted = share * static_cast<double>(candidate.view.seen.unknown);
+    candidate.view.utility *= share;
+  }
+  return candidates;
+}
+
 std::vector<ScoredView> NextBestViewPlanner::score(const OccupancyMap& map, const Pose& current,
-                                                   const VoxelBox& object) const {
-  const Platform& platform = *setup_.platform;
+                                                   const VoxelBox& object, std::span<const Pose> views,
+                                                   const std::vector<ViewEvaluation>& seen) const {
   bool any_known = false;
   for_each_cell(object,
                 [&](const VoxelIndex& cell) { any_known = any_known || map.at(cell) == Occupancy::Occupied; });
   UtilityFactors factors;
-  factors.position = [&](const Pose& pose) { return platform.admits(map, pose); };
   factors.registration = minimum_overlap(any_known ? options_.min_overlap_cells : 0);
   factors.surface = unknown_cells();
-  factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(current, pose); });
-  return score_views(
-      candidates_for(map, setup_, options_),
-      [&](std::span<const Pose> views) { return evaluate(map, object, views); }, factors);
+  factors.distance = nearness([&](const Pose& pose) { return setup_.platform->distance_m(current, pose); });
+  const auto scored_by = [&] {
+    return score_views(
+        views, [&](std::span<const Pose>) { return seen; }, factors);
+  };
+  if (!options_.gain) {
+    return scored_by();
+  }
+  const ViewGain gain(map, *caster_, *rays_, object, options_.gain(map, object));
+  factors.surface = [&](const Pose& pose, const ViewEvaluation& evaluation) {
+    return evaluation.unknown == 0 ? 0.0 : gain(pose, static_cast<std::size_t>(setup_.threads));
+  };
+  std::vector<ScoredView> scored = scored_by();
+  if (std::none_of(scored.begin(), scored.end(), [](const ScoredView& view) { return view.utility > 0.0; })) {
+    factors.surface = unknown_cells();
+    scored = scored_by();
+  }
+  return scored;
 }
 
 std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& map, const VoxelBox& object,
-                                                          std::span<const Pose> views) const {
-  if (options_.method == VisibilityMethod::Exact) {
-    return evaluate_views(*caster_, views, *rays_, object, static_cast<std::size_t>(setup_.threads));
-  }
-  std::vector<ViewEvaluation> evaluations;
-  if (options_.method == VisibilityMethod::Uniform) {
-    const UniformRayTracer tracer(map);
-    for (const Pose& view : views) {
-      evaluations.push_back(tracer.evaluate(view, *rays_, object));
+                                                          std::span<const Pose> views,
+                                                          std::span<CellSet> seen) const {
+  const SensingConstraint sensing =
+      options_.sensing.restricts() ? measurable(map, object, options_.sensing) : nullptr;
+  const UniformRayTracer uniform(map);
+  const HierarchicalRayTracer hierarchical(map, setup_.sensor, {.levels = options_.hierarchical_levels});
+  std::vector<ViewEvaluation> evaluations(views.size());
+  detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
+    if (options_.method == VisibilityMethod::Uniform) {
+      evaluations[i] = uniform.evaluate(views[i], *rays_, object, &seen[i]);
+    } else {
+      evaluations[i] = evaluate_view(*caster_, views[i], *rays_, object, &seen[i]);
     }
-    return evaluations;
-  }
-  const HierarchicalRayTracer tracer(map, setup_.sensor, {.levels = options_.hierarchical_levels});
-  for (const Pose& view : views) {
-    const HierarchicalCounts counts = tracer.evaluate(view, object);
-    evaluations.push_back({counts.unknown, counts.occupied});
-  }
+    if (sensing) {
+      sensing(views[i], seen[i]);
+      evaluations[i] = {caster_->count(seen[i], Occupancy::Unknown), caster_->count(seen[i], Occupancy::Occupied)};
+    }
+    if (options_.method == VisibilityMethod::Hierarchical) {
+      const HierarchicalCounts counts = hierarchical.evaluate(views[i], object);
+      evaluations[i] = {counts.unknown, counts.occupied};
+    }
+  });
   return evaluations;
 }
 
-// The unknown cells of the object that a view sees and that have not been given up, and their share of all it sees.
-NextBestViewPlanner::Sought NextBestViewPlanner::sought_from(const Pose& pose, const VoxelBox& object) const {
-  const VoxelIndex viewpoint = caster_->frame().cell_of(pose.translation());
-  Sought sought;
-  std::size_t all = 0;
-  caster_->visible_cells(pose, *rays_, object).for_each([&](const VoxelIndex& cell) {
-    if (caster_->at(cell) == Occupancy::Unknown) {
-      ++all;
-      if (!failed_.gave_up(cell) && !failed_.failed_from(cell, viewpoint)) {
-        sought.cells.push_back(cell);
-      }
+// Line 21: the candidates of any use, the best first.
+std::vector<std::size_t> NextBestViewPlanner::order_of(const std::vector<Candidate>& candidates) const {
+  std::vector<std::size_t> order;
+  std::vector<CellSet> sought;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].view.utility > 0.0) {
+      order.push_back(i);
+      sought.push_back(candidates[i].sought);
     }
+  }
+  std::vector<bool> needed(candidates.size());
+  if (options_.choice == ViewChoice::Cover) {
+    for (const std::size_t i : cover_views(sought, options_.min_unknown_cells)) {
+      needed[order[i]] = true;
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return needed[a] != needed[b] ? needed[a] : candidates[a].view.utility > candidates[b].view.utility;
   });
-  sought.share = all == 0 ? 0.0 : static_cast<double>(sought.cells.size()) / static_cast<double>(all);
-  return sought;
+  return order;
 }
 
 Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& current) {
@@ -198,48 +252,40 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
   const VoxelBox object = map.frame().cells_centred_in(*options_.object);
   Plan plan;
   plan.statistics.survey_ms = stopwatch.lap_ms();
-  const std::vector<ScoredView> scored = score(map, current, object);
-  std::priority_queue<Rank> ranks;
-  for (std::size_t i = 0; i < scored.size(); ++i) {
-    if (scored[i].utility > 0.0) {
-      ranks.push({scored[i].utility, i, false});
-    }
-  }
-  plan.statistics.views_scored = scored.size();
-  plan.candidates = views_of(scored);
+  const std::vector<Candidate> tried = candidates(map, current, object);
+  plan.statistics.views_scored = tried.size();
+  plan.statistics.evaluate_ms = stopwatch.lap_ms();
 
-  // Line 21. Cells given up only ever lower a utility, so the first exact one at the top is the best.
   CellSet left(object);
   bool any_worthwhile = false;
-  while (!ranks.empty()) {
-    const Rank top = ranks.top();
-    ranks.pop();
-    const ScoredView& view = scored[top.candidate];
-    auto [sought, share] = sought_from(view.pose, object);
-    const bool worthwhile =
-        share * static_cast<double>(view.seen.unknown) >= static_cast<double>(options_.min_unknown_cells);
-    if (worthwhile && !top.exact) {
-      ranks.push({view.utility * share, top.candidate, true});
+  for (const std::size_t i : order_of(tried)) {
+    const auto& [view, sought, counted] = tried[i];
+    plan.candidates.push_back({view.pose, view.utility});
+    if (plan.outcome == Outcome::Move) {
       continue;
     }
+    left |= sought;
+    if (counted < static_cast<double>(options_.min_unknown_cells)) {
+      continue;
+    }
+    any_worthwhile = true;
     plan.statistics.choose_ms += stopwatch.lap_ms();
-    auto path =
-        worthwhile ? way_to(map, *setup_.platform, current, view.pose, options_.object->centre()) : std::nullopt;
+    auto path = way_to(map, *setup_.platform, current, view.pose, options_.object->centre());
     plan.statistics.path_ms += stopwatch.lap_ms();
     if (path) {
       plan.outcome = Outcome::Move;
-      plan.goal = {view.pose, top.utility};
+      plan.goal = {view.pose, view.utility};
       plan.path = std::move(*path);
-      plan.reason = "a view of " + std::to_string(sought.size()) + " unknown cells of the object";
-      failed_.expect(map, view.pose, sought);
-      plan.sought = std::move(sought);
-      return plan;
+      sought.for_each([&](const VoxelIndex& cell) { plan.sought.push_back(cell); });
+      plan.reason = "a view of " + std::to_string(plan.sought.size()) + " unknown cells of the object";
     }
-    any_worthwhile = any_worthwhile || worthwhile;
-    std::for_each(sought.begin(), sought.end(), [&](const VoxelIndex& cell) { left.insert(cell); });
+  }
+  plan.statistics.choose_ms += stopwatch.lap_ms();
+  if (plan.outcome == Outcome::Move) {
+    failed_.expect(map, plan.goal.pose, plan.sought);
+    return plan;
   }
   // Lines 22 to 25.
-  plan.statistics.choose_ms += stopwatch.lap_ms();
   plan.outcome = any_worthwhile ? Outcome::Blocked : Outcome::Explored;
   (any_worthwhile ? plan.leftover.unreachable : plan.leftover.too_small) = left.size();
   plan.reason = any_worthwhile ? "there is no way to any view that sees enough of the object"
@@ -278,7 +324,7 @@ Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) 
   cycle.plan().candidates = views_of(scored);
   std::priority_queue<Rank> ranks;
   for (std::size_t i = 0; i < scored.size(); ++i) {
-    ranks.push({scored[i].utility, i, false});
+    ranks.push({scored[i].utility, i});
   }
   // A view counts only if it resolves a frontier that is worth one: unknown cells on surfaces worn away are not.
   TargetView best;

@@ -56,6 +56,7 @@ struct PlanStatistics {
   std::uint64_t ray_operations = 0;  ///< cells visited along rays, plus cell updates of a field
   std::size_t solver_sweeps = 0;     ///< planners that solve a field
   double survey_ms = 0.0;            ///< frontiers, reachability, observability
+  double evaluate_ms = 0.0;          ///< what candidate views would see; planners that evaluate them
   double choose_ms = 0.0;            ///< the strategy itself
   double path_ms = 0.0;              ///< the way there
 };

@@ -6,11 +6,14 @@
 #include <optional>
 #include <span>
 #include <vantage/geometry/box.hpp>
+#include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/view/information_gain.hpp>
+#include <vantage/view/sensing_constraint.hpp>
 #include <vantage/view/view_utility.hpp>
 #include <vector>
 
@@ -21,6 +24,14 @@ enum class VisibilityMethod : std::uint8_t {
   Exact,         ///< distinct cells, by evaluate_view
   Uniform,       ///< the same cells, by walking every ray: the paper's method of comparison
   Hierarchical,  ///< rays, by HierarchicalRayTracer: the paper's own
+};
+
+/// How a NextBestViewPlanner chooses among the views of an object.
+enum class ViewChoice : std::uint8_t {
+  Greedy,  ///< the one of the largest utility: the paper's own
+  /// Of the few that together see every unknown cell that any sees (cover_views), found anew every cycle, the one of
+  /// the largest utility: a view that others make needless is not taken because it is near.
+  Cover,
 };
 
 /// Options of NextBestViewPlanner.
@@ -39,6 +50,12 @@ struct NextBestViewOptions {
   std::size_t min_overlap_cells = 0;
   /// A view must see this many unknown cells of the object, >= 1; when none does, the object is done (VI-B: 50).
   std::size_t min_unknown_cells = 50;
+
+  /// What new surface is worth (eq. 3); none: the paper's count of unknown cells (eq. 4). Whatever it is, a view must
+  /// see `min_unknown_cells`; where it finds nothing in any view, the count decides.
+  RayGainMaker gain = nullptr;
+  SensingOptions sensing = {};            ///< which of the cells that a view sees its sensor would measure (II-C)
+  ViewChoice choice = ViewChoice::Cover;  ///< which view is taken
 
   VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
   int hierarchical_levels = 3;  ///< HierarchicalRayTracerOptions::levels, in [1, 16] (VI-B: start depth 14 of 16)
@@ -67,17 +84,21 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
  private:
-  struct Sought {
-    std::vector<VoxelIndex> cells;
-    double share = 0.0;
+  struct Candidate {
+    ScoredView view;
+    CellSet sought;        // the unknown cells that it would measure and that are not given up
+    double counted = 0.0;  // how many they are by the method asked for
   };
 
   void follow(const OccupancyMap& map);
-  [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current,
-                                              const VoxelBox& object) const;
-  [[nodiscard]] Sought sought_from(const Pose& pose, const VoxelBox& object) const;
+  [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current,
+                                                  const VoxelBox& object) const;
+  [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,
+                                              std::span<const Pose> views,
+                                              const std::vector<ViewEvaluation>& seen) const;
   [[nodiscard]] std::vector<ViewEvaluation> evaluate(const OccupancyMap& map, const VoxelBox& object,
-                                                     std::span<const Pose> views) const;
+                                                     std::span<const Pose> views, std::span<CellSet> seen) const;
+  [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& candidates) const;
   [[nodiscard]] Plan reconstruct(const OccupancyMap& map, const Pose& current);
   [[nodiscard]] Plan explore(const OccupancyMap& map, const Pose& current);
 
@@ -86,8 +107,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   FailedViews failed_;
   std::optional<RayCaster> caster_;  // of the map that was planned in last
   std::optional<ViewRays> rays_;     // as dense as its cells ask for
-  const OccupancyMap* followed_ = nullptr;
-  OccupancyMap::Revision revision_ = 0;
+  KnownMap followed_;
 };
 
 }  // namespace vantage

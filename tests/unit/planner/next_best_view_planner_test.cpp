@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <contract/cell_world.hpp>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/view/candidate_views.hpp>
+#include <vantage/view/view_cover.hpp>
 
 namespace vantage {
 namespace {
@@ -90,8 +94,12 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
   std::size_t plans = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     Robot run(seed);
-    const NextBestViewOptions options{
-        .object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
+    const NextBestViewOptions options{.object = kObject,
+                                      .radius_m = 0.8,
+                                      .subdivisions = 1,
+                                      .min_overlap_cells = 5,
+                                      .min_unknown_cells = 5,
+                                      .choice = ViewChoice::Greedy};
     NextBestViewPlanner planner(run.setup(), options);
     std::size_t views = 0;
     Plan plan = planner.plan(run.map, run.pose);
@@ -147,6 +155,102 @@ TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
   EXPECT_GT(run.coverage(), 0.9);
 }
 
+// Runs to the end; how many views it took.
+std::size_t reconstruct(Robot& run, const PlannerSettings& settings) {
+  PlannerSettings all = settings;
+  all.merge(PlannerSettings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"},
+                            {"radius_m", "0.8"},
+                            {"subdivisions", "1"},
+                            {"min_unknown_cells", "5"}});
+  const auto planner = make_planner("next-best-view", run.setup(), all);
+  Plan plan = planner->plan(run.map, run.pose);
+  std::size_t views = 0;
+  for (; views < 40 && plan.outcome == Outcome::Move; ++views) {
+    EXPECT_TRUE(run.platform->admits(run.map, plan.goal.pose));
+    EXPECT_GE(plan.sought.size(), 5U);
+    run.pose = plan.goal.pose;
+    run.look();
+    plan = planner->plan(run.map, run.pose);
+  }
+  EXPECT_EQ(plan.outcome, Outcome::Explored) << plan.reason;
+  return views;
+}
+
+TEST(NextBestViewPlanner, NeedsNoMoreViewsByACoverThanByGreed) {
+  std::size_t by_cover = 0;
+  std::size_t by_greed = 0;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    Robot covering(seed);
+    by_cover += reconstruct(covering, {{"choice", "cover"}});
+    Robot greedy(seed);
+    by_greed += reconstruct(greedy, {{"choice", "greedy"}});
+    EXPECT_GT(covering.coverage(), 0.94);
+  }
+  EXPECT_LE(by_cover, by_greed);
+}
+
+TEST(NextBestViewPlanner, TakesAViewOfTheCover) {
+  Robot run(4);
+  const NextBestViewOptions options{.object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_unknown_cells = 5};
+  const Plan plan = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
+  const ViewRays rays(run.sensor.rays_for(0.05));
+  const RayCaster caster(run.map);
+  std::vector<Pose> poses;
+  std::vector<CellSet> seen;
+  for (const Pose& view : views_around(kObject.centre(), std::array{options.radius_m}, options.subdivisions)) {
+    if (run.platform->admits(run.map, view)) {
+      CellSet cells;
+      (void)evaluate_view(caster, view, rays, run.map.frame().cells_centred_in(kObject), &cells);
+      CellSet unknown = cells;
+      cells.for_each([&](const VoxelIndex& cell) {
+        if (run.map.at(cell) != Occupancy::Unknown) {
+          unknown.erase(cell);
+        }
+      });
+      poses.push_back(view);
+      seen.push_back(std::move(unknown));
+    }
+  }
+  double best = 0.0;
+  for (const std::size_t i : cover_views(seen, options.min_unknown_cells)) {
+    best = std::max(best, static_cast<double>(seen[i].size()) / (1.0 + run.platform->distance_m(run.pose, poses[i])));
+  }
+  EXPECT_GT(best, 0.0);
+  EXPECT_DOUBLE_EQ(plan.goal.utility, best);
+}
+
+TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
+  std::size_t gains = 0;
+  for (const std::string_view name : ray_gain_names()) {
+    Robot run(3);
+    EXPECT_LT(reconstruct(run, {{"gain", std::string(name)}, {"subdivisions", "0"}}), 20U) << name;
+    EXPECT_GT(run.coverage(), 0.9) << name;
+    ++gains;
+  }
+  EXPECT_EQ(gains, 5U);
+}
+
+TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
+  Robot run(2);
+  const NextBestViewOptions any{.object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_unknown_cells = 5};
+  NextBestViewOptions steep = any;
+  steep.sensing = {.max_incidence_rad = 0.9, .min_depth_m = 0.5, .max_depth_m = 1.0};
+  const Plan plan = NextBestViewPlanner(run.setup(), steep).plan(run.map, run.pose);
+  ASSERT_EQ(plan.outcome, Outcome::Move);
+  for (const VoxelIndex& cell : plan.sought) {
+    const Eigen::Vector3d back = plan.goal.pose.translation() - run.map.frame().centre_of(cell);
+    const Eigen::Vector3d normal = surface_normal(run.map, cell).cast<double>();
+    EXPECT_GE(back.norm(), 0.5);
+    EXPECT_LE(back.norm(), 1.0);
+    EXPECT_TRUE(normal.isZero() || normal.dot(back.normalized()) >= std::cos(0.9) - 1e-6);
+  }
+  EXPECT_LT(plan.goal.utility, NextBestViewPlanner(run.setup(), any).plan(run.map, run.pose).goal.utility);
+  steep.sensing = {.max_depth_m = 0.3};
+  EXPECT_EQ(NextBestViewPlanner(run.setup(), steep).plan(run.map, run.pose).outcome, Outcome::Explored);
+  EXPECT_LT(reconstruct(run, {{"vision_angle_deg", "60"}}), 25U);
+  EXPECT_GT(run.coverage(), 0.9);
+}
+
 TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   const Robot run(1);
   const auto complaint = [&](const PlannerSettings& settings) -> std::string {
@@ -165,6 +269,8 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   EXPECT_EQ(complaint({{"radius_m", "0"}}), "NextBestViewOptions::radius_m is 0, must be > 0");
   EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [-1, 6]");
   EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
+  EXPECT_NE(complaint({{"gain", "entropy"}}).find("unknown-cells, occlusion-aware"), std::string::npos);
+  EXPECT_NE(complaint({{"vision_angle_deg", "120"}}).find("SensingOptions::max_incidence_rad"), std::string::npos);
   EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be >= 1");
 }
 
