@@ -99,19 +99,29 @@ bool is_open(const Scene& scene, const Eigen::Vector3d& point) {
 
 }  // namespace
 
-ObjectScene object_scene(double resolution_m, std::uint32_t seed) {
+ObjectScene object_scene(double resolution_m, Surroundings surroundings, std::uint32_t seed) {
   std::mt19937 engine(seed);
   const Scene scene = table_room(engine);
   ObjectScene made{OccupancyMap({.resolution_m = resolution_m}), {}, {}};
   OccupancyMap& map = made.map;
   const VoxelFrame& frame = map.frame();
   made.object = frame.cells_centred_in({{-0.15, -0.2, 0.74}, {0.25, 0.2, 1.14}});
-  map.set_log_odds(frame.cells_centred_in(scene.room).grown(1), 3.5);
-  for_each_cell(frame.cells_centred_in(scene.room), [&](const VoxelIndex& cell) {
-    if (is_open(scene, frame.centre_of(cell))) {
-      map.set_log_odds(cell, -2.0);
+  if (surroundings == Surroundings::Known) {
+    map.set_log_odds(frame.cells_centred_in(scene.room).grown(1), 3.5);
+    for_each_cell(frame.cells_centred_in(scene.room), [&](const VoxelIndex& cell) {
+      if (is_open(scene, frame.centre_of(cell))) {
+        map.set_log_odds(cell, -2.0);
+      }
+    });
+  } else {
+    for (int i = 0; i < 6; ++i) {
+      const double turn = i * std::numbers::pi / 3.0;
+      const Eigen::Vector3d outwards(std::cos(turn), std::sin(turn), 0.0);
+      const Eigen::Vector3d eye = 1.7 * outwards + Eigen::Vector3d(0.0, 0.0, 1.3);
+      map.insert(
+          table_scan(pose_looking_along(eye, i % 2 == 0 ? Eigen::Vector3d(-outwards) : outwards), 640, 480, seed));
     }
-  });
+  }
   for_each_cell(made.object, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
   map.insert(table_scan(640, 480, seed));
   const Eigen::Vector3d centre = frame.box_of(made.object).centre();

@@ -20,12 +20,19 @@ namespace vantage {
 /// points shuffled: an unorganised scan.
 [[nodiscard]] Scan hall_scan(std::uint32_t seed = 1);
 
+/// What is known around an object.
+enum class Surroundings {
+  Known,    ///< all of the room
+  Scanned,  ///< what six scans from places around it have seen
+};
+
 /// An object that is to be seen, on the table of that room, and from where it might be.
 struct ObjectScene {
-  OccupancyMap map;         ///< all of the room is known; of the object box, what one first scan saw
+  OccupancyMap map;         ///< of the object box only what one first scan saw is known
   VoxelBox object;          ///< cells of the object box
   std::vector<Pose> views;  ///< 1.5 m from its centre, looking at it: those of 320 all around that are in free space
 };
-[[nodiscard]] ObjectScene object_scene(double resolution_m, std::uint32_t seed = 1);
+[[nodiscard]] ObjectScene object_scene(double resolution_m, Surroundings surroundings = Surroundings::Known,
+                                       std::uint32_t seed = 1);
 
 }  // namespace vantage

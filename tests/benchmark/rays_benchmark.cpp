@@ -3,37 +3,61 @@
 #include <octomap/octomap.h>
 
 #include <benchmark/benchmark_scenes.hpp>
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vantage/raytrace/hierarchical_ray_tracer.hpp>
+#include <vantage/robot/free_flyer.hpp>
 #include <vector>
 
 namespace vantage {
 namespace {
 
-constexpr double kResolutionM = 0.01;
+// What some of these benchmarks look at, each part made when it is first asked for.
+class Stage {
+ public:
+  Stage(std::string name, double resolution_m, Surroundings surroundings)
+      : name_(std::move(name)), resolution_m_(resolution_m), surroundings_(surroundings) {}
 
-// What all of these benchmarks look at, each part made when it is first asked for.
-const ObjectScene& scene() {
-  static const ObjectScene made = object_scene(kResolutionM);
-  return made;
-}
-const RayCaster& caster() {
-  static const RayCaster made(scene().map);
-  return made;
-}
-const octomap::OcTree& tree() {
-  static const std::unique_ptr<octomap::OcTree> made = to_octree(scene().map);
-  return *made;
-}
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] double resolution_m() const { return resolution_m_; }
+  [[nodiscard]] const ObjectScene& scene() const {
+    if (!scene_) {
+      scene_.emplace(object_scene(resolution_m_, surroundings_));
+    }
+    return *scene_;
+  }
+  [[nodiscard]] const RayCaster& caster() const {
+    if (!caster_) {
+      caster_.emplace(scene().map);
+    }
+    return *caster_;
+  }
+  [[nodiscard]] const octomap::OcTree& tree() const {
+    if (!tree_) {
+      tree_ = to_octree(scene().map);
+    }
+    return *tree_;
+  }
+  // The i-th of the views in an order that soon has been everywhere: a fixed sample for those who do not get far.
+  [[nodiscard]] const Pose& view(std::size_t i) const {
+    constexpr std::size_t kStride = 89;
+    return scene().views[i * kStride % scene().views.size()];
+  }
 
-// The i-th of the views in an order that soon has been everywhere: a fixed sample for those who do not get far.
-const Pose& view(std::size_t i) {
-  constexpr std::size_t kStride = 89;
-  return scene().views[i * kStride % scene().views.size()];
-}
+ private:
+  std::string name_;
+  double resolution_m_;
+  Surroundings surroundings_;
+  mutable std::optional<ObjectScene> scene_;
+  mutable std::optional<RayCaster> caster_;
+  mutable std::unique_ptr<octomap::OcTree> tree_;
+};
 
 RangeSensor camera(std::size_t width, std::size_t height) {
   return RangeSensor::pinhole(width, height, 1.09, 0.857, 0.0, 4.0);
@@ -45,23 +69,23 @@ struct Density {
   RangeSensor sensor;
   bool equal_angles = false;
 
-  [[nodiscard]] RayImage image() const {
-    return equal_angles ? equal_angle_rays(sensor, kResolutionM)
+  [[nodiscard]] RayImage image(double cell_m) const {
+    return equal_angles ? equal_angle_rays(sensor, cell_m)
                         : RayImage{sensor.width, sensor.height, sensor.directions()};
   }
-  [[nodiscard]] ViewRays rays() const {
-    const RayImage all = image();
+  [[nodiscard]] ViewRays rays(double cell_m) const {
+    const RayImage all = image(cell_m);
     return {all.directions, all.width, all.height, sensor.max_range_m};
   }
 };
 
-void rays_vantage(benchmark::State& state, const Density& density) {
-  const ViewRays rays = density.rays();
+void rays_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
+  const ViewRays rays = density.rays(stage.resolution_m());
   std::vector<RayEnd> ends(rays.size());
   std::size_t i = 0;
-  caster();
+  stage.caster();
   for ([[maybe_unused]] auto _ : state) {
-    caster().cast(view(i++), rays, ends);
+    stage.caster().cast(stage.view(i++), rays, ends);
     benchmark::DoNotOptimize(ends.data());
   }
   state.counters["rays"] = static_cast<double>(rays.size());
@@ -73,31 +97,31 @@ octomap::point3d to_octomap(const Eigen::Vector3d& point) {
 }
 
 // What castRay met: it tells unknown cells from the end of its range only on being asked again.
-Occupancy cast_octomap(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double range_m,
-                       octomap::point3d& end) {
-  if (tree().castRay(to_octomap(from), to_octomap(along), end, false, range_m)) {
+Occupancy cast_octomap(const octomap::OcTree& tree, const Eigen::Vector3d& from, const Eigen::Vector3d& along,
+                       double range_m, octomap::point3d& end) {
+  if (tree.castRay(to_octomap(from), to_octomap(along), end, false, range_m)) {
     return Occupancy::Occupied;
   }
-  return tree().search(end) == nullptr ? Occupancy::Unknown : Occupancy::Free;
+  return tree.search(end) == nullptr ? Occupancy::Unknown : Occupancy::Free;
 }
 
-void rays_octomap(benchmark::State& state, const Density& density) {
-  const std::vector<Eigen::Vector3f> directions = density.image().directions;
+void rays_octomap(benchmark::State& state, const Stage& stage, const Density& density) {
+  const std::vector<Eigen::Vector3f> directions = density.image(stage.resolution_m()).directions;
   std::vector<Occupancy> found(directions.size());
-  const ViewRays rays = density.rays();
+  const ViewRays rays = density.rays(stage.resolution_m());
   std::vector<RayEnd> ends(rays.size());
   std::size_t same = 0;
   std::size_t i = 0;
-  tree();
+  stage.tree();
   for ([[maybe_unused]] auto _ : state) {
-    const Pose& pose = view(i++);
+    const Pose& pose = stage.view(i++);
     octomap::point3d end;
     for (std::size_t ray = 0; ray < directions.size(); ++ray) {
-      found[ray] = cast_octomap(pose.translation(), pose.linear() * directions[ray].cast<double>(),
+      found[ray] = cast_octomap(stage.tree(), pose.translation(), pose.linear() * directions[ray].cast<double>(),
                                 density.sensor.max_range_m, end);
     }
     state.PauseTiming();
-    caster().cast(pose, rays, ends);
+    stage.caster().cast(pose, rays, ends);
     for (std::size_t ray = 0; ray < ends.size(); ++ray) {
       same += ends[ray].occupancy == found[ray] ? 1U : 0U;
     }
@@ -114,29 +138,32 @@ void report(benchmark::State& state, std::size_t unknown, std::size_t occupied) 
 
 // `evaluate(pose)` returns something with counts of unknown and occupied.
 template <class Evaluate>
-void evaluate_each_view(benchmark::State& state, const Evaluate& evaluate) {
+void evaluate_each_view(benchmark::State& state, const Stage& stage, const Evaluate& evaluate) {
   std::size_t i = 0;
   std::size_t unknown = 0;
   std::size_t occupied = 0;
-  scene();
+  stage.scene();
   for ([[maybe_unused]] auto _ : state) {
-    const auto counts = evaluate(view(i++));
+    const auto counts = evaluate(stage.view(i++));
     unknown += counts.unknown;
     occupied += counts.occupied;
   }
   report(state, unknown, occupied);
 }
 
-void default_vantage(benchmark::State& state, const Density& density) {
-  const ViewRays rays = density.rays();
-  caster();
-  evaluate_each_view(state, [&](const Pose& pose) { return evaluate_view(caster(), pose, rays, scene().object); });
+void default_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
+  const ViewRays rays = density.rays(stage.resolution_m());
+  stage.caster();
+  evaluate_each_view(state, stage, [&](const Pose& pose) {
+    return evaluate_view(stage.caster(), pose, rays, stage.scene().object);
+  });
 }
 
-void uniform_vantage(benchmark::State& state, const Density& density) {
-  const ViewRays rays = density.rays();
-  const UniformRayTracer tracer(scene().map);
-  evaluate_each_view(state, [&](const Pose& pose) { return tracer.evaluate(pose, rays, scene().object); });
+void uniform_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
+  const ViewRays rays = density.rays(stage.resolution_m());
+  const UniformRayTracer tracer(stage.scene().map);
+  evaluate_each_view(state, stage,
+                     [&](const Pose& pose) { return tracer.evaluate(pose, rays, stage.scene().object); });
 }
 
 bool meets(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
@@ -146,11 +173,11 @@ bool meets(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& a
 }
 
 // Every ray by castRay; or only those that meet the object box.
-void uniform_octomap(benchmark::State& state, const Density& density, bool culled) {
-  const std::vector<Eigen::Vector3f> directions = density.image().directions;
-  const Box box = scene().map.frame().box_of(scene().object);
-  tree();
-  evaluate_each_view(state, [&](const Pose& pose) {
+void uniform_octomap(benchmark::State& state, const Stage& stage, const Density& density, bool culled) {
+  const std::vector<Eigen::Vector3f> directions = density.image(stage.resolution_m()).directions;
+  const Box box = stage.scene().map.frame().box_of(stage.scene().object);
+  stage.tree();
+  evaluate_each_view(state, stage, [&](const Pose& pose) {
     ViewEvaluation counts;
     octomap::KeySet seen;
     octomap::point3d end;
@@ -159,9 +186,9 @@ void uniform_octomap(benchmark::State& state, const Density& density, bool culle
       if (culled && !meets(box, pose.translation(), along)) {
         continue;
       }
-      const Occupancy met = cast_octomap(pose.translation(), along, density.sensor.max_range_m, end);
+      const Occupancy met = cast_octomap(stage.tree(), pose.translation(), along, density.sensor.max_range_m, end);
       if (met != Occupancy::Free && box.contains({end.x(), end.y(), end.z()}) &&
-          seen.insert(tree().coordToKey(end)).second) {
+          seen.insert(stage.tree().coordToKey(end)).second) {
         ++(met == Occupancy::Occupied ? counts.occupied : counts.unknown);
       }
     }
@@ -171,33 +198,34 @@ void uniform_octomap(benchmark::State& state, const Density& density, bool culle
 
 constexpr int kLevels = 4;  // start depth 13 of 16
 
-void hierarchical_vantage(benchmark::State& state, const Density& density) {
-  const HierarchicalRayTracer tracer(scene().map, density.sensor, {.levels = kLevels});
-  evaluate_each_view(state, [&](const Pose& pose) { return tracer.evaluate(pose, scene().object); });
+void hierarchical_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
+  const HierarchicalRayTracer tracer(stage.scene().map, density.sensor, {.levels = kLevels});
+  evaluate_each_view(state, stage, [&](const Pose& pose) { return tracer.evaluate(pose, stage.scene().object); });
 }
 
 // An octree as a map of cells of 2^level finest ones.
 struct OctreeLevel {
+  const octomap::OcTree& tree;
   int level;
 
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
     constexpr std::int32_t kOrigin = 32768;
     const auto key = [this](std::int32_t c) { return static_cast<octomap::key_type>((c << level) + kOrigin); };
     const octomap::OcTreeNode* node =
-        tree().search(octomap::OcTreeKey(key(cell.x), key(cell.y), key(cell.z)), 16U - static_cast<unsigned>(level));
-    return node == nullptr ? Occupancy::Unknown : tree().isNodeOccupied(node) ? Occupancy::Occupied : Occupancy::Free;
+        tree.search(octomap::OcTreeKey(key(cell.x), key(cell.y), key(cell.z)), 16U - static_cast<unsigned>(level));
+    return node == nullptr ? Occupancy::Unknown : tree.isNodeOccupied(node) ? Occupancy::Occupied : Occupancy::Free;
   }
 };
 
 // Algorithm 2 over the octree's own inner nodes, refining inside the object box only.
-void hierarchical_octomap(benchmark::State& state, const Density& density) {
-  const RayTree rays(density.sensor, kResolutionM, kLevels);
-  const Box box = scene().map.frame().box_of(scene().object);
-  tree();
-  evaluate_each_view(state, [&](const Pose& pose) {
+void hierarchical_octomap(benchmark::State& state, const Stage& stage, const Density& density) {
+  const RayTree rays(density.sensor, stage.resolution_m(), kLevels);
+  const Box box = stage.scene().map.frame().box_of(stage.scene().object);
+  stage.tree();
+  evaluate_each_view(state, stage, [&](const Pose& pose) {
     return trace_hierarchically(rays, [&](int level, const Eigen::Vector3f& direction) {
-      const OctreeLevel map{kLevels - 1 - level};
-      const VoxelFrame frame{kResolutionM * (1 << map.level)};
+      const OctreeLevel map{stage.tree(), kLevels - 1 - level};
+      const VoxelFrame frame{stage.resolution_m() * (1 << map.level)};
       const Eigen::Vector3d& from = pose.translation();
       const RayEnd end = first_not_free(
           map, frame, from, from + density.sensor.max_range_m * (pose.linear() * direction.cast<double>()));
@@ -208,15 +236,26 @@ void hierarchical_octomap(benchmark::State& state, const Density& density) {
   });
 }
 
+// All views, by one thread or more.
+void all_vantage(benchmark::State& state, const Stage& stage, const Density& density, std::size_t threads) {
+  const ViewRays rays = density.rays(stage.resolution_m());
+  stage.caster();
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(
+        evaluate_views(stage.caster(), stage.scene().views, rays, stage.scene().object, threads));
+  }
+  state.counters["views"] = static_cast<double>(stage.scene().views.size());
+}
+
 // The skipping structure after each of some scans of the object from its candidate views.
-void update_vantage(benchmark::State& state) {
-  OccupancyMap map = scene().map;
+void update_vantage(benchmark::State& state, const Stage& stage) {
+  OccupancyMap map = stage.scene().map;
   RayCaster following(map);
   std::size_t bricks = 0;
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
-    map.insert(table_scan(view(i++)));
+    map.insert(table_scan(stage.view(i++)));
     state.ResumeTiming();
     bricks += following.update();
   }
@@ -225,27 +264,96 @@ void update_vantage(benchmark::State& state) {
       static_cast<double>(following.memory_bytes()) / static_cast<double>(map.counts().free + map.counts().occupied);
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// A whole cycle of the planner next-best-view, stage by stage, until the object is done; then from the beginning.
+void cycle_vantage(benchmark::State& state, const Stage& stage) {
+  const Box object = stage.scene().map.frame().box_of(stage.scene().object);
+  const auto platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.05});
+  const PlannerSetup setup{.sensor = camera(640, 480), .platform = platform};
+  std::optional<OccupancyMap> map;
+  std::optional<NextBestViewPlanner> planner;
+  Plan plan;
+  double insert_ms = 0.0;
+  PlanStatistics sum;
+  for ([[maybe_unused]] auto _ : state) {
+    state.PauseTiming();
+    if (plan.outcome != Outcome::Move) {
+      map.emplace(stage.scene().map);
+      planner.emplace(setup, NextBestViewOptions{.object = object});
+      plan = planner->plan(*map, stage.view(0));  // the caster is made once
+    }
+    const Pose here = plan.goal.pose;
+    const Scan scan = table_scan(here);
+    state.ResumeTiming();
+    const auto start = std::chrono::steady_clock::now();
+    map->insert(scan);
+    insert_ms += milliseconds_since(start);
+    plan = planner->plan(*map, here);
+    sum.survey_ms += plan.statistics.survey_ms;
+    sum.evaluate_ms += plan.statistics.evaluate_ms;
+    sum.choose_ms += plan.statistics.choose_ms;
+    sum.path_ms += plan.statistics.path_ms;
+  }
+  const auto mean = [&](double all_ms) { return all_ms / static_cast<double>(state.iterations()); };
+  state.counters["1_insert_ms"] = mean(insert_ms);
+  state.counters["2_follow_ms"] = mean(sum.survey_ms);
+  state.counters["3_evaluate_ms"] = mean(sum.evaluate_ms);
+  state.counters["4_choose_ms"] = mean(sum.choose_ms);
+  state.counters["5_path_ms"] = mean(sum.path_ms);
+}
+
 template <class Function, class... Arguments>
-auto* add(const std::string& name, Function function, const Arguments&... arguments) {
+auto* add(const std::string& name, Function function, Arguments... arguments) {
   return benchmark::RegisterBenchmark(name.c_str(), function, arguments...)->Unit(benchmark::kMillisecond);
 }
 
+void add_visibility(const Stage& stage, const Density& density) {
+  constexpr int kSample = 5;  // views that slow peers look at
+  const std::string name = density.name + stage.name();
+  const auto of = [&stage](auto function) {
+    return [&stage, function](benchmark::State& state, const Density& rays, auto... more) {
+      function(state, stage, rays, more...);
+    };
+  };
+  add("visibility/default/vantage/" + name, of(default_vantage), density);
+  add("visibility/uniform/vantage/" + name, of(uniform_vantage), density)->Iterations(kSample);
+  add("visibility/uniform/octomap/" + name, of(uniform_octomap), density, false)->Iterations(kSample);
+  add("visibility/culled/octomap/" + name, of(uniform_octomap), density, true)->Iterations(4 * kSample);
+  if (density.equal_angles) {
+    add("visibility/hierarchical/vantage/" + name, of(hierarchical_vantage), density)->Iterations(4 * kSample);
+    add("visibility/hierarchical/octomap/" + name, of(hierarchical_octomap), density)->Iterations(4 * kSample);
+  }
+  for (const std::size_t threads : {1U, 2U}) {
+    add("visibility/all_views/vantage/" + name + "/" + std::to_string(threads) +
+            (threads == 1 ? "_thread" : "_threads"),
+        of(all_vantage), density, threads)
+        ->UseRealTime();
+  }
+}
+
 const bool kRegistered = [] {
+  static const Stage table("", 0.01, Surroundings::Known);
+  static const Stage coarse("/0.05", 0.05, Surroundings::Known);
+  static const Stage scanned("/scanned", 0.01, Surroundings::Scanned);
   const Density full{"640x480", camera(640, 480)};
   const Density small{"160x120", camera(160, 120)};
   const Density paper{"paper", camera(640, 480), true};
-  constexpr int kSample = 5;  // views that slow peers look at
-  add("rays/vantage/640x480", rays_vantage, full);
-  add("rays/octomap/640x480", rays_octomap, full)->Iterations(kSample);
-  for (const Density& density : {full, small, paper}) {
-    add("visibility/default/vantage/" + density.name, default_vantage, density);
-    add("visibility/uniform/vantage/" + density.name, uniform_vantage, density)->Iterations(kSample);
-    add("visibility/uniform/octomap/" + density.name, uniform_octomap, density, false)->Iterations(kSample);
-    add("visibility/culled/octomap/" + density.name, uniform_octomap, density, true)->Iterations(4 * kSample);
+  constexpr int kSample = 5;
+  const auto at_table = [](auto function) {
+    return [function](benchmark::State& state, auto... more) { function(state, table, more...); };
+  };
+  add("rays/vantage/640x480", at_table(rays_vantage), full);
+  add("rays/octomap/640x480", at_table(rays_octomap), full)->Iterations(kSample);
+  for (const Stage* stage : {&table, &coarse, &scanned}) {
+    for (const Density& density : {full, small, paper}) {
+      add_visibility(*stage, density);
+    }
   }
-  add("visibility/hierarchical/vantage/paper", hierarchical_vantage, paper)->Iterations(4 * kSample);
-  add("visibility/hierarchical/octomap/paper", hierarchical_octomap, paper)->Iterations(4 * kSample);
-  add("rays/vantage/update", update_vantage)->Iterations(20);
+  add("rays/vantage/update", at_table(update_vantage))->Iterations(20);
+  add("plan/next-best-view/table", at_table(cycle_vantage))->Iterations(20);
   return true;
 }();
 
