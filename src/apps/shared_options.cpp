@@ -17,7 +17,7 @@ void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* 
       ->check(a_number());
   option("--noise", request.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
   option("--pose-noise", request.pose_noise, "M,DEG",
-         "How far the sensor is from where it believes to be, standard deviation along and about each axis");
+         "Error of the poses it reports, standard deviation in each axis");
 }
 
 void add_setting_option(CLI::App& command, ExploreRequest& request, const char* about) {
