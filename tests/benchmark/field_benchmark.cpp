@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// field/<solver>/<scene>: one field of a partly explored building, from the cells to the certified potential. The
-// peers get their matrix for nothing: only what they make of it is timed.
+// field/<solver>/<scene>: one field of a partly explored building, from the cells to the certified potential, on one
+// thread. The peers get their matrix for nothing: only what they make of it is timed. field/multigrid2/<scene>: two
+// threads; field/directions/<scene>: what the uniform source changes. house-<views>, from a run in a simulated house,
+// needs the environment variable VANTAGE_DATA.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/SparseCore>
 #include <benchmark/laplace_matrix.hpp>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,9 +15,13 @@
 #include <unsupported/Eigen/IterativeSolvers>
 #include <vantage/field/laplace_multigrid.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/field/streamline.hpp>
 
 #include "random_rooms.hpp"
 
+#ifdef VANTAGE_HAS_SIM
+#include <benchmark/house_scene.hpp>
+#endif
 #ifdef VANTAGE_HAS_HYPRE
 #include <benchmark/boomeramg.hpp>
 #endif
@@ -25,6 +32,9 @@ namespace {
 RoomsOptions options_of(const std::string& scene) {
   if (scene == "51-early") {
     return {.extent = {51, 51, 51}, .room_cells = 25, .door_cells = 7, .doors = 1.0, .unexplored = 0.7, .seed = 1};
+  }
+  if (scene == "51-middle") {
+    return {.extent = {51, 51, 51}, .room_cells = 25, .door_cells = 7, .doors = 1.0, .unexplored = 0.4, .seed = 1};
   }
   if (scene == "51") {
     return {.extent = {51, 51, 51}, .room_cells = 25, .door_cells = 7, .doors = 1.0, .unexplored = 0.15, .seed = 1};
@@ -52,13 +62,24 @@ struct Scene {
   std::size_t unknowns;
 };
 
+Scene make_scene(const std::string& name) {
+#ifdef VANTAGE_HAS_SIM
+  static constexpr std::string_view kHouse = "house-";
+  if (name.starts_with(kHouse)) {
+    auto [domain, source] = house_scene(std::getenv("VANTAGE_DATA"), std::stoul(name.substr(kHouse.size())));
+    return {std::move(domain), source, 0};
+  }
+#endif
+  const RandomRooms rooms(options_of(name));
+  return {rooms.domain(), rooms.source, 0};
+}
+
 const Scene& scene_of(const std::string& name) {
   static std::map<std::string, Scene> all;
   if (const auto found = all.find(name); found != all.end()) {
     return found->second;
   }
-  const RandomRooms rooms(options_of(name));
-  Scene scene{rooms.domain(), rooms.source, 0};
+  Scene scene = make_scene(name);
   scene.domain.keep_component(scene.source);
   scene.unknowns = scene.domain.cell_count() - scene.domain.sink_count();
   return all.emplace(name, std::move(scene)).first->second;
@@ -72,11 +93,12 @@ void count(benchmark::State& state, const Scene& scene, double iterations) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+template <std::size_t threads>
 void multigrid(benchmark::State& state, const std::string& name) {
   const Scene& scene = scene_of(name);
   MultigridReport report;
   for (auto _ : state) {
-    const LaplaceMultigrid field(scene.domain, scene.source);
+    const LaplaceMultigrid field(scene.domain, scene.source, {.threads = threads});
     report = field.report();
   }
   if (!report.certified) {
@@ -84,6 +106,24 @@ void multigrid(benchmark::State& state, const std::string& name) {
   }
   count(state, scene, static_cast<double>(report.iterations));
   state.counters["bytes_per_cell"] = static_cast<double>(report.memory_bytes) / static_cast<double>(scene.unknowns);
+}
+
+// Not for its time: the share of cells whose steepest way down is another one without the uniform source, and how
+// many there are that have none. The first is what the certificate costs, the second what it is worth.
+void directions(benchmark::State& state, const std::string& name) {
+  const Scene& scene = scene_of(name);
+  const LaplaceProblem problem = problem_of(scene.domain, scene.source);
+  const std::vector<double> with = LaplaceMultigrid(scene.domain, scene.source).values(problem);
+  const LaplaceMultigrid plain(scene.domain, scene.source, {.tolerance = 1e-10, .uniform_source = 0.0});
+  const std::vector<double> without = plain.values(problem);
+  std::size_t changed = 0;
+  for (auto _ : state) {
+    for (LaplaceProblem::Position i = 0; i < static_cast<LaplaceProblem::Position>(problem.size()); ++i) {
+      changed += steepest_neighbour(problem, with, i) != steepest_neighbour(problem, without, i) ? 1U : 0U;
+    }
+  }
+  state.counters["changed_%"] = 100.0 * static_cast<double>(changed) / static_cast<double>(scene.unknowns);
+  state.counters["stuck_without"] = static_cast<double>(plain.report().stuck_cells);
 }
 
 // The paper's method and its own rule to stop, which leaves an error of some percent.
@@ -136,9 +176,16 @@ void add(const std::string& solver, const std::vector<std::string>& scenes,
 }
 
 const bool registered = [] {
-  const std::vector<std::string> all{"51-early", "51", "128", "256", "floor", "maze"};
-  add("multigrid", all, multigrid, 0);
-  add("gauss_seidel", {"51-early", "51"}, gauss_seidel, 1);
+  std::vector<std::string> all{"51-early", "51-middle", "51", "128", "256", "floor", "maze"};
+#ifdef VANTAGE_HAS_SIM
+  if (std::getenv("VANTAGE_DATA") != nullptr) {
+    all.insert(all.end(), {"house-3", "house-30"});
+  }
+#endif
+  add("multigrid", all, multigrid<1>, 0);
+  add("multigrid2", {"51", "128", "256"}, multigrid<2>, 0);
+  add("directions", all, directions, 1);
+  add("gauss_seidel", {"51-early", "51-middle", "51"}, gauss_seidel, 1);
   add("eigen_iccg", all, eigen_iccg, 1);
 #ifdef VANTAGE_HAS_HYPRE
   add("hypre_boomeramg", all, hypre_boomeramg, 1);
