@@ -7,6 +7,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/report/report_json.hpp>
 #include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/ground_robot.hpp>
 #include <vantage/sim/exploration_run.hpp>
 
 #include "apps/commands.hpp"
@@ -46,13 +47,20 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
   return *start;
 }
 
+std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
+  if (!request.band.empty()) {
+    return std::make_shared<const GroundRobot>(GroundRobotOptions{.radius_m = request.robot_radius_m});
+  }
+  return std::make_shared<const FreeFlyer>(
+      FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
+}
+
 int explore(const ExploreRequest& request) {
   check_numbers(request);
   check_targets(request.out, request.json);
   const std::optional<Pose> start = start_of(request);
   const RangeSensor sensor = sensor_of(request);
-  const auto platform = std::make_shared<const FreeFlyer>(
-      FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
+  const std::shared_ptr<const Platform> platform = platform_of(request);
   const auto planner = make_planner(
       request.planner, {.sensor = sensor, .platform = platform, .seed = request.seed, .threads = request.threads},
       settings_of(request));
@@ -64,7 +72,9 @@ int explore(const ExploreRequest& request) {
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
-  options.map.keep_grazed_cells = request.keep_grazed;
+  options.map.keep_grazed_cells = !request.wear;
+  options.band = band_of(request);
+  options.look_around = request.look_around;
   options.max_views = request.max_views;
   options.scan_spacing_m = request.scan_spacing_m;
   options.seed = request.seed;
@@ -119,6 +129,9 @@ void add_world_options(CLI::App& command, ExploreRequest& request) {
       ->check(a_number())
       ->capture_default_str()
       ->group("World");
+  command.add_option("--size", request.size, "Extent of a generated world (office, maze), metres")
+      ->type_name("LENGTH,WIDTH")
+      ->group("World");
   command.add_option("--region", request.region, "What to explore, metres; all of the world unless given")
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("World");
@@ -130,6 +143,13 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
       ->group("Robot");
   add_sensor_options(command, request, "Robot");
   command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
+  command
+      .add_option("--band", request.band,
+                  "It drives, and explores the plane of these heights; the sensor is in their middle unless given")
+      ->type_name("LOW,HIGH[,SENSOR]")
+      ->group("Robot");
+  command.add_flag("--look-around", request.look_around, "It turns once on the spot, scanning, before the first plan")
+      ->group("Robot");
   command.add_option("--scan-spacing", request.scan_spacing_m, "Metres between scans on the way; 0: at goals only")
       ->type_name("M")
       ->check(a_number())
@@ -149,8 +169,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->group("Run");
   command
-      ->add_flag("--keep-grazed", request->keep_grazed,
-                 "Rays at a small angle do not wear away the surface they end in")
+      ->add_flag("--wear", request->wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);
@@ -159,6 +178,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  vantage explore --world rooms --out rooms\n"
       "  vantage explore --world office --planner frontier-gain --sensor kinect --set hypotheses=300 --seed 7\n"
+      "  vantage explore --world office --size 15,10 --band 0.2,1.4 --look-around --sensor stereo\n"
       "  vantage explore --world house.dae --up y --region -9,-5,0.1,9,5,2.4 --resolution 0.1 --json - --quiet\n"
       "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written), 3 the views were spent.");
   command->callback([request, &exit_code] { exit_code = explore(*request); });

@@ -86,7 +86,16 @@ void check_cell_count(const Box& region, double resolution_m) {
 
 World world_of(const ExploreRequest& request) {
   if (is_known(World::names(), request.world)) {
-    return World::by_name(request.world, {.seed = request.seed});
+    WorldOptions options{.seed = request.seed};
+    if (!request.size.empty()) {
+      const std::vector<double> n = numbers_of("--size", request.size);
+      if (n.size() != 2) {
+        throw std::invalid_argument("--size has " + std::to_string(n.size()) + " numbers, must be LENGTH,WIDTH");
+      }
+      options.length_m = n[0];
+      options.width_m = n[1];
+    }
+    return World::by_name(request.world, options);
   }
   if (!std::filesystem::exists(request.world) && request.world.find_first_of("./") == std::string::npos) {
     return World::by_name(request.world);  // neither a name nor a file: let it list the names
@@ -114,6 +123,19 @@ std::optional<Box> region_of(const ExploreRequest& request) {
     throw std::invalid_argument("--region '" + request.region + "' is empty: x0 < x1, y0 < y1 and z0 < z1 must hold");
   }
   return region;
+}
+
+std::optional<HeightBandOptions> band_of(const ExploreRequest& request) {
+  if (request.band.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<double> n = numbers_of("--band", request.band);
+  if (n.size() != 2 && n.size() != 3) {
+    throw std::invalid_argument("--band has " + std::to_string(n.size()) + " numbers, must be LOW,HIGH[,SENSOR]");
+  }
+  return HeightBandOptions{.min_height_m = n[0],
+                           .max_height_m = n[1],
+                           .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1])};
 }
 
 std::optional<Pose> start_of(const ExploreRequest& request) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
+#include <vantage/map/height_band.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_recorder.hpp>
@@ -21,6 +22,7 @@ struct ExploreRequest {
   std::string world;
   std::string up = "z";
   double scale = 1.0;
+  std::string size;
   std::string planner = "harmonic";
   std::string sensor = "panoramic";
   double resolution_m = 0.2;
@@ -29,7 +31,9 @@ struct ExploreRequest {
   double robot_radius_m = 0.15;
   double scan_spacing_m = 0.5;
   bool yaw_only = false;
-  bool keep_grazed = false;
+  std::string band;
+  bool look_around = false;
+  bool wear = false;
   double noise = 0.0;
   std::string pose_noise;  // "metres,degrees"
   std::size_t max_views = 500;
@@ -45,6 +49,8 @@ struct ExploreRequest {
 [[nodiscard]] World world_of(const ExploreRequest& request);
 [[nodiscard]] RangeSensor sensor_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
+/// `--band`, of a robot that drives; none: it flies.
+[[nodiscard]] std::optional<HeightBandOptions> band_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
 [[nodiscard]] RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command,
                                               const std::string& world, const RangeSensor& sensor);

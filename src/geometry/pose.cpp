@@ -22,6 +22,11 @@ Pose pose_looking_along(const Eigen::Vector3d& position_m, const Eigen::Vector3d
   return pose_looking(position_m, yaw_rad, std::atan2(direction.z(), level));
 }
 
+Pose pose_looking_level(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) {
+  const bool has_heading = std::hypot(direction.x(), direction.y()) > 1e-9;
+  return pose_looking(position_m, has_heading ? std::atan2(direction.y(), direction.x()) : 0.0);
+}
+
 bool is_rigid(const Pose& pose, double tolerance) {
   if (!pose.matrix().allFinite()) {
     return false;

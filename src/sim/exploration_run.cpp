@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -32,10 +33,18 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   detail::require_option(options.threads > 0, "ExplorationRunOptions::threads", options.threads, "> 0");
   detail::require_option(std::isfinite(options.surface_gap_m) && options.surface_gap_m > 0.0,
                          "ExplorationRunOptions::surface_gap_m", options.surface_gap_m, "> 0");
+  if (options.band && options.unknown_box) {
+    throw std::invalid_argument("ExplorationRunOptions::unknown_box: there is none in the plane of a band");
+  }
   if (!options.map.region) {
     options.map.region = world.region;
   }
   return options;
+}
+
+Truth truth_of(const World& world, const ExplorationRunOptions& options) {
+  Truth truth(world, options.map.resolution_m, *options.map.region);
+  return options.band ? truth.in_band(*options.band) : truth;
 }
 
 Pose between(const Pose& from, const Pose& to, double share) {
@@ -80,7 +89,7 @@ ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
       platform_(given(std::move(platform))),
       options_(checked(options, world)),
       scene_(world.mesh),
-      truth_(world, options_.map.resolution_m, *options_.map.region),
+      truth_(truth_of(world, options_)),
       map_(options_.map) {
   (void)SimulatedSensor(scene_, sensor, options_.noise);  // checks both
 }
@@ -104,7 +113,7 @@ void ExplorationRun::check_start(const Pose& start) const {
   }
 }
 
-// Of the body's box only the ellipsoid in it: the box's corners may hold a wall.
+// Of the body's box only the ellipsoid in it: the box's corners may hold a wall. In a band, all heights of it.
 void ExplorationRun::assume_body_free(const Pose& start) {
   const Box body = platform_->body_box(start);
   const VoxelFrame& frame = map_.frame();
@@ -115,7 +124,12 @@ void ExplorationRun::assume_body_free(const Pose& start) {
     const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
     if ((nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9) {
       const Eigen::Vector3d within = 0.25 * box.extent();
-      map_.assume_free({box.min + within, box.max - within});
+      Box inner{box.min + within, box.max - within};
+      if (options_.band) {
+        inner.min.z() = options_.band->min_height_m;
+        inner.max.z() = options_.band->max_height_m;
+      }
+      map_.assume_free(inner);
     }
   });
 }
@@ -135,6 +149,9 @@ void ExplorationRun::scan(Progress& progress) {
   progress.surface.add(scan);
   const Clock::time_point start = Clock::now();
   const ScanReport report = map_.insert(scan, options_.ray_policy);
+  if (band_) {
+    band_->follow(map_);
+  }
   ViewRecord view;
   view.insert_ms = milliseconds_since(start);
   RunRecord& record = progress.record;
@@ -149,7 +166,7 @@ void ExplorationRun::scan(Progress& progress) {
   view.passed = std::exchange(progress.passed, {});
   view.path_length_m = progress.path_length_m;
   if (options_.measure_coverage) {
-    view.coverage = truth_.coverage(map_, progress.observable);
+    view.coverage = truth_.coverage(known(), progress.observable);
   }
   record.coverage = view.coverage;
   if (!options_.surface_samples.empty()) {
@@ -160,9 +177,25 @@ void ExplorationRun::scan(Progress& progress) {
   progress.since_scan_m = 0.0;
 }
 
+// Views overlap by a fifth. The last one is left to be reported with the plan that comes of it.
+void ExplorationRun::look_around(Progress& progress, const OnView& on_view) {
+  constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
+  const auto turns = static_cast<std::size_t>(std::ceil(kFullTurnRad / (0.8 * sensor_.horizontal_angle_rad())));
+  const Pose start = progress.pose;
+  for (std::size_t turn = 1; turn < turns && progress.record.views.size() < options_.max_views; ++turn) {
+    if (on_view) {
+      on_view(progress.record.views.back(), known());
+    }
+    const double yaw_rad = kFullTurnRad * static_cast<double>(turn) / static_cast<double>(turns);
+    progress.pose = start;
+    progress.pose.linear() = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * start.linear();
+    scan(progress);
+  }
+}
+
 void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner, Plan& plan) {
   const Clock::time_point start = Clock::now();
-  plan = planner.plan(map_, progress.pose);
+  plan = planner.plan(known(), progress.pose);
   ViewRecord& view = progress.record.views.back();
   view.plan_ms = milliseconds_since(start);
   view.utility = plan.goal.utility;
@@ -173,11 +206,31 @@ void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner, Plan&
   progress.record.leftover = plan.leftover;
 }
 
+// In a band a column of spheres goes the way of the one about the sensor.
+bool ExplorationRun::collides(const Pose& from, const Pose& to, double radius_m) const {
+  if (!options_.band) {
+    return scene_.touches(from.translation(), to.translation(), radius_m);
+  }
+  const double lowest_m = options_.band->min_height_m + radius_m;
+  const double highest_m = std::max(lowest_m, options_.band->max_height_m - radius_m);
+  const double step_m = std::max(radius_m, map_.resolution_m());
+  const auto touches_at = [&](double height_m) {
+    Eigen::Vector3d a = from.translation();
+    Eigen::Vector3d b = to.translation();
+    a.z() = b.z() = height_m;
+    return scene_.touches(a, b, radius_m);
+  };
+  bool hit = touches_at(highest_m);
+  for (double height_m = lowest_m; height_m < highest_m; height_m += step_m) {
+    hit = hit || touches_at(height_m);
+  }
+  return hit;
+}
+
 void ExplorationRun::move(Progress& progress, const Pose& to) {
   const double length_m = (to.translation() - progress.pose.translation()).norm();
   if (length_m > 0.0) {
-    const bool hit = scene_.touches(progress.pose.translation(), to.translation(), progress.body_radius_m);
-    progress.record.collisions += hit ? 1U : 0U;
+    progress.record.collisions += collides(progress.pose, to, progress.body_radius_m) ? 1U : 0U;
     progress.record.travelled.push_back(to.translation());
     progress.passed.push_back(to.translation());
   }
@@ -188,7 +241,7 @@ void ExplorationRun::move(Progress& progress, const Pose& to) {
 
 bool ExplorationRun::still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const {
   for (Pose from = pose; next < path.size(); from = path[next++]) {
-    if (!platform_->admits_motion(map_, from, path[next])) {
+    if (!platform_->admits_motion(known(), from, path[next])) {
       return false;
     }
   }
@@ -197,7 +250,7 @@ bool ExplorationRun::still_admitted(const Pose& pose, const std::vector<Pose>& p
 
 bool ExplorationRun::still_sought(const std::vector<VoxelIndex>& cells) const {
   return cells.empty() || std::any_of(cells.begin(), cells.end(),
-                                      [&](const VoxelIndex& cell) { return map_.at(cell) == Occupancy::Unknown; });
+                                      [&](const VoxelIndex& cell) { return known().at(cell) == Occupancy::Unknown; });
 }
 
 // To the goal, or to where a scan on the way has closed it, made it needless or spent the budget. The last scan is
@@ -218,7 +271,7 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
         return;
       }
       if (on_view) {
-        on_view(progress.record.views.back(), map_);
+        on_view(progress.record.views.back(), known());
       }
     }
     move(progress, to);
@@ -229,6 +282,9 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
   map_ = OccupancyMap(options_.map);
+  if (options_.band) {
+    band_.emplace(options_.map, *options_.band);
+  }
   Progress progress{.sensor = SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),
                     .pose = start,
                     .passed = {start.translation()},
@@ -256,11 +312,14 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
     map_.assume_free(box);
   }
   scan(progress);
+  if (options_.look_around) {
+    look_around(progress, on_view);
+  }
   for (;;) {
     Plan next;
     plan(progress, planner, next);
     if (on_view) {
-      on_view(record.views.back(), map_);
+      on_view(record.views.back(), known());
     }
     if (next.outcome != Outcome::Move || next.path.empty()) {
       record.outcome = next.outcome == Outcome::Explored ? RunOutcome::Explored : RunOutcome::Blocked;

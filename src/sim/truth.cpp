@@ -77,6 +77,21 @@ Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(
   });
 }
 
+Truth Truth::in_band(const HeightBandOptions& options) const {
+  HeightBand band(map_.options(), options);
+  band.follow(map_);
+  const auto [lowest, above] = band.layers();
+  const std::int32_t layer = band.plane().region()->lo.z;
+  const VoxelBox& box = cells_.box();
+  VoxelGrid<CellTruth> cells({{box.lo.x, box.lo.y, layer}, {box.hi.x, box.hi.y, layer + 1}}, CellTruth::Free);
+  for_each_cell(cells.box(), [&](const VoxelIndex& column) {
+    for (VoxelIndex cell{column.x, column.y, lowest}; cell.z < above; ++cell.z) {
+      cells[column] = std::max(cells[column], at(cell));  // free < grazed < occupied
+    }
+  });
+  return {band.plane(), std::move(cells)};
+}
+
 std::optional<Pose> Truth::draw_start(const Platform& platform, std::uint64_t seed) const {
   const std::vector<VoxelIndex> space = largest_component(platform.admitted_cells(map_, region_));
   if (space.empty()) {
@@ -93,9 +108,11 @@ std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& sta
   const auto pitch =
       std::max<std::int32_t>(1, static_cast<std::int32_t>(std::lround(kLatticeM / map_.resolution_m())));
   const ReachableSpace space(map_, platform, start);
+  const bool is_plane = region_.extent().z == 1;
   std::vector<VoxelIndex> lattice;
   for (const VoxelIndex& cell : space.cells()) {
-    if (cell == *space.start() || (cell.x % pitch == 0 && cell.y % pitch == 0 && cell.z % pitch == 0)) {
+    const bool on_lattice = cell.x % pitch == 0 && cell.y % pitch == 0 && (is_plane || cell.z % pitch == 0);
+    if (cell == *space.start() || on_lattice) {
       lattice.push_back(cell);
     }
   }

@@ -20,6 +20,9 @@ using Pose = Eigen::Isometry3d;
 /// up or down, where "without roll" has no meaning, the image's x axis is world -y.
 [[nodiscard]] Pose pose_looking_along(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction);
 
+/// The sensor at `position_m`, level, turned to where `direction` points; to world +x if that is straight up or down.
+[[nodiscard]] Pose pose_looking_level(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction);
+
 /// Whether every entry is finite and the linear part is a rotation (orthonormal, determinant +1) within `tolerance`.
 [[nodiscard]] bool is_rigid(const Pose& pose, double tolerance = 1e-6);
 

@@ -166,6 +166,8 @@ class OccupancyMap {
   /// octomap::OcTree::insertPointCloud). The sensor's own cell counts as passed. Throws std::invalid_argument if the
   /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted.
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
+  /// Makes a new revision and changes nothing, as a scan does that confirms what is known.
+  void confirm() { ++revision_; }
   /// Sets the state of a cell outright, at the clamping limit; Unknown forgets it. Outside the region: no effect.
   void set(const VoxelIndex& cell, Occupancy occupancy);
   /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vantage/map/height_band.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
@@ -22,11 +23,17 @@ namespace vantage {
 /// How a simulated exploration goes.
 struct ExplorationRunOptions {
   OccupancyMapOptions map = {};  ///< without a region: the world's own
+  /// The robot drives, and explores the plane of these heights: the planner gets the map's HeightBand instead of the
+  /// map, and collisions and coverage are those of the plane. None: it flies, and explores space.
+  std::optional<HeightBandOptions> band = std::nullopt;
   /// How the map draws the rays of a scan.
   RayPolicy ray_policy = RayPolicy::EveryReturn;
   std::size_t max_views = 500;  ///< the budget, > 0
   double scan_spacing_m = 0.5;  ///< a scan every so far along the way, >= 0; 0: at goals only
-  std::uint64_t seed = 1;       ///< of the sensor's noise
+  /// Whether it turns once on the spot, level, scanning all around, before the first plan. A sensor of a narrow view
+  /// sees no way past what lies beside the body.
+  bool look_around = false;
+  std::uint64_t seed = 1;  ///< of the sensor's noise
   SensorNoise noise = {};       ///< of the simulated sensor
   /// Of the sphere whose touching a true surface is a collision, >= 0; none: half the least extent of
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
@@ -51,7 +58,7 @@ struct ExplorationRunOptions {
 /// but for its times and memory.
 class ExplorationRun {
  public:
-  /// Called after every scan, with what was recorded and the map then.
+  /// Called after every scan, with what was recorded and what the planner plans in (`known`) then.
   using OnView = std::function<void(const ViewRecord&, const OccupancyMap&)>;
 
   /// Throws std::invalid_argument naming the option at fault.
@@ -60,8 +67,10 @@ class ExplorationRun {
 
   /// The true state of the world that the run is measured by.
   [[nodiscard]] const Truth& truth() const { return truth_; }
-  /// The map of the last run.
+  /// The map of the last run, of space in any case.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
+  /// What the planner plans in: the plane of the band, or without one the map.
+  [[nodiscard]] const OccupancyMap& known() const { return band_ ? band_->plane() : map_; }
 
   /// Runs until the planner says that it is done, or the budget ends it. The space of the body at `start` is declared
   /// free first. Throws std::invalid_argument if the platform is not admitted at `start` in the true world.
@@ -73,10 +82,12 @@ class ExplorationRun {
   void assume_body_free(const Pose& start);
   void know_surroundings();
   void scan(Progress& progress);
+  void look_around(Progress& progress, const OnView& on_view);
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);
   [[nodiscard]] bool still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const;
   [[nodiscard]] bool still_sought(const std::vector<VoxelIndex>& cells) const;
+  [[nodiscard]] bool collides(const Pose& from, const Pose& to, double radius_m) const;
   void move(Progress& progress, const Pose& to);
 
   World world_;
@@ -86,6 +97,7 @@ class ExplorationRun {
   TriangleScene scene_;
   Truth truth_;
   OccupancyMap map_;
+  std::optional<HeightBand> band_;
 };
 
 }  // namespace vantage

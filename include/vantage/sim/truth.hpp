@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/map/height_band.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
@@ -28,6 +30,10 @@ class Truth {
   /// Rasterises the world exactly (separating axes of each triangle and cell). Throws std::invalid_argument for a
   /// resolution that is not positive or a region that is empty.
   Truth(const World& world, double resolution_m, const Box& region);
+
+  /// The same for a robot that explores the plane of a band of heights (HeightBand): a column is occupied if a cell of
+  /// the band is, else grazed if one is, else free. Throws as HeightBand.
+  [[nodiscard]] Truth in_band(const HeightBandOptions& band) const;
 
   /// True state of a cell.
   [[nodiscard]] CellTruth at(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free); }
@@ -55,6 +61,9 @@ class Truth {
   [[nodiscard]] std::vector<VoxelIndex> lattice(const Platform& platform, const Pose& start) const;
 
  private:
+  Truth(const OccupancyMap& map, VoxelGrid<CellTruth> cells)
+      : map_(map), region_(*map.region()), cells_(std::move(cells)) {}
+
   OccupancyMap map_;
   VoxelBox region_;
   VoxelGrid<CellTruth> cells_;  // the region and, around it, what a ray may end on

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vantage/map/height_band.hpp>
+
+#include "map/option_rule.hpp"
+
+namespace vantage {
+namespace {
+
+void check(const HeightBandOptions& options) {
+  detail::require_option(std::isfinite(options.min_height_m), "HeightBandOptions::min_height_m", options.min_height_m,
+                         "finite");
+  detail::require_option(std::isfinite(options.max_height_m) && options.max_height_m >= options.min_height_m,
+                         "HeightBandOptions::max_height_m", options.max_height_m, ">= min_height_m");
+  detail::require_option(std::isfinite(options.sensor_height_m), "HeightBandOptions::sensor_height_m",
+                         options.sensor_height_m, "finite");
+  detail::require_option(options.free_share > 0.0 && options.free_share <= 1.0, "HeightBandOptions::free_share",
+                         options.free_share, "in (0, 1]");
+}
+
+// The options of the map itself, but for a region of the one layer.
+OccupancyMapOptions plane_options(const OccupancyMapOptions& of_map, const HeightBandOptions& options) {
+  check(options);
+  OccupancyMapOptions plane = of_map;
+  const double size_m = of_map.resolution_m;
+  const double layer_m = (std::floor(options.sensor_height_m / size_m) + 0.5) * size_m;
+  const double furthest_m = size_m * (kFurthestVoxel - 1);
+  Box region = of_map.region.value_or(
+      Box{Eigen::Vector3d::Constant(-furthest_m), Eigen::Vector3d::Constant(furthest_m)});
+  region.min.z() = layer_m - 0.25 * size_m;
+  region.max.z() = layer_m + 0.25 * size_m;
+  plane.region = region;
+  return plane;
+}
+
+}  // namespace
+
+HeightBand::HeightBand(const OccupancyMapOptions& of_map, const HeightBandOptions& options)
+    : options_(options), plane_(plane_options(of_map, options)) {
+  const VoxelFrame& frame = plane_.frame();
+  Box heights{Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(frame.size_m)};
+  heights.min.z() = options.min_height_m;
+  heights.max.z() = options.max_height_m;
+  const VoxelBox cells = frame.cells_centred_in(heights);
+  lowest_ = cells.lo.z;
+  above_ = cells.hi.z;
+  layer_ = plane_.region()->lo.z;
+  detail::require_option(lowest_ < above_, "HeightBandOptions::max_height_m", options.max_height_m,
+                         "such that the centre of a cell lies between the heights");
+}
+
+void HeightBand::follow(const OccupancyMap& map) {
+  if (map.resolution_m() != plane_.resolution_m()) {
+    throw std::invalid_argument("HeightBand::follow: the cells of the map are of another size");
+  }
+  if (!map_.is(map)) {
+    plane_ = OccupancyMap(plane_.options());
+    map_ = KnownMap(map);
+    followed_ = 0;
+  }
+  std::set<std::pair<std::int32_t, std::int32_t>> stale;  // addresses of the columns of bricks
+  for (const VoxelIndex& brick : map.changed_since(followed_)) {
+    const VoxelIndex first = Brick::first_cell(brick);
+    if (first.z < above_ && first.z + Brick::kSide > lowest_) {
+      stale.emplace(first.y, first.x);
+    }
+  }
+  for (const auto& [y, x] : stale) {
+    for_each_cell(VoxelBox{{x, y, layer_}, {x + Brick::kSide, y + Brick::kSide, layer_ + 1}},
+                  [&](const VoxelIndex& column) {
+                    const Occupancy state = state_of(map, column);
+                    if (plane_.at(column) != state) {
+                      plane_.set(column, state);
+                    }
+                  });
+  }
+  if (map.revision() != followed_) {
+    plane_.confirm();  // what has been looked at in vain has been looked at
+  }
+  followed_ = map.revision();
+}
+
+Occupancy HeightBand::state_of(const OccupancyMap& map, const VoxelIndex& column) const {
+  std::int32_t free = 0;
+  for (VoxelIndex cell{column.x, column.y, lowest_}; cell.z < above_; ++cell.z) {
+    const Occupancy state = map.at(cell);
+    if (state == Occupancy::Occupied) {
+      return Occupancy::Occupied;
+    }
+    free += state == Occupancy::Free ? 1 : 0;
+  }
+  return free > 0 && free >= options_.free_share * (above_ - lowest_) ? Occupancy::Free : Occupancy::Unknown;
+}
+
+}  // namespace vantage

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <vantage/robot/grid_path.hpp>
+#include <vantage/robot/ground_robot.hpp>
+
+#include "map/option_rule.hpp"
+#include "robot/body_cells.hpp"
+#include "robot/swept_sphere.hpp"
+
+namespace vantage {
+
+GroundRobot::GroundRobot(const GroundRobotOptions& options) : options_(options) {
+  detail::require_option(std::isfinite(options.radius_m) && options.radius_m >= 0.0, "GroundRobotOptions::radius_m",
+                         options.radius_m, ">= 0");
+  detail::require_option(std::isfinite(options.margin_m) && options.margin_m >= 0.0, "GroundRobotOptions::margin_m",
+                         options.margin_m, ">= 0");
+}
+
+bool GroundRobot::admits(const OccupancyMap& map, const Pose& pose) const {
+  const Eigen::Vector3d position = pose.translation();
+  if (!is_rigid(pose) || !map.frame().addressable(position) || std::abs(optical_axis(pose).z()) > 1e-6) {
+    return false;
+  }
+  const std::int32_t layer = map.frame().cell_of(position).z;
+  return detail::swept_sphere_is_clear(
+      map.frame(), position, position, reach_m(),
+      [&](const VoxelIndex& cell) { return cell.z != layer || map.is_clear(cell); });
+}
+
+bool GroundRobot::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
+  return admits(map, pose_looking(map.frame().centre_of(cell), 0.0));
+}
+
+VoxelGrid<std::uint8_t> GroundRobot::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
+  std::vector<VoxelIndex> touched = detail::touched_by_sphere(map.frame(), reach_m());
+  touched.erase(
+      std::remove_if(touched.begin(), touched.end(), [](const VoxelIndex& cell) { return cell.z != 0; }),
+      touched.end());
+  return detail::cells_for_body(map, box, touched);
+}
+
+bool GroundRobot::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
+  const VoxelFrame& frame = map.frame();
+  const Eigen::Vector3d a = from.translation();
+  const Eigen::Vector3d b = to.translation();
+  if (!frame.addressable(a) || !frame.addressable(b) || frame.cell_of(a).z != frame.cell_of(b).z) {
+    return false;
+  }
+  const std::int32_t layer = frame.cell_of(a).z;
+  return detail::swept_sphere_is_clear(frame, a, b, reach_m(), [&](const VoxelIndex& cell) {
+    return cell.z != layer || map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell);
+  });
+}
+
+Pose GroundRobot::facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const {
+  return pose_looking_level(position_m, direction);
+}
+
+double GroundRobot::distance_m(const Pose& from, const Pose& to) const {
+  return (to.translation() - from.translation()).norm();
+}
+
+std::optional<std::vector<Pose>> GroundRobot::path(const OccupancyMap& map, const Pose& from, const Pose& to) const {
+  return grid_path(map, *this, from, to);
+}
+
+Box GroundRobot::body_box(const Pose& pose) const {
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(std::max(reach_m(), 1e-9));
+  return {pose.translation() - reach, pose.translation() + reach};
+}
+
+}  // namespace vantage

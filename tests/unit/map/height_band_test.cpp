@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vantage/map/height_band.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr double kCell = 0.1;
+
+/// The definition, spelled out, for one column.
+Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
+  int cells = 0;
+  int free = 0;
+  for (std::int32_t z = -40; z < 40; ++z) {
+    const VoxelIndex cell{x, y, z};
+    const double height_m = map.frame().centre_of(cell).z();
+    if (height_m < options.min_height_m || height_m > options.max_height_m) {
+      continue;
+    }
+    if (map.at(cell) == Occupancy::Occupied) {
+      return Occupancy::Occupied;
+    }
+    ++cells;
+    free += map.at(cell) == Occupancy::Free ? 1 : 0;
+  }
+  return free > 0 && free >= options.free_share * cells ? Occupancy::Free : Occupancy::Unknown;
+}
+
+void change_at_random(OccupancyMap& map, std::mt19937& engine) {
+  std::uniform_int_distribution<std::int32_t> place(-12, 11);
+  std::uniform_int_distribution<std::int32_t> height(-20, 19);
+  std::uniform_int_distribution<int> state(0, 9);
+  for (int i = 0; i < 150; ++i) {
+    const VoxelIndex lo{place(engine), place(engine), height(engine)};
+    const int drawn = state(engine);
+    if (drawn < 7) {
+      map.set_log_odds(VoxelBox{lo, lo + VoxelIndex{3, 3, 9}}, -2.0);
+    } else {
+      map.set(lo, drawn == 7 ? Occupancy::Unknown : Occupancy::Occupied);
+    }
+  }
+}
+
+TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
+  std::size_t compared = 0;
+  std::size_t occupied = 0;
+  std::size_t free = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> metre(-1.5, 1.0);
+    const double low = metre(engine);
+    const HeightBandOptions options{.min_height_m = low,
+                                    .max_height_m = low + 0.73,
+                                    .sensor_height_m = metre(engine),
+                                    .free_share = seed % 3 == 0 ? 0.5 : 1.0};
+    OccupancyMap map({.resolution_m = kCell});
+    HeightBand band(map.options(), options);
+    for (int change = 0; change < 6; ++change) {
+      change_at_random(map, engine);
+      band.follow(map);
+      const std::int32_t layer = map.frame().cell_of({0.0, 0.0, options.sensor_height_m}).z;
+      EXPECT_EQ(band.plane().region()->lo.z, layer);
+      EXPECT_EQ(band.plane().region()->hi.z, layer + 1);
+      for_each_cell(VoxelBox{{-16, -16, layer}, {16, 16, layer + 1}}, [&](const VoxelIndex& cell) {
+        const Occupancy expected = column_of(map, cell.x, cell.y, options);
+        ASSERT_EQ(band.plane().at(cell), expected) << "seed " << seed << ", change " << change;
+        ASSERT_FALSE(band.plane().contested(cell));
+        ++compared;
+        occupied += expected == Occupancy::Occupied ? 1U : 0U;
+        free += expected == Occupancy::Free ? 1U : 0U;
+      });
+    }
+  }
+  EXPECT_EQ(compared, 12U * 6U * 32U * 32U);
+  EXPECT_GT(occupied, 500U);
+  EXPECT_GT(free, 1000U);
+}
+
+TEST(HeightBand, TellsOfALookInVainWithoutAChange) {
+  OccupancyMap map({.resolution_m = kCell});
+  HeightBand band(map.options(), {.min_height_m = 0.0, .max_height_m = 0.5, .sensor_height_m = 0.2});
+  map.set_log_odds(VoxelBox{{0, 0, 0}, {8, 8, 5}}, -2.0);
+  band.follow(map);
+  const OccupancyMap::Revision before = band.plane().revision();
+  band.follow(map);
+  EXPECT_EQ(band.plane().revision(), before);
+  map.set({3, 3, 30}, Occupancy::Occupied);  // above the band
+  map.set({3, 3, 7}, Occupancy::Occupied);   // above it, too, but in the same brick
+  band.follow(map);
+  EXPECT_GT(band.plane().revision(), before);
+  EXPECT_TRUE(band.plane().changed_since(before).empty());
+  EXPECT_EQ(band.plane().at({3, 3, 2}), Occupancy::Free);
+  map.set({3, 3, 4}, Occupancy::Occupied);
+  band.follow(map);
+  EXPECT_EQ(band.plane().at({3, 3, 2}), Occupancy::Occupied);
+}
+
+TEST(HeightBand, KeepsToTheRegionOfTheMap) {
+  OccupancyMap map({.resolution_m = kCell, .region = Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}});
+  HeightBand band(map.options(), {.min_height_m = 0.0, .max_height_m = 0.5, .sensor_height_m = 0.25});
+  EXPECT_EQ(*band.plane().region(), (VoxelBox{{0, 0, 2}, {10, 10, 3}}));
+}
+
+TEST(HeightBand, ProjectsAnotherMapFromItsBeginning) {
+  OccupancyMap first({.resolution_m = kCell});
+  HeightBand band(first.options(), {.min_height_m = 0.0, .max_height_m = 0.5, .sensor_height_m = 0.25});
+  first.set_log_odds(VoxelBox{{0, 0, 0}, {8, 8, 5}}, -2.0);
+  first.set({0, 0, 0}, Occupancy::Occupied);
+  band.follow(first);
+  OccupancyMap second({.resolution_m = kCell});
+  second.set_log_odds(VoxelBox{{4, 4, 0}, {8, 8, 5}}, -2.0);
+  band.follow(second);
+  EXPECT_EQ(band.plane().at({0, 0, 2}), Occupancy::Unknown);
+  EXPECT_EQ(band.plane().at({5, 5, 2}), Occupancy::Free);
+}
+
+TEST(HeightBand, NamesTheOptionAtFault) {
+  const auto message = [](const HeightBandOptions& options) -> std::string {
+    try {
+      const HeightBand band({.resolution_m = kCell}, options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({.min_height_m = 1.0, .max_height_m = 0.5}),
+            "HeightBandOptions::max_height_m is 0.5, must be >= min_height_m");
+  EXPECT_EQ(message({.min_height_m = 0.46, .max_height_m = 0.54}),
+            "HeightBandOptions::max_height_m is 0.54, must be such that the centre of a cell lies between the heights");
+  EXPECT_EQ(message({.free_share = 0.0}), "HeightBandOptions::free_share is 0, must be in (0, 1]");
+  EXPECT_NE(message({.sensor_height_m = std::nan("")}).find("sensor_height_m"), std::string::npos);
+  HeightBand band({.resolution_m = kCell}, {});
+  EXPECT_THROW(band.follow(OccupancyMap({.resolution_m = 0.2})), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vantage
