@@ -148,7 +148,8 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
                   "It drives, and explores the plane of these heights; the sensor is in their middle unless given")
       ->type_name("LOW,HIGH[,SENSOR]")
       ->group("Robot");
-  command.add_flag("--look-around", request.look_around, "It turns once on the spot, scanning, before the first plan")
+  command
+      .add_flag("--look-around", request.look_around, "It turns once on the spot, scanning, before the first plan")
       ->group("Robot");
   command.add_option("--scan-spacing", request.scan_spacing_m, "Metres between scans on the way; 0: at goals only")
       ->type_name("M")
@@ -168,8 +169,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME")
       ->capture_default_str()
       ->group("Run");
-  command
-      ->add_flag("--wear", request->wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
+  command->add_flag("--wear", request->wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);

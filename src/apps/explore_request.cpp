@@ -133,9 +133,8 @@ std::optional<HeightBandOptions> band_of(const ExploreRequest& request) {
   if (n.size() != 2 && n.size() != 3) {
     throw std::invalid_argument("--band has " + std::to_string(n.size()) + " numbers, must be LOW,HIGH[,SENSOR]");
   }
-  return HeightBandOptions{.min_height_m = n[0],
-                           .max_height_m = n[1],
-                           .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1])};
+  return HeightBandOptions{
+      .min_height_m = n[0], .max_height_m = n[1], .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1])};
 }
 
 std::optional<Pose> start_of(const ExploreRequest& request) {

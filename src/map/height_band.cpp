@@ -28,8 +28,8 @@ OccupancyMapOptions plane_options(const OccupancyMapOptions& of_map, const Heigh
   const double size_m = of_map.resolution_m;
   const double layer_m = (std::floor(options.sensor_height_m / size_m) + 0.5) * size_m;
   const double furthest_m = size_m * (kFurthestVoxel - 1);
-  Box region = of_map.region.value_or(
-      Box{Eigen::Vector3d::Constant(-furthest_m), Eigen::Vector3d::Constant(furthest_m)});
+  Box region =
+      of_map.region.value_or(Box{Eigen::Vector3d::Constant(-furthest_m), Eigen::Vector3d::Constant(furthest_m)});
   region.min.z() = layer_m - 0.25 * size_m;
   region.max.z() = layer_m + 0.25 * size_m;
   plane.region = region;

@@ -23,9 +23,8 @@ bool GroundRobot::admits(const OccupancyMap& map, const Pose& pose) const {
     return false;
   }
   const std::int32_t layer = map.frame().cell_of(position).z;
-  return detail::swept_sphere_is_clear(
-      map.frame(), position, position, reach_m(),
-      [&](const VoxelIndex& cell) { return cell.z != layer || map.is_clear(cell); });
+  return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
+                                       [&](const VoxelIndex& cell) { return cell.z != layer || map.is_clear(cell); });
 }
 
 bool GroundRobot::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
@@ -34,9 +33,8 @@ bool GroundRobot::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) c
 
 VoxelGrid<std::uint8_t> GroundRobot::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
   std::vector<VoxelIndex> touched = detail::touched_by_sphere(map.frame(), reach_m());
-  touched.erase(
-      std::remove_if(touched.begin(), touched.end(), [](const VoxelIndex& cell) { return cell.z != 0; }),
-      touched.end());
+  touched.erase(std::remove_if(touched.begin(), touched.end(), [](const VoxelIndex& cell) { return cell.z != 0; }),
+                touched.end());
   return detail::cells_for_body(map, box, touched);
 }
 

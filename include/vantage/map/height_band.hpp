@@ -11,8 +11,8 @@ namespace vantage {
 /// Which heights of a map count for a robot that drives, and where its plane lies. Cells count whose centres lie
 /// between the two heights.
 struct HeightBandOptions {
-  double min_height_m = 0.1;    ///< lowest z that stands in the robot's way
-  double max_height_m = 1.0;    ///< highest z, >= min_height_m
+  double min_height_m = 0.1;     ///< lowest z that stands in the robot's way
+  double max_height_m = 1.0;     ///< highest z, >= min_height_m
   double sensor_height_m = 0.5;  ///< z of the sensor: its layer of cells is the plane
   /// Share of the cells of a column that must be free before the column is, in (0, 1]. With 1 a camera that sees only
   /// a part of the band from nearby, as most do, is shut in by what it stands beside.
@@ -20,12 +20,12 @@ struct HeightBandOptions {
 };
 
 /// A map of one layer of cells: what stands between two heights of another map, projected to the plane of a sensor
-/// that does not leave it. Planners explore it like any other map (Shade & Newman 2011 explore in two dimensions, in a
-/// single plane of the grid); together with a GroundRobot the harmonic field becomes one of two dimensions.
+/// that does not leave it. Planners explore it like any other map (Shade & Newman 2011 explore in two dimensions, in
+/// a single plane of the grid); together with a GroundRobot the harmonic field becomes one of two dimensions.
 ///
 /// A column of the band is occupied if a cell of it is; free if none is and at least `free_share` of its cells are
-/// free; else unknown. Its cells lie at the clamping limits, so none is contested: rays at a grazing angle wear a wall
-/// away cell by cell, hardly ever a column of it.
+/// free; else unknown. Its cells lie at the clamping limits, so none is contested: rays at a grazing angle wear a
+/// wall away cell by cell, hardly ever a column of it.
 ///
 ///     HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.2, .sensor_height_m = 0.8});
 ///     map.insert(scan);

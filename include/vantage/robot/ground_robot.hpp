@@ -12,8 +12,8 @@ struct GroundRobotOptions {
 };
 
 /// A disc that drives in one layer of cells, its sensor level: for the plane of a HeightBand, in which every cell
-/// speaks for all heights of the robot. Only cells of the sensor's own layer count; each that the disc touches must be
-/// known free and not contested.
+/// speaks for all heights of the robot. Only cells of the sensor's own layer count; each that the disc touches must
+/// be known free and not contested.
 class GroundRobot final : public Platform {
  public:
   GroundRobot() : GroundRobot(GroundRobotOptions{}) {}

@@ -34,7 +34,7 @@ struct ExplorationRunOptions {
   /// sees no way past what lies beside the body.
   bool look_around = false;
   std::uint64_t seed = 1;  ///< of the sensor's noise
-  SensorNoise noise = {};       ///< of the simulated sensor
+  SensorNoise noise = {};  ///< of the simulated sensor
   /// Of the sphere whose touching a true surface is a collision, >= 0; none: half the least extent of
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;

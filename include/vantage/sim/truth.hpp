@@ -31,8 +31,8 @@ class Truth {
   /// resolution that is not positive or a region that is empty.
   Truth(const World& world, double resolution_m, const Box& region);
 
-  /// The same for a robot that explores the plane of a band of heights (HeightBand): a column is occupied if a cell of
-  /// the band is, else grazed if one is, else free. Throws as HeightBand.
+  /// The same for a robot that explores the plane of a band of heights (HeightBand): a column is occupied if a cell
+  /// of the band is, else grazed if one is, else free. Throws as HeightBand.
   [[nodiscard]] Truth in_band(const HeightBandOptions& band) const;
 
   /// True state of a cell.

@@ -130,8 +130,9 @@ TEST(HeightBand, NamesTheOptionAtFault) {
   };
   EXPECT_EQ(message({.min_height_m = 1.0, .max_height_m = 0.5}),
             "HeightBandOptions::max_height_m is 0.5, must be >= min_height_m");
-  EXPECT_EQ(message({.min_height_m = 0.46, .max_height_m = 0.54}),
-            "HeightBandOptions::max_height_m is 0.54, must be such that the centre of a cell lies between the heights");
+  EXPECT_EQ(
+      message({.min_height_m = 0.46, .max_height_m = 0.54}),
+      "HeightBandOptions::max_height_m is 0.54, must be such that the centre of a cell lies between the heights");
   EXPECT_EQ(message({.free_share = 0.0}), "HeightBandOptions::free_share is 0, must be in (0, 1]");
   EXPECT_NE(message({.sensor_height_m = std::nan("")}).find("sensor_height_m"), std::string::npos);
   HeightBand band({.resolution_m = kCell}, {});
