@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Explores the worlds of docs/results.md and prints its table: examples/results.sh [WHAT...], where WHAT is among
-# house-coarse house-fine collapsed-house office office-kept (default: all of them). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage names another).
-# Reports that lie in the folder RESULTS (default: build/results) already are not made again.
+# house-coarse house-fine collapsed-house office plane (default: all but plane, an office driven through instead of
+# flown). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage names another). EXTRA holds further options of
+# vantage explore, "--wear" for instance. Reports that lie in the folder RESULTS (default: build/results) already are not
+# made again.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 : "${VANTAGE_DATA:?must name the folder with the worlds}"
@@ -15,14 +17,14 @@ value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\).*/\1/p" "$1" | head -1; }
 
 # explore TITLE RESOLUTION PLANNERS WORLD OPTION...: one row for every planner and start.
 explore() {
-  local title=$1 resolution=$2 planners=$3 world=$VANTAGE_DATA/environments/$4 planner seed report
+  local title=$1 resolution=$2 planners=$3 world=$4 planner seed report
   shift 4
   for planner in $planners; do
     for seed in $seeds; do
       report=$results/${title// /-}-$resolution-$planner-$seed.json
       if [[ ! -s $report ]]; then
         echo "$title, $resolution m, $planner, start $seed" >&2
-        "$vantage" explore --world "$world" --planner "$planner" --resolution "$resolution" --seed "$seed" "$@" \
+        "$vantage" explore --world "$world" --planner "$planner" --resolution "$resolution" --seed "$seed" "$@" ${EXTRA:-} \
           --json "$report" > /dev/null || [[ $? -eq 3 ]]
       fi
       printf '| %s | %s | %s | %s | %s | %s | %.1f | %.4f | %s | %.0f | %.0f |\n' "$title" "$resolution" "$planner" \
@@ -36,8 +38,9 @@ explore() {
 
 echo '| world | cells, m | planner | start | outcome | views | path, m | coverage | collisions | plan, ms | longest |'
 echo '|---|---|---|---|---|---|---|---|---|---|---|'
-house=aws_small_house/small_house_visual.ply
-for what in "${@:-house-coarse house-fine collapsed-house office office-kept}"; do
+environments=$VANTAGE_DATA/environments
+house=$environments/aws_small_house/small_house_visual.ply
+for what in "${@:-house-coarse house-fine collapsed-house office}"; do
   for part in $what; do
     case $part in
       house-coarse)
@@ -47,17 +50,19 @@ for what in "${@:-house-coarse house-fine collapsed-house office office-kept}"; 
         explore 'small house' 0.1 'harmonic nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4 --max-views 2000
         ;;
       collapsed-house)
-        explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/collapsed_house.ply --max-views 2000
+        explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' $environments/gazebo/collapsed_house.ply --max-views 2000
         ;;
       office)
-        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/osrf_first_office.ply --max-views 8000
+        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' $environments/gazebo/osrf_first_office.ply --max-views 8000
         ;;
-      office-kept)
-        explore 'office, surfaces kept' 0.2 'harmonic nearest-frontier frontier-gain' gazebo/osrf_first_office.ply \
-          --max-views 8000 --keep-grazed
+      plane)
+        for spacing in 0.5 0; do
+          explore "plane, a scan every $spacing m" 0.1 'harmonic nearest-frontier frontier-gain' office --size 15,10 \
+            --band 0.2,1.4 --look-around --sensor stereo --max-views 1500 --scan-spacing $spacing
+        done
         ;;
       *)
-        echo "results.sh: '$part' is none of house-coarse house-fine collapsed-house office office-kept" >&2
+        echo "results.sh: '$part' is none of house-coarse house-fine collapsed-house office plane" >&2
         exit 2
         ;;
     esac

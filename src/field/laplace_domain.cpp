@@ -253,48 +253,4 @@ LaplaceDomain known_free_domain(const OccupancyMap& map) {
   return domain;
 }
 
-LaplaceDomain known_free_plane(const OccupancyMap& map, std::int32_t lowest, std::int32_t highest) {
-  if (highest < lowest) {
-    throw std::invalid_argument("known_free_plane: highest is " + std::to_string(highest) + ", must be >= lowest, " +
-                                std::to_string(lowest));
-  }
-  const auto column = [&](const VoxelIndex& foot) {
-    Occupancy state = Occupancy::Free;
-    for (VoxelIndex cell = foot; cell.z <= highest; ++cell.z) {
-      if (const Occupancy here = map.at(cell); here == Occupancy::Occupied) {
-        return here;
-      } else if (here == Occupancy::Unknown) {
-        state = here;
-      }
-    }
-    return state;
-  };
-  LaplaceDomain plane;
-  const auto add = [&](const VoxelIndex& foot) {
-    const bool is_sink =
-        std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.begin() + 4, [&](const VoxelIndex& step) {
-          return map.in_region(foot + step) && column(foot + step) == Occupancy::Unknown;
-        });
-    if (is_sink) {
-      plane.insert_sink(foot);
-    } else {
-      plane.insert(foot);
-    }
-  };
-  map.for_each_brick([&](const VoxelIndex& address, const vantage::Brick&) {
-    const VoxelIndex first = vantage::Brick::first_cell(address);
-    if (lowest < first.z || lowest >= first.z + vantage::Brick::kSide) {
-      return;
-    }
-    for_each_cell(
-        {{first.x, first.y, lowest}, {first.x + vantage::Brick::kSide, first.y + vantage::Brick::kSide, lowest + 1}},
-        [&](const VoxelIndex& foot) {
-          if (column(foot) == Occupancy::Free) {
-            add(foot);
-          }
-        });
-  });
-  return plane;
-}
-
 }  // namespace vantage

@@ -93,10 +93,5 @@ class LaplaceDomain {
 
 /// All free cells of a map, its frontier cells (frontiers.hpp) as sinks: the problem of a sensor without a body.
 [[nodiscard]] LaplaceDomain known_free_domain(const OccupancyMap& map);
-/// The cells from z = `lowest` to z = `highest`, both included, projected to the plane z = `lowest`, for a robot that
-/// fills this height and moves in two dimensions, as that of Shade & Newman 2011, VI: a column is occupied if one of
-/// its cells is, free if all are, and else unknown; the free ones are the domain, those beside an unknown one in the
-/// map's region its sinks. Throws std::invalid_argument if `highest` is below `lowest`.
-[[nodiscard]] LaplaceDomain known_free_plane(const OccupancyMap& map, std::int32_t lowest, std::int32_t highest);
 
 }  // namespace vantage
