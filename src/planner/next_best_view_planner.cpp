@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <stdexcept>
 #include <string>
@@ -202,7 +203,10 @@ std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& ma
   const SensingConstraint sensing =
       options_.sensing.restricts() ? measurable(map, object, options_.sensing) : nullptr;
   const UniformRayTracer uniform(map);
-  const HierarchicalRayTracer hierarchical(map, setup_.sensor, {.levels = options_.hierarchical_levels});
+  std::optional<HierarchicalRayTracer> hierarchical;
+  if (options_.method == VisibilityMethod::Hierarchical) {
+    hierarchical.emplace(map, setup_.sensor, HierarchicalRayTracerOptions{.levels = options_.hierarchical_levels});
+  }
   std::vector<ViewEvaluation> evaluations(views.size());
   detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
     if (options_.method == VisibilityMethod::Uniform) {
@@ -214,8 +218,8 @@ std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& ma
       sensing(views[i], seen[i]);
       evaluations[i] = {caster_->count(seen[i], Occupancy::Unknown), caster_->count(seen[i], Occupancy::Occupied)};
     }
-    if (options_.method == VisibilityMethod::Hierarchical) {
-      const HierarchicalCounts counts = hierarchical.evaluate(views[i], object);
+    if (hierarchical) {
+      const HierarchicalCounts counts = hierarchical->evaluate(views[i], object);
       evaluations[i] = {counts.unknown, counts.occupied};
     }
   });
