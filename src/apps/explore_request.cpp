@@ -114,15 +114,21 @@ std::optional<Box> region_of(const ExploreRequest& request) {
   if (request.region.empty()) {
     return std::nullopt;
   }
-  const std::vector<double> n = numbers_of("--region", request.region);
+  return box_of("--region", request.region);
+}
+
+Box box_of(const char* flag, const std::string& text) {
+  const std::vector<double> n = numbers_of(flag, text);
   if (n.size() != 6) {
-    throw std::invalid_argument("--region has " + std::to_string(n.size()) + " numbers, must be x0,y0,z0,x1,y1,z1");
+    throw std::invalid_argument(std::string(flag) + " has " + std::to_string(n.size()) +
+                                " numbers, must be x0,y0,z0,x1,y1,z1");
   }
-  const Box region{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-  if (region.empty()) {
-    throw std::invalid_argument("--region '" + request.region + "' is empty: x0 < x1, y0 < y1 and z0 < z1 must hold");
+  const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  if (box.empty()) {
+    throw std::invalid_argument(std::string(flag) + " '" + text +
+                                "' is empty: x0 < x1, y0 < y1 and z0 < z1 must hold");
   }
-  return region;
+  return box;
 }
 
 std::optional<HeightBandOptions> band_of(const ExploreRequest& request) {

@@ -59,6 +59,8 @@ struct ExploreRequest {
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
 /// How far measurements are off.
 [[nodiscard]] SensorNoise noise_of(const ExploreRequest& request);
+/// The box "x0,y0,z0,x1,y1,z1" that `flag` was given.
+[[nodiscard]] Box box_of(const char* flag, const std::string& text);
 /// Numbers and ranges that no file is needed for.
 void check_numbers(const ExploreRequest& request);
 /// That a region has no more cells than fit in memory: the truth keeps a byte and more for each, and a slip of the

@@ -80,12 +80,7 @@ TriangleMesh placed_object(const ReconstructRequest& request) {
 
 Box object_box_of(const ReconstructRequest& request, const TriangleMesh& object) {
   if (!request.object_box.empty()) {
-    const std::vector<double> n = numbers_of("--object-box", request.object_box);
-    if (n.size() != 6 || !(n[0] < n[3] && n[1] < n[4] && n[2] < n[5])) {
-      throw std::invalid_argument("--object-box '" + request.object_box +
-                                  "' must be x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and z0 < z1");
-    }
-    return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    return box_of("--object-box", request.object_box);
   }
   constexpr double kMarginM = 0.03;
   Box box = object.bounds();

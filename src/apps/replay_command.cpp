@@ -164,6 +164,11 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->add_flag("--select", request->select,
                  "Let planners choose the order of the views, and compare how soon they know how much")
       ->group("Run");
+  command
+      ->add_option("--object-box", request->object_box,
+                   "With --select: an object's box, metres; only its cells count, all around it is known to be free")
+      ->type_name("x0,y0,z0,x1,y1,z1")
+      ->group("Run");
   add_setting_option(*command, request->run, "A setting of every planner named, as often as needed");
   add_run_options(*command, request->run);
   add_output_options(*command, request->run);

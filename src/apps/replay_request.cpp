@@ -13,6 +13,9 @@ namespace vantage::apps {
 void check_numbers(const ReplayRequest& request) {
   check_numbers(request.run);
   detail::require_option(request.max_range_m >= 0.0, "--max-range", request.max_range_m, ">= 0 metres");
+  if (!request.object_box.empty() && !request.select) {
+    throw std::invalid_argument("--object-box says what counts for --select, which is not given");
+  }
   detail::require_option(request.every > 0, "--every", request.every, "> 0");
 }
 
@@ -34,6 +37,10 @@ Recording recording_of(const ReplayRequest& request) {
 
 OccupancyMapOptions map_options_of(const ReplayRequest& request) {
   return {.resolution_m = request.run.resolution_m, .region = region_of(request.run)};
+}
+
+std::optional<Box> object_of(const ReplayRequest& request) {
+  return request.object_box.empty() ? std::nullopt : std::optional(box_of("--object-box", request.object_box));
 }
 
 std::vector<std::unique_ptr<ExplorationPlanner>> planners_of(const ReplayRequest& request, const RangeSensor& sensor,

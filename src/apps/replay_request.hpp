@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -20,6 +21,7 @@ struct ReplayRequest {
   std::string intrinsics;
   double max_range_m = 0.0;  // 0: as the format has it
   std::size_t every = 1;
+  std::string object_box;
   bool select = false;
   ExploreRequest run;  // what the commands share
 
@@ -34,6 +36,8 @@ struct ReplayRequest {
 void check_numbers(const ReplayRequest& request);
 [[nodiscard]] Recording recording_of(const ReplayRequest& request);
 [[nodiscard]] OccupancyMapOptions map_options_of(const ReplayRequest& request);
+/// The box of the object that was recorded, if one was.
+[[nodiscard]] std::optional<Box> object_of(const ReplayRequest& request);
 /// The planners by their names, in the order asked for.
 [[nodiscard]] std::vector<std::unique_ptr<ExplorationPlanner>> planners_of(
     const ReplayRequest& request, const RangeSensor& sensor, const std::shared_ptr<const Platform>& platform);

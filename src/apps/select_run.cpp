@@ -101,7 +101,7 @@ RecordedViews views_of(const ReplayRequest& request, const Recording& recording,
     throw std::runtime_error(request.dataset + ": there are " + std::to_string(scans.size()) +
                              " frames to choose among, must be two");
   }
-  return {std::move(scans), map_options_of(request)};
+  return {std::move(scans), map_options_of(request), object_of(request)};
 }
 
 Contender chosen(const RecordedViews& views, const std::string& name, const ChooseView& choose,
@@ -122,15 +122,22 @@ Contender chosen(const RecordedViews& views, const std::string& name, const Choo
 void add_choosers(const ReplayRequest& request, const Recording& recording, const RecordedViews& views,
                   ProgressStream& told, std::vector<Contender>& contenders) {
   const RangeSensor sensor = recording.sensor();
+  const auto threads = static_cast<std::size_t>(request.run.threads);
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
   const auto planners = planners_of(request, sensor, platform);
-  ChoosingPrinter printer(told, (planners.size() + 1) * (views.size() - 1));
-  contenders.push_back(chosen(views, "expected cells", most_expected_cells(views, sensor), printer));
+  // What a planner asks for, by the view nearest to it; and the views judged by what it looks for.
+  std::vector<std::pair<std::string, ChooseView>> choosers{{"expected cells", most_expected_cells(views, sensor)}};
   for (const auto& planner : planners) {
     const std::string name(planner->name());
-    const ChooseView choose = name == "next-best-view"
-                                  ? most_unknown_cells(views, sensor, static_cast<std::size_t>(request.run.threads))
-                                  : nearest_to_goal(views, *planner, kMetresPerRadian);
+    if (name == "next-best-view") {
+      choosers.emplace_back(name, most_unknown_cells(views, sensor, threads));
+      continue;
+    }
+    choosers.emplace_back(name, nearest_to_goal(views, *planner, kMetresPerRadian));
+    choosers.emplace_back(name + ", by aim", most_for_what_is_sought(views, sensor, *planner));
+  }
+  ChoosingPrinter printer(told, choosers.size() * (views.size() - 1));
+  for (const auto& [name, choose] : choosers) {
     contenders.push_back(chosen(views, name, choose, printer));
   }
   printer.finish();
@@ -166,12 +173,12 @@ void print_table(std::ostream& out, const Comparison& comparison) {
   char text[256];
   const double volume = comparison.greedy_volume.volume_area();
   const double surface = comparison.greedy_surface.surface_area();
-  std::snprintf(text, sizeof text, "\n%-20s %7s %9s %8s   %8s %9s %8s  %12s\n", "", "volume", "of greedy", "> random",
+  std::snprintf(text, sizeof text, "\n%-24s %7s %9s %8s   %8s %9s %8s  %12s\n", "", "volume", "of greedy", "> random",
                 "surface", "of greedy", "> random", "choosing");
   out << text;
   for (const Contender& contender : comparison.contenders) {
     const ViewOrderCurve& curve = contender.curve;
-    std::snprintf(text, sizeof text, "%-20s %7.4f %7.1f %% %6.0f %%   %8.4f %7.1f %% %6.0f %%", curve.name.c_str(),
+    std::snprintf(text, sizeof text, "%-24s %7.4f %7.1f %% %6.0f %%   %8.4f %7.1f %% %6.0f %%", curve.name.c_str(),
                   curve.volume_area(), 100.0 * curve.volume_area() / volume, 100.0 * contender.above_random_volume,
                   curve.surface_area(), 100.0 * curve.surface_area() / surface,
                   100.0 * contender.above_random_surface);
@@ -182,7 +189,7 @@ void print_table(std::ostream& out, const Comparison& comparison) {
     }
     out << '\n';
   }
-  std::snprintf(text, sizeof text, "%-20s %7.4f %7.1f %% %8s   %8.4f %7.1f %%\n", "greedy", volume, 100.0, "",
+  std::snprintf(text, sizeof text, "%-24s %7.4f %7.1f %% %8s   %8.4f %7.1f %%\n", "greedy", volume, 100.0, "",
                 surface, 100.0);
   out << text
       << "\nAreas under the curves of what is known over the number of views, as shares of what all views know;\n"

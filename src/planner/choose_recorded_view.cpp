@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/recorded_views.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
@@ -72,6 +73,12 @@ class RangeShares {
   std::vector<double> beyond_;
 };
 
+// How many cells a view is expected to make known, and how many of them are marked.
+struct ExpectedGain {
+  double cells = 0.0;
+  double marked = 0.0;
+};
+
 // The chance of every cell of a box to become known, one value per cell; only what was touched is cleared again.
 class Chances {
  public:
@@ -85,36 +92,52 @@ class Chances {
     if (!box_.contains(cell)) {
       return;
     }
-    const auto x = static_cast<std::size_t>(cell.x - box_.lo.x);
-    const auto y = static_cast<std::size_t>(cell.y - box_.lo.y);
-    const auto z = static_cast<std::size_t>(cell.z - box_.lo.z);
-    float& value = chance_[(z * depth_ + y) * width_ + x];
+    const std::size_t at = position(cell);
+    float& value = chance_[at];
     if (value == 0.0F) {
-      touched_.push_back(&value);
+      touched_.push_back(at);
     }
     value = std::max(value, static_cast<float>(chance));
   }
-  /// The sum over all cells; afterwards every chance is 0 again.
-  double take_sum() {
-    double sum = 0.0;
-    for (float* value : touched_) {
-      sum += static_cast<double>(*value);
-      *value = 0.0F;
+  /// Marks cells, for as long as no others are marked.
+  void mark(const std::vector<VoxelIndex>& cells) {
+    marked_.assign(chance_.size(), false);
+    for (const VoxelIndex& cell : cells) {
+      if (box_.contains(cell)) {
+        marked_[position(cell)] = true;
+      }
+    }
+  }
+  /// The sum over all cells, and that over the marked ones; afterwards every chance is 0 again.
+  ExpectedGain take_sums() {
+    ExpectedGain gain;
+    for (const std::size_t position : touched_) {
+      const auto chance = static_cast<double>(std::exchange(chance_[position], 0.0F));
+      gain.cells += chance;
+      gain.marked += !marked_.empty() && marked_[position] ? chance : 0.0;
     }
     touched_.clear();
-    return sum;
+    return gain;
   }
 
  private:
+  [[nodiscard]] std::size_t position(const VoxelIndex& cell) const {
+    const auto x = static_cast<std::size_t>(cell.x - box_.lo.x);
+    const auto y = static_cast<std::size_t>(cell.y - box_.lo.y);
+    const auto z = static_cast<std::size_t>(cell.z - box_.lo.z);
+    return (z * depth_ + y) * width_ + x;
+  }
+
   VoxelBox box_;
   std::size_t width_;
   std::size_t depth_;
   std::vector<float> chance_;
-  std::vector<float*> touched_;
+  std::vector<bool> marked_;
+  std::vector<std::size_t> touched_;
 };
 
-double expected_cells(const OccupancyMap& map, const Pose& pose, const std::vector<Eigen::Vector3f>& directions,
-                      double range_m, const RangeShares& shares, Chances& chances) {
+ExpectedGain expected_gain(const OccupancyMap& map, const Pose& pose, const std::vector<Eigen::Vector3f>& directions,
+                           double range_m, const RangeShares& shares, Chances& chances) {
   constexpr double kHopeless = 0.02;
   const Eigen::Vector3d from = pose.translation();
   for (const Eigen::Vector3f& direction : directions) {
@@ -135,7 +158,50 @@ double expected_cells(const OccupancyMap& map, const Pose& pose, const std::vect
       }
     }
   }
-  return chances.take_sum();
+  return chances.take_sums();
+}
+
+// Asked view by view, it learns from each how far returns come.
+class ExpectedGains {
+ public:
+  ExpectedGains(const RecordedViews& views, const RangeSensor& sensor)
+      : views_(&views),
+        range_m_(sensor.max_range_m),
+        shares_(views.options().resolution_m, sensor.max_range_m),
+        directions_(sensor.rays_for(views.options().resolution_m).directions()),
+        chances_(cells_that_count(views, VoxelFrame{views.options().resolution_m}, sensor.max_range_m)) {}
+
+  /// The gains of the views `left`, in their order.
+  std::vector<ExpectedGain> of(const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left,
+                               const std::vector<VoxelIndex>& marked) {
+    shares_.add(views_->scans()[last]);
+    chances_.mark(marked);
+    std::vector<ExpectedGain> gains;
+    gains.reserve(left.size());
+    for (const std::size_t view : left) {
+      const Pose& pose = views_->scans()[view].world_from_sensor;
+      gains.push_back(expected_gain(map, pose, directions_, range_m_, shares_, chances_));
+    }
+    return gains;
+  }
+
+ private:
+  const RecordedViews* views_;
+  double range_m_;
+  RangeShares shares_;
+  std::vector<Eigen::Vector3f> directions_;
+  Chances chances_;
+};
+
+// A view that shows this share of the most that any shows of what is sought will do.
+constexpr double kEnough = 0.5;
+
+// By what each gain is worth; of equal ones the first.
+template <class Worth>
+std::size_t best_of(std::span<const std::size_t> left, const std::vector<ExpectedGain>& gains, const Worth& worth) {
+  const auto best =
+      std::max_element(gains.begin(), gains.end(), [&](const auto& a, const auto& b) { return worth(a) < worth(b); });
+  return left[static_cast<std::size_t>(best - gains.begin())];
 }
 
 }  // namespace
@@ -157,25 +223,22 @@ ChooseView most_unknown_cells(const RecordedViews& views, const RangeSensor& sen
 }
 
 ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& sensor) {
-  const double cell_m = views.options().resolution_m;
-  const auto shares = std::make_shared<RangeShares>(cell_m, sensor.max_range_m);
-  const auto directions = std::make_shared<const std::vector<Eigen::Vector3f>>(sensor.rays_for(cell_m).directions());
-  const VoxelFrame frame{views.options().resolution_m};
-  const auto chances = std::make_shared<Chances>(cells_that_count(views, frame, sensor.max_range_m));
-  return [&views, shares, directions, chances, range_m = sensor.max_range_m](
-             const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left) {
-    shares->add(views.scans()[last]);
-    double most = -1.0;
-    std::size_t best = left.front();
-    for (const std::size_t view : left) {
-      const double cells =
-          expected_cells(map, views.scans()[view].world_from_sensor, *directions, range_m, *shares, *chances);
-      if (cells > most) {
-        most = cells;
-        best = view;
-      }
-    }
-    return best;
+  const auto expected = std::make_shared<ExpectedGains>(views, sensor);
+  return [expected](const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left) {
+    return best_of(left, expected->of(map, last, left, {}), [](const ExpectedGain& gain) { return gain.cells; });
+  };
+}
+
+ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
+                                   ExplorationPlanner& planner) {
+  const auto expected = std::make_shared<ExpectedGains>(views, sensor);
+  return [&views, &planner, expected](const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left) {
+    const Plan plan = planner.plan(map, views.scans()[last].world_from_sensor);
+    const std::vector<ExpectedGain> gains = expected->of(map, last, left, plan.sought);
+    const auto most = std::max_element(gains.begin(), gains.end(),
+                                       [](const auto& a, const auto& b) { return a.marked < b.marked; });
+    const double enough = most->marked < 1.0 ? 0.0 : kEnough * most->marked;
+    return best_of(left, gains, [&](const ExpectedGain& gain) { return gain.marked < enough ? -1.0 : gain.cells; });
   };
 }
 

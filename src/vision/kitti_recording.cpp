@@ -28,11 +28,7 @@ std::vector<std::optional<Pose>> poses_in(const std::filesystem::path& file) {
   std::vector<std::optional<Pose>> poses;
   for (const detail::TextLine& line : detail::lines_of(file)) {
     const auto numbers = detail::numbers_in(line.text);
-    if (!numbers || numbers->size() != 12) {
-      throw std::runtime_error(file.string() + ": line " + std::to_string(line.number) +
-                               " is not a pose of 12 numbers");
-    }
-    poses.push_back(detail::pose_of_rows(*numbers));
+    poses.push_back(numbers && numbers->size() == 12 ? detail::pose_of_rows(*numbers) : std::nullopt);
   }
   return poses;
 }
@@ -51,7 +47,8 @@ Recording open_kitti_stereo(RecordingReader reader) {
       if (number >= poses.size()) {
         reader.skip(name, "poses.txt ends after " + std::to_string(poses.size()) + " poses");
       } else if (!poses[number]) {
-        reader.skip(name, "row " + std::to_string(number + 1) + " of poses.txt is not a rigid transform");
+        reader.skip(name,
+                    "row " + std::to_string(number + 1) + " of poses.txt is not a rigid transform of 12 numbers");
       } else if (!std::filesystem::exists(right / file.filename())) {
         reader.skip(name, "there is no " + (right / file.filename()).string());
       } else {

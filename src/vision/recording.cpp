@@ -15,10 +15,8 @@ using Opener = Recording (*)(RecordingReader);
 
 const std::vector<std::pair<std::string_view, Opener>>& openers() {
   static const std::vector<std::pair<std::string_view, Opener>> all{
-      {"7scenes", open_seven_scenes},
-      {"apc", open_apc},
-      {"kitti-stereo", open_kitti_stereo},
-      {"tum", open_tum},
+      {"7scenes", open_seven_scenes}, {"apc", open_apc}, {"kitti-stereo", open_kitti_stereo},
+      {"stanford", open_stanford},    {"tum", open_tum},
   };
   return all;
 }
@@ -61,16 +59,20 @@ const std::vector<std::string_view>& Recording::formats() {
   return names;
 }
 
-RecordedReading Recording::read(std::size_t frame) const {
-  const RecordedFrame& wanted = frames_.at(frame);
-  RecordedReading reading{read_depth_(wanted), {}};
-  if (reading.depth.width != camera_.width || reading.depth.height != camera_.height) {
-    throw std::runtime_error(wanted.depth.string() + ": is " + std::to_string(reading.depth.width) + " x " +
-                             std::to_string(reading.depth.height) + " pixels, the recording's first image is " +
-                             std::to_string(camera_.width) + " x " + std::to_string(camera_.height));
-  }
-  reading.scan = depth_scan(reading.depth, camera_, wanted.world_from_posed);
-  return reading;
+RecordedReading Recording::read(std::size_t frame) const { return read_(frames_.at(frame), camera_); }
+
+void RecordingReader::read_depth_by(std::function<DepthImage(const RecordedFrame&)> read) {
+  read_depth_ = std::move(read);
+  read_by([read_depth = read_depth_](const RecordedFrame& wanted, const DepthCamera& camera) {
+    RecordedReading reading{read_depth(wanted), {}};
+    if (reading.depth.width != camera.width || reading.depth.height != camera.height) {
+      throw std::runtime_error(wanted.depth.string() + ": is " + std::to_string(reading.depth.width) + " x " +
+                               std::to_string(reading.depth.height) + " pixels, the recording's first image is " +
+                               std::to_string(camera.width) + " x " + std::to_string(camera.height));
+    }
+    reading.scan = depth_scan(reading.depth, camera, wanted.world_from_posed);
+    return reading;
+  });
 }
 
 void RecordingReader::read_depth_png_as(DepthEncoding encoding) {
@@ -89,7 +91,7 @@ Recording RecordingReader::finish(DepthCamera camera, bool sized) {
   std::string unread;  // the first frame's file may be the damaged one
   for (std::size_t i = 0; i < recording_.frames_.size() && !sized; ++i) {
     try {
-      const DepthImage first = recording_.read_depth_(recording_.frames_[i]);
+      const DepthImage first = read_depth_(recording_.frames_[i]);
       camera.width = first.width;
       camera.height = first.height;
       sized = true;

@@ -23,9 +23,11 @@ class RecordingReader {
     recording_.skipped_.push_back({std::move(name), std::move(reason)});
   }
   void count_normalised() { ++recording_.normalised_; }
-  void read_depth_by(std::function<DepthImage(const RecordedFrame&)> read) {
-    recording_.read_depth_ = std::move(read);
+  /// How a frame becomes a reading, where it is not by a depth image.
+  void read_by(std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read) {
+    recording_.read_ = std::move(read);
   }
+  void read_depth_by(std::function<DepthImage(const RecordedFrame&)> read);
   /// Depth images as PNG files.
   void read_depth_png_as(DepthEncoding encoding);
   /// The camera, whose size the first frame's image decides unless `sized`; options override what it says.
@@ -35,12 +37,14 @@ class RecordingReader {
   std::filesystem::path folder_;
   RecordingOptions options_;
   Recording recording_;
+  std::function<DepthImage(const RecordedFrame&)> read_depth_;
 };
 
 [[nodiscard]] Recording open_tum(RecordingReader reader);
 [[nodiscard]] Recording open_seven_scenes(RecordingReader reader);
 [[nodiscard]] Recording open_apc(RecordingReader reader);
 [[nodiscard]] Recording open_kitti_stereo(RecordingReader reader);
+[[nodiscard]] Recording open_stanford(RecordingReader reader);
 
 /// Files of the folder whose names end with `ending`, by name.
 [[nodiscard]] std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,

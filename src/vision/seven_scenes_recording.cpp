@@ -2,6 +2,7 @@
 // "7-Scenes", Shotton et al. 2013: a Kinect, its frames posed by KinectFusion.
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 
 #include "vision/pose_text.hpp"
@@ -22,6 +23,16 @@ std::vector<double> rows_in(const std::filesystem::path& file) {
     rows.insert(rows.end(), numbers->begin(), numbers->end());
   }
   return rows;
+}
+
+// None where it is no rigid transform of 4 rows of 4 numbers.
+std::optional<Pose> pose_in(const std::filesystem::path& file) {
+  std::vector<double> rows;
+  for (const detail::TextLine& line : detail::lines_of(file)) {
+    const std::vector<double> row = detail::numbers_in(line.text).value_or(std::vector<double>{});
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  return rows.size() == 16 ? detail::pose_of_rows(rows) : std::nullopt;
 }
 
 DepthCamera camera_in(const std::filesystem::path& folder) {
@@ -54,9 +65,8 @@ Recording open_seven_scenes(RecordingReader reader) {
       reader.skip(frame.name, "there is no " + frame.name + ".pose.txt");
       continue;
     }
-    const std::vector<double> rows = rows_in(beside(".pose.txt"));
-    const std::optional<Pose> pose = detail::pose_of_rows(rows);
-    if (!pose || rows.size() != 16) {
+    const std::optional<Pose> pose = pose_in(beside(".pose.txt"));
+    if (!pose) {
       reader.skip(frame.name, frame.name + ".pose.txt is not a rigid transform of 4 rows of 4 numbers");
       continue;
     }

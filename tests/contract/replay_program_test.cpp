@@ -140,7 +140,7 @@ TEST_F(ReplayProgram, DrawsABarOnATerminal) {
       EXPECT_NE(bar.find("view "), std::string::npos) << bar;
       EXPECT_NE(bar.find(" of 5"), std::string::npos) << bar;
     }
-    EXPECT_EQ(bars, more.empty() ? 5U : 8U) << text;
+    EXPECT_EQ(bars, more.empty() ? 5U : 12U) << text;
   }
 }
 
@@ -160,7 +160,7 @@ TEST_F(ReplayProgram, ComparesOrdersOfViews) {
   EXPECT_EQ(report.at("command"), "replay");
   const auto& selection = report.at("selection");
   EXPECT_EQ(selection.at("frames").size(), 5U);
-  EXPECT_EQ(selection.at("orders").size(), 6U);
+  EXPECT_EQ(selection.at("orders").size(), 7U);
   for (const auto& order : selection.at("orders")) {
     EXPECT_EQ(order.at("volume").size(), 5U) << order.at("name");
     EXPECT_NEAR(order.at("volume").back().get<double>(), 1.0, 1e-12) << "every order ends with all that is known";
@@ -180,6 +180,8 @@ TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused(on_data() + "--planner ,", "there is no planner ''");
   expect_refused(on_data() + "--intrinsics 1,2,3", "--intrinsics has 3 numbers");
   expect_refused(on_data() + "--every 0", "--every is 0");
+  expect_refused(on_data() + "--object-box 0,0,0,1,1,1", "--object-box says what counts for --select");
+  expect_refused(on_data() + "--select --object-box 0,0,0,1,1", "--object-box has 5 numbers");
   expect_refused(on_data() + "--max-range -1", "--max-range is -1");
   expect_refused("--dataset '" + data().string() + "' --format 7scenes --resolution 0", "--resolution is 0");
   for (const auto& entry : fs::directory_iterator(data())) {

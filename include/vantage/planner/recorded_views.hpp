@@ -93,6 +93,12 @@ using ChooseView =
 /// the unknown began. A cell counts by the most likely ray to reach it.
 [[nodiscard]] ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& sensor);
 
+/// Of the views that are expected to show at least half as much as any of what `planner` seeks with its next one
+/// (Plan::sought), by the same chances, the one that is expected to make most cells known; where it seeks none that
+/// can be seen, of all.
+[[nodiscard]] ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
+                                                 ExplorationPlanner& planner);
+
 /// The view nearest to where `planner` wants to look from, a radian off the direction counting as
 /// `metres_per_radian`. Where it wants nothing more, the view furthest, by the same measure, from all that were
 /// taken.

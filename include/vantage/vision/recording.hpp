@@ -19,7 +19,7 @@ namespace vantage {
 struct RecordedFrame {
   std::string name;                          ///< as its files have it, or its time stamp
   Pose world_from_posed = Pose::Identity();  ///< pose of the camera that the recording's poses speak of
-  std::filesystem::path depth = {};          ///< depth image, or the left image of a stereo pair
+  std::filesystem::path depth = {};          ///< depth image, left image of a stereo pair, or range scan
   std::filesystem::path right = {};          ///< right image of a stereo pair, or empty
   std::filesystem::path colour = {};         ///< picture of the same moment, or empty
 };
@@ -43,11 +43,11 @@ struct RecordingOptions {
 
 /// What a frame holds, read and turned into a scan.
 struct RecordedReading {
-  DepthImage depth;  ///< in the depth camera's own pixels
+  DepthImage depth;  ///< in the depth camera's own pixels; of range scans, as a camera in the scanner's place has it
   DepthScan scan;    ///< ready for the map
 };
 
-/// A recording of posed depth images or stereo pairs, made by others, in their format:
+/// A recording of posed depth images, stereo pairs or range scans, made by others, in their format:
 ///
 /// | format | files |
 /// |---|---|
@@ -55,6 +55,8 @@ struct RecordedReading {
 /// | 7scenes | `frame-NNNNNN.depth.png` in mm, `.pose.txt` 4 x 4, `.color.png` or `.jpg`; `camera-intrinsics.txt` |
 /// | apc | `cam.info.txt`; `decoded/*.depth_dmm.png` in 0.1 mm, or as the driver wrote it, `raw/*.depth.png` |
 /// | kitti-stereo | `image_l`, `image_r` (or KITTI's own names), `calib.txt`, `poses.txt`, a row for every pair |
+/// | stanford | range scans `*.ply` in words, or packed `*.ply.gz`, of an object; `*.conf`, a line with the pose of
+/// each |
 ///
 ///     Recording recording = Recording::open("7scenes", folder);
 ///     for (std::size_t i = 0; i < recording.frames().size(); ++i)
@@ -62,8 +64,8 @@ struct RecordedReading {
 ///
 /// Opening reads lists and poses; images are read one by one. Frames that lack a pose, a partner or a file are left
 /// out and told in `skipped`; nothing else is lost. Poses are made exactly rigid where rounding has left them nearly
-/// so, quaternions are normalised, and worlds with the axes of a camera (7scenes, kitti-stereo) are turned until +z
-/// is up.
+/// so, quaternions are normalised, and worlds with the axes of a camera (7scenes, kitti-stereo) or with +y up
+/// (stanford) are turned until +z is up.
 class Recording {
  public:
   /// Throws std::runtime_error with the folder or file and what is wrong with it (nothing to read in it counts),
@@ -99,7 +101,7 @@ class Recording {
   std::vector<RecordedFrame> frames_;
   std::vector<SkippedFrame> skipped_;
   std::size_t normalised_ = 0;
-  std::function<DepthImage(const RecordedFrame&)> read_depth_;
+  std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read_;
 };
 
 }  // namespace vantage

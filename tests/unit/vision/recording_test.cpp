@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vantage/vision/recording.hpp>
@@ -70,7 +73,9 @@ TEST(SevenScenes, LeavesOutWhatIsIncompleteAndNamesIt) {
   EXPECT_EQ(recording.read(1).scan.report.used, 48U);
 
   write_text(folder / "frame-000005.pose.txt", "1 0 0 0\n0 x 0 0\n");
-  EXPECT_NE(opening("7scenes", folder / ".").find("frame-000005.pose.txt: line 2 is not a row"), std::string::npos);
+  const Recording less = Recording::open("7scenes", folder / ".");
+  EXPECT_EQ(less.frames().size(), 1U) << "the others are not lost";
+  EXPECT_TRUE(names(less, 3, "frame-000005", "not a rigid transform"));
   write_text(folder / "frame-000005.pose.txt", kHere);
   write_text(folder / "camera-intrinsics.txt", "1 2 3");
   EXPECT_NE(opening("7scenes", folder / ".").find("camera-intrinsics.txt: has 3 numbers"), std::string::npos);
@@ -209,6 +214,106 @@ TEST(RealRecordings, SevenScenesFramesAgreeWithTheirNeighbours) {
   EXPECT_LT(gap_m, 0.02);
   const Picture picture = read_picture(recording.frames()[3].colour);
   EXPECT_EQ(picture.width, 640U);
+}
+
+// Pairs of random dots ten pixels apart; what is wrong with one of them spoils no other.
+TEST(KittiStereo, LeavesOutWhatIsIncompleteAndNamesIt) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "image_0");
+  fs::create_directories(folder / "image_1");
+  cv::Mat dots(120, 210, CV_8UC1);
+  cv::randu(dots, 0, 256);
+  for (int i = 0; i < 7; ++i) {
+    const std::string name = "/00000" + std::to_string(i) + ".png";
+    cv::imwrite(folder / ("image_0" + name), dots.colRange(0, 200));
+    cv::imwrite(folder / ("image_1" + name), i == 4 ? dots.colRange(10, 110) : dots.colRange(10, 210));
+  }
+  fs::remove(folder / "image_1/000001.png");
+  fs::resize_file(folder / "image_1/000005.png", 5000);
+  write_text(folder / "calib.txt", "P0: 200 0 100 0 0 200 60 0 0 0 1 0\nP1: 200 0 100 -20 0 200 60 0 0 0 1 0\n");
+  const std::string here = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  write_text(folder / "poses.txt", here + here + "1 0 0 nan 0 1 0 0 0 0 1 0\n" + "1 0 word\n" + here + here);
+  const Recording recording = Recording::open("kitti-stereo", folder / ".");
+  ASSERT_EQ(recording.frames().size(), 3U);
+  ASSERT_EQ(recording.skipped().size(), 4U);
+  EXPECT_TRUE(names(recording, 0, "000001", "image_1/000001.png"));
+  EXPECT_TRUE(names(recording, 1, "000002", "row 3 of poses.txt is not a rigid transform"));
+  EXPECT_TRUE(names(recording, 2, "000003", "row 4 of poses.txt is not a rigid transform"));
+  EXPECT_TRUE(names(recording, 3, "000006", "poses.txt ends after 6 poses"));
+  const auto reading = [&](std::size_t frame) {
+    return message_of<std::runtime_error>([&] { (void)recording.read(frame); });
+  };
+  EXPECT_EQ(reading(0), "");
+  EXPECT_NE(reading(1).find("000004.png: is 100 x 120 pixels, the left image is 200 x 120"), std::string::npos);
+  EXPECT_NE(reading(2).find("000005.png: "), std::string::npos) << reading(2);
+  EXPECT_NEAR(double(recording.read(0).depth.at(120, 60)), 200.0 * 0.1 / 10.0, 0.05);
+  fs::remove(folder / "calib.txt");
+  EXPECT_NE(opening("kitti-stereo", folder / ".").find("calib.txt: cannot be opened"), std::string::npos);
+}
+
+// Range scans of a plate, two of them turned: all lie where the list says.
+class StanfordFolder : public testing::Test {
+ protected:
+  StanfordFolder() {
+    write_text(folder_ / "plate.conf",
+               "camera 0 0 -1 0 0 0 1\nbmesh a.ply 0 0 0 0 0 0 1\nbmesh b.ply 0.5 0 0 0 0.7071068 0 0.7071068\n"
+               "bmesh c.ply 0 0 0 0 0 0 3\nbmesh d.ply 0 0 0 0 0 0 0\nbmesh e.ply 0 0 0 0 0 0 1\n");
+    for (const char* name : {"a.ply", "c.ply"}) {
+      write_text(folder_ / name, plate(9));
+    }
+    const std::string text = plate(9);
+    gzFile_s* const packed = gzopen((folder_ / "b.ply.gz").c_str(), "wb");
+    EXPECT_EQ(gzwrite(packed, text.data(), unsigned(text.size())), int(text.size()));
+    gzclose(packed);
+  }
+  static std::string plate(int told) {
+    std::string text = "ply\nformat ascii 1.0\nobj_info num_cols 3\nelement vertex " + std::to_string(told) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+                       "element range_grid 9\nproperty list uchar int vertex_indices\nend_header\n";
+    for (int i = 0; i < 9; ++i) {
+      text += std::to_string(0.01 * (i % 3)) + " " + std::to_string(0.1 + 0.01 * (i / 3)) + " 0.02 0.5\n";
+    }
+    return text + "0\n1 3\n";
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(StanfordFolder, RangeScansLieWhereTheListHasThem) {
+  const Recording recording = Recording::open("stanford", folder_ / ".");
+  ASSERT_EQ(recording.frames().size(), 3U);
+  EXPECT_EQ(recording.normalised(), 1U);
+  ASSERT_EQ(recording.skipped().size(), 2U);
+  EXPECT_TRUE(names(recording, 0, "d.ply", "line 5 of plate.conf has no pose"));
+  EXPECT_TRUE(names(recording, 1, "e.ply", "there is no e.ply or e.ply.gz"));
+  // p_object = R(q)^T p + t, and the object's y axis points up.
+  const std::vector<Eigen::Vector3d> first{{0.0, -0.02, 0.1}, {0.5 - 0.02, 0.0, 0.1}, {0.0, -0.02, 0.1}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RecordedReading reading = recording.read(i);
+    ASSERT_EQ(reading.scan.scan.points.size(), 9U);
+    EXPECT_EQ(reading.scan.report.used, 9U);
+    const Eigen::Vector3d point = recording.pose(i) * reading.scan.scan.points[0].cast<double>();
+    EXPECT_LT((point - first[i]).norm(), 1e-6) << i << ": " << point.transpose();
+    EXPECT_NEAR(reading.scan.scan.points[0].z(), 0.68, 1e-6) << "the scanner stands 0.7 m before the object";
+    EXPECT_EQ(reading.depth.measured(), 9U);
+  }
+}
+
+TEST_F(StanfordFolder, SaysWhatIsWrong) {
+  const auto reading = [&] {
+    return message_of<std::runtime_error>([&] { (void)Recording::open("stanford", folder_ / ".").read(0); });
+  };
+  write_text(folder_ / "a.ply", plate(12));
+  EXPECT_NE(reading().find("a.ply: vertex 10 is not 4 numbers"), std::string::npos) << reading();
+  write_text(folder_ / "a.ply", plate(9).substr(0, 250));
+  EXPECT_NE(reading().find("a.ply: "), std::string::npos) << reading();
+  write_text(folder_ / "a.ply", "ply\nformat binary_little_endian 1.0\n");
+  EXPECT_NE(reading().find("a.ply: is no range scan"), std::string::npos) << reading();
+  fs::copy_file(folder_ / "b.ply.gz", folder_ / "a.ply", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(reading(), "") << "packed under any name";
+  fs::resize_file(folder_ / "a.ply", fs::file_size(folder_ / "a.ply") - 12);
+  EXPECT_NE(reading().find("a.ply: is cut off or damaged"), std::string::npos) << reading();
+  fs::remove(folder_ / "plate.conf");
+  EXPECT_NE(opening("stanford", folder_ / ".").find("there is no list *.conf"), std::string::npos);
 }
 
 // Both kinds of file, each by the camera whose pixels it is in; the wrong camera doubles the gap of the decoded ones.
