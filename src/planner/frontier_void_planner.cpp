@@ -21,7 +21,8 @@
 namespace vantage {
 namespace {
 
-constexpr double kSparse = 4.0;  // times the distance between rays, where many views are told apart
+constexpr std::size_t kProofViews = 50;  // tried before it is said that no view sees a void
+constexpr double kSparse = 4.0;          // times the distance between rays, where many views are told apart
 
 void validate(const FrontierVoidOptions& options) {
   const FrontierVoidStrategy& strategy = options.strategy;
@@ -35,6 +36,14 @@ void validate(const FrontierVoidOptions& options) {
                          "FrontierVoidStrategy::place_spacing_m", strategy.place_spacing_m, ">= 0");
   detail::require_option(std::isfinite(strategy.cost_per_m) && strategy.cost_per_m >= 0.0,
                          "FrontierVoidStrategy::cost_per_m", strategy.cost_per_m, ">= 0");
+  detail::require_option(strategy.opaque_share > 0.0 && strategy.opaque_share <= 1.0,
+                         "FrontierVoidStrategy::opaque_share", strategy.opaque_share, "in (0, 1]");
+  detail::require_option(strategy.opaque_beside_surface > 0.0 && strategy.opaque_beside_surface <= 1.0,
+                         "FrontierVoidStrategy::opaque_beside_surface", strategy.opaque_beside_surface, "in (0, 1]");
+  detail::require_option(strategy.sought_chance >= 0.0 && strategy.sought_chance <= 1.0,
+                         "FrontierVoidStrategy::sought_chance", strategy.sought_chance, "in [0, 1]");
+  detail::require_option(std::isfinite(strategy.least_view_dm3) && strategy.least_view_dm3 >= 0.0,
+                         "FrontierVoidStrategy::least_view_dm3", strategy.least_view_dm3, ">= 0");
   detail::require_option(strategy.finalists >= 1, "FrontierVoidStrategy::finalists", strategy.finalists, ">= 1");
   detail::validate(options.survey);
 }
@@ -50,6 +59,19 @@ std::string volume(std::size_t cells, double cell_m) {
   const std::string tenths = std::to_string(std::llround(10.0 * litres));
   return std::to_string(cells) + " void cells (" + (tenths.size() > 1 ? tenths.substr(0, tenths.size() - 1) : "0") +
          "." + tenths.back() + " dm^3)";
+}
+
+std::size_t expected(const std::vector<SightedCell>& seen) {
+  double cells = 0.0;
+  for (const SightedCell& one : seen) {
+    cells += one.chance;
+  }
+  return static_cast<std::size_t>(std::llround(cells));
+}
+
+// One cell is the least.
+std::size_t least_cells(double volume_dm3, double cell_m) {
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(volume_dm3 / std::pow(10.0 * cell_m, 3))));
 }
 
 // Gives the places of most value first, as long as they are asked for; ties by number.
@@ -154,8 +176,10 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
     return plan;
   }
   if (!options_.strategy.beyond_voids) {
-    return cycle.blocked("no view sees a void (the best utility is 0); " + std::to_string(survey.targets.size()) +
-                         " observable frontier cells are left");
+    const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
+    return cycle.blocked((least == 1 ? "no view sees a void (the best utility is 0); "
+                                     : "the best utility is below " + volume(least, map.resolution_m()) + "; ") +
+                         std::to_string(survey.targets.size()) + " observable frontier cells are left");
   }
   choice = nearest_frontier(map, current, survey, statistics);
   if (!choice) {
@@ -186,7 +210,11 @@ void FrontierVoidPlanner::extract(const OccupancyMap& map, const FrontierSurvey&
   for (const FrontierTarget& target : survey.targets) {
     search_.frontier.push_back(target.frontier);
   }
-  search_.voids = cluster_void_cells(void_cells_->unordered_cells(), map.frame(), options_.clusters);
+  const std::vector<VoxelIndex> cells = void_cells_->unordered_cells();
+  search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
+  sight_.emplace(map, cells,
+                 UnknownSightOptions{options_.strategy.opaque_share, options_.strategy.opaque_beside_surface,
+                                     setup_.sensor.reports_no_return});
   search_.frontier_voids =
       combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), options_.strategy.share);
 }
@@ -255,7 +283,7 @@ std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, c
     }
   }
   std::vector<Pose> views;
-  const std::size_t stride = targets.size() / options_.views + 1;
+  const std::size_t stride = targets.size() / std::min(options_.views, kProofViews) + 1;
   for (std::size_t i = 0; i < targets.size(); i += stride) {
     const TargetView view =
         view_of_target(map, *setup_.platform, setup_.sensor, survey, *targets[i], statistics.ray_operations);
@@ -268,15 +296,15 @@ std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, c
 
 // What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere
 // too often.
-template <class Visit>
-void FrontierVoidPlanner::for_each_void_cell_seen(const Pose& view, const ViewRays& rays, Visit&& visit) const {
+std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays) const {
   const VoxelIndex place = caster_->frame().cell_of(view.translation());
-  caster_->visible_cells(view, rays, search_.voids.box()).for_each([&](const VoxelIndex& cell) {
-    if (search_.voids.number_at(cell) != VoidClusters::kNone && !failed_.gave_up(cell) &&
-        !failed_.failed_from(cell, place)) {
-      visit(cell);
-    }
-  });
+  std::vector<SightedCell> seen = sight_->look(*caster_, view, rays);
+  if (failed_.size() > 0) {
+    std::erase_if(seen, [&](const SightedCell& one) {
+      return failed_.gave_up(one.cell) || failed_.failed_from(one.cell, place);
+    });
+  }
+  return seen;
 }
 
 // The void cells that each view sees; the best first.
@@ -285,8 +313,7 @@ std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vecto
                                                                       const Pose& current) const {
   detail::share_work(candidates.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
-    candidate.void_cells = 0;
-    for_each_void_cell_seen(candidate.pose, rays, [&](const VoxelIndex&) { ++candidate.void_cells; });
+    candidate.void_cells = expected(void_cells_seen(candidate.pose, rays));
     candidate.value = discounted(static_cast<double>(candidate.void_cells), current, candidate.pose.translation());
   });
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -316,16 +343,21 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     candidates.resize(options_.strategy.finalists);
   }
   candidates = rank(std::move(candidates), *rays_, current);
+  const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
   for (const Candidate& candidate : candidates) {
-    if (candidate.void_cells == 0) {
-      break;
+    if (candidate.void_cells < least) {
+      continue;
     }
     TargetView view = targets_seen_from(map, setup_.sensor, survey, candidate.pose, statistics.ray_operations);
     if (view.unknown.empty()) {
       continue;
     }
     view.view.utility = static_cast<double>(candidate.void_cells);
-    for_each_void_cell_seen(candidate.pose, *rays_, [&](const VoxelIndex& cell) { view.unknown.push_back(cell); });
+    for (const SightedCell& one : void_cells_seen(candidate.pose, *rays_)) {
+      if (one.chance >= options_.strategy.sought_chance) {
+        view.unknown.push_back(one.cell);
+      }
+    }
     if (auto path = way_to(map, current, survey, candidate.pose)) {
       Choice choice{std::move(view), std::move(*path), {}};
       for (const Candidate& weighed : candidates) {

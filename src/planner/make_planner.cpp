@@ -158,6 +158,10 @@ std::unique_ptr<ExplorationPlanner> make_frontier_void(const PlannerSetup& setup
       .flag("aimed", options.strategy.aimed)
       .number("cost_per_m", options.strategy.cost_per_m)
       .number("finalists", options.strategy.finalists)
+      .number("opaque_share", options.strategy.opaque_share)
+      .number("opaque_beside_surface", options.strategy.opaque_beside_surface)
+      .number("sought_chance", options.strategy.sought_chance)
+      .number("least_view_dm3", options.strategy.least_view_dm3)
       .flag("beyond_voids", options.strategy.beyond_voids)
       .done();
   return std::make_unique<FrontierVoidPlanner>(setup, options);

@@ -13,12 +13,19 @@ namespace {
 
 constexpr VoxelFrame kCells{0.025};
 constexpr double kCrateInsetM = 0.0025;
-// What is searched: the floor's layer and 1.5 m above it, out to where a floor of 2.5 m by 2.5 m ends.
-constexpr VoxelBox kPlace{{-20, -50, -1}, {80, 50, 60}};
+// The crates stand against a wall.
+constexpr std::int32_t kWall = 44;
+// What a map of it holds: the floor's layer and 1.5 m above it, 2.5 m wide.
+constexpr VoxelBox kPlace{{-20, -50, -1}, {46, 50, 60}};
+// The laboratory around that, so that a ray past the crates meets something within a Kinect's range.
+const Box kLaboratory{{-2.0, -2.0, -kCrateInsetM}, {kWall * 0.025 + kCrateInsetM, 2.0, 2.5}};
 
 class CrateScene {
  public:
-  CrateScene() : solid_(kPlace, 0) { fill({kPlace.lo, {kPlace.hi.x, kPlace.hi.y, 0}}); }
+  CrateScene() : solid_(kPlace, 0) {
+    fill({kPlace.lo, {kPlace.hi.x, kPlace.hi.y, 0}});
+    fill({{kWall, kPlace.lo.y, 0}, kPlace.hi});
+  }
 
   void fill(const VoxelBox& cells, std::uint8_t solid = 1) {
     for_each_cell(cells, [&](const VoxelIndex& cell) { solid_[cell] = solid; });
@@ -42,12 +49,15 @@ class CrateScene {
     planks_.append(wood, world_from_plank);
   }
 
-  [[nodiscard]] World world(std::string name) const {
+  // `searched` stands on the floor, against the wall.
+  [[nodiscard]] World world(std::string name, const VoxelBox& searched) const {
     World world;
     world.name = std::move(name);
     world.mesh = surface_of_cells(solid_, kCells, kCrateInsetM, false);
     world.mesh.append(planks_);
+    world.mesh.add_box(kLaboratory);
     world.region = kCells.box_of(kPlace);
+    world.searched = kCells.box_of(searched);
     return world;
   }
 
@@ -64,32 +74,31 @@ Pose lying(const Eigen::Vector3d& middle_m, double yaw_rad, double lift_rad = 0.
 
 }  // namespace
 
-// A computer's tower, two boxes open at the top and some two-by-fours: one before the boxes, one leaning against the
-// tower, one across the corner of a box.
+// A computer's tower, two boxes open at the top and some two-by-fours: three on the floor before them.
 World crates_open_world() {
   CrateScene scene;
-  scene.fill({{26, 3, 0}, {44, 11, 17}});
-  scene.open_box({{24, -24, 0}, {44, -8, 14}});
-  scene.open_box({{46, 12, 0}, {62, 32, 16}});
-  scene.plank(1.0, lying({0.53, 0.35, 0.0205}, 1.4));
-  scene.plank(0.9, lying({1.27, -0.1, 0.235}, 1.9, 0.5));
-  scene.plank(0.7, lying({0.95, -0.36, 0.372}, 0.7));
-  return scene.world("crates-open");
+  scene.fill({{26, -26, 0}, {44, -18, 17}});
+  scene.open_box({{24, -18, 0}, {44, 2, 10}});
+  scene.open_box({{22, 2, 0}, {44, 22, 12}});
+  scene.plank(0.9, lying({0.47, -0.1, 0.0205}, 1.5));
+  scene.plank(0.7, lying({0.40, 0.2, 0.0205}, 1.75));
+  scene.plank(0.5, lying({0.45, -0.55, 0.0205}, 1.2));
+  return scene.world("crates-open", {{14, -27, 0}, {kWall, 23, 18}});
 }
 
 // Two large closed boxes that nothing sees into, and smaller ones with a small opening each: two on the large ones,
-// turned to the robot and aside, and one on the floor, open above.
+// open to the robot, and one on the floor, open above.
 World crates_closed_world() {
   CrateScene scene;
-  scene.closed_box({{36, -28, 0}, {60, -6, 18}});
-  scene.closed_box({{38, 4, 0}, {58, 28, 16}});
-  scene.closed_box({{38, -24, 18}, {52, -10, 30}});
-  scene.cut({{38, -20, 22}, {39, -14, 28}});
-  scene.closed_box({{40, 8, 16}, {54, 24, 27}});
-  scene.cut({{43, 8, 18}, {50, 9, 24}});
-  scene.closed_box({{21, -6, 0}, {35, 8, 11}});
-  scene.cut({{25, -2, 10}, {31, 4, 11}});
-  return scene.world("crates-closed");
+  scene.closed_box({{26, -24, 0}, {44, 0, 14}});
+  scene.closed_box({{26, 0, 0}, {44, 24, 14}});
+  scene.closed_box({{32, -18, 14}, {44, -4, 24}});
+  scene.cut({{32, -15, 16}, {33, -7, 23}});
+  scene.closed_box({{32, 6, 14}, {44, 20, 24}});
+  scene.cut({{32, 9, 16}, {33, 17, 23}});
+  scene.closed_box({{16, -6, 0}, {26, 6, 8}});
+  scene.cut({{17, -4, 7}, {23, 4, 8}});
+  return scene.world("crates-closed", {{14, -26, 0}, {kWall, 26, 24}});
 }
 
 }  // namespace vantage

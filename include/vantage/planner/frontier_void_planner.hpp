@@ -15,6 +15,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/view/unknown_sight.hpp>
 #include <vantage/view/utility_vectors.hpp>
 #include <vector>
 
@@ -36,6 +37,15 @@ struct FrontierVoidStrategy {
   double cost_per_m = 0.3;
   /// All views are counted by a sixteenth of the rays first, and the best so many of them by all, >= 1.
   std::size_t finalists = 5;
+  /// UnknownSightOptions::opaque_share of void cells: what a view is expected to learn behind the first void cell of
+  /// a ray counts, too. 1: the first alone.
+  double opaque_share = 0.05;
+  double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface of void cells
+  /// A view has failed to resolve void cells that it was to make known with at least this chance, in [0, 1], where
+  /// they are still unknown after it: with 1 only those that its rays surely end in.
+  double sought_chance = 1.0;
+  /// A view that is expected to learn less of the voids than this, dm^3, is none, >= 0.
+  double least_view_dm3 = 0.0;
   /// When no view sees a void any more, frontiers that border none are explored, the nearest first.
   bool beyond_voids = true;
 
@@ -47,6 +57,8 @@ struct FrontierVoidStrategy {
             .aimed = false,
             .cost_per_m = 0.0,
             .finalists = std::numeric_limits<std::size_t>::max(),
+            .opaque_share = 1.0,
+            .opaque_beside_surface = 1.0,
             .beyond_voids = false};
   }
 };
@@ -105,8 +117,7 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
     std::vector<View> candidates;  // that were weighed
   };
 
-  template <class Visit>
-  void for_each_void_cell_seen(const Pose& view, const ViewRays& rays, Visit&& visit) const;
+  [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays) const;
   void follow(const OccupancyMap& map);
   void extract(const OccupancyMap& map, const FrontierSurvey& survey);
   void accumulate(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
@@ -132,6 +143,7 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   VoidSearch search_;
   // Of the map that was planned in last:
   std::optional<RayCaster> caster_;
+  std::optional<UnknownSight> sight_;
   std::optional<FrontierTracker> frontier_;
   std::optional<VoidTracker> void_cells_;
   std::optional<ViewRays> rays_;  // as dense as its cells ask for

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vantage/geometry/box.hpp>
@@ -26,6 +27,9 @@ struct World {
   std::string name;
   TriangleMesh mesh;  ///< all surfaces, metres, z up
   Box region;         ///< metres; a closed world's walls are inside
+  /// The part of the region that a search of voids means, metres; around it all is known before the first scan. None
+  /// for most worlds.
+  std::optional<Box> searched = std::nullopt;
 
   /// A world by NAME:
   /// - `rooms`: the test of Shade & Newman 2011: a closed cube of 10.2 m, 51 x 51 x 51 cells of 0.2 m, with
@@ -36,9 +40,9 @@ struct World {
   /// - `two-storey`: two floors of rooms joined by a stairwell, 12 x 9 x 5.8 m;
   /// - `table`: a table (top at z = 0.427277 m, x +-0.4, y +-0.5) in an empty room, x +-1.8, y +-1.8, z 0..2 m, as in
   ///   the reference data of Vasquez-Gomez et al.;
-  /// - `crates-open`: a computer-sized block, two boxes open at the top and three two-by-fours on an open floor, x
-  ///   -0.5..2 m, y +-1.25 m, up to 1.5 m, before a robot at the origin that faces +x: the first scene of Dornhege &
-  ///   Kleiner 2011, in sizes of our own;
+  /// - `crates-open`: a computer-sized block, two boxes open at the top and three two-by-fours, before the wall of a
+  ///   laboratory at x = 1.1 m, y +-1.25 m, up to 1.5 m, and before a robot at the origin that faces +x: the first
+  ///   scene of Dornhege & Kleiner 2011, in sizes of our own;
   /// - `crates-closed`: two large closed boxes and three smaller ones with small openings there: their second scene.
   /// The crates are made of cells of 0.025 m, with surfaces 2.5 mm inside them (planks lie askew); all others but the
   /// table are made of cells of 0.2 m, with surfaces 1 cm inside their cells (`surface_of_cells`). Throws

@@ -87,7 +87,8 @@ TEST(FrontierVoidPlanner, LooksIntoTheChest) {
 
 TEST(FrontierVoidPlanner, SaysWhatAViewSeesExactly) {
   Robot robot;
-  const auto fresh_plan = [&] { return FrontierVoidPlanner(robot.setup()).plan(robot.map, robot.pose); };
+  const FrontierVoidOptions first_cells{.strategy = {.opaque_share = 1.0, .opaque_beside_surface = 1.0}};
+  const auto fresh_plan = [&] { return FrontierVoidPlanner(robot.setup(), first_cells).plan(robot.map, robot.pose); };
   std::size_t compared = 0;
   for (Plan plan = fresh_plan(); plan.outcome == Outcome::Move && compared < 12; plan = fresh_plan()) {
     const std::vector<VoxelIndex> voids = void_cells(robot.map);
@@ -105,6 +106,26 @@ TEST(FrontierVoidPlanner, SaysWhatAViewSeesExactly) {
     robot.look();
   }
   EXPECT_GE(compared, 6U);
+}
+
+TEST(FrontierVoidPlanner, ExpectsMoreThanTheFirstCells) {
+  const Robot robot;
+  const FrontierVoidOptions first_cells{.strategy = {.opaque_share = 1.0, .opaque_beside_surface = 1.0}};
+  const Plan first = FrontierVoidPlanner(robot.setup(), first_cells).plan(robot.map, robot.pose);
+  const Plan through = FrontierVoidPlanner(robot.setup()).plan(robot.map, robot.pose);
+  EXPECT_GT(through.goal.utility, 1.5 * first.goal.utility);
+}
+
+TEST(FrontierVoidPlanner, EndsWhereNoViewIsWorthIt) {
+  Robot robot;
+  const double of_the_chest_dm3 = static_cast<double>(kChest.size());  // cells of 0.1 m
+  FrontierVoidPlanner planner(robot.setup(),
+                              {.strategy = {.least_view_dm3 = 0.05 * of_the_chest_dm3, .beyond_voids = false}});
+  const Plan last = robot.run(planner);
+  EXPECT_EQ(last.outcome, Outcome::Blocked);
+  EXPECT_LT(robot.unknown_in_the_chest(), kChest.size() / 5) << last.reason;
+  FrontierVoidPlanner content(robot.setup(), {.strategy = {.least_view_dm3 = 1e6, .beyond_voids = false}});
+  EXPECT_NE(content.plan(robot.map, robot.pose).reason.find("is below"), std::string::npos);
 }
 
 TEST(FrontierVoidPlanner, ShowsWhatThePlanWasMadeFrom) {
@@ -176,6 +197,14 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
   EXPECT_EQ(message({.strategy = {.place_spacing_m = -1.0}}),
             "FrontierVoidStrategy::place_spacing_m is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidStrategy::cost_per_m is -1, must be >= 0");
+  EXPECT_EQ(message({.strategy = {.opaque_share = 0.0}}),
+            "FrontierVoidStrategy::opaque_share is 0, must be in (0, 1]");
+  EXPECT_EQ(message({.strategy = {.opaque_beside_surface = 2.0}}),
+            "FrontierVoidStrategy::opaque_beside_surface is 2, must be in (0, 1]");
+  EXPECT_EQ(message({.strategy = {.sought_chance = 2.0}}),
+            "FrontierVoidStrategy::sought_chance is 2, must be in [0, 1]");
+  EXPECT_EQ(message({.strategy = {.least_view_dm3 = -1.0}}),
+            "FrontierVoidStrategy::least_view_dm3 is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.finalists = 0}}), "FrontierVoidStrategy::finalists is 0, must be >= 1");
 }
 

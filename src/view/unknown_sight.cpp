@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/view/unknown_sight.hpp>
+
+#include "map/option_rule.hpp"
+
+namespace vantage {
+namespace {
+
+// Chances below this are as good as none.
+constexpr double kLeastChance = 0.01;
+
+VoxelBox box_around(std::span<const VoxelIndex> cells) {
+  if (cells.empty()) {
+    return {};
+  }
+  VoxelBox box{cells.front(), cells.front()};
+  for (const VoxelIndex& cell : cells) {
+    box.lo = {std::min(box.lo.x, cell.x), std::min(box.lo.y, cell.y), std::min(box.lo.z, cell.z)};
+    box.hi = {std::max(box.hi.x, cell.x), std::max(box.hi.y, cell.y), std::max(box.hi.z, cell.z)};
+  }
+  box.hi = box.hi + VoxelIndex{1, 1, 1};
+  return box;
+}
+
+VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
+  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+}
+
+}  // namespace
+
+// One that ends in an unknown cell, and how it would go on.
+struct UnknownSight::Ray {
+  Eigen::Vector3d sensor;
+  Eigen::Vector3d direction;
+  VoxelIndex end;
+  double range_m;
+};
+
+// The best chance of every cell, in steps fine enough to add up.
+class UnknownSight::Chances {
+ public:
+  Chances(const VoxelBox& box, const Eigen::Vector3d& sensor, double min_range_m, const VoxelFrame& frame)
+      : best_(box, 0), sensor_(sensor), min_range_m_(min_range_m), frame_(frame) {}
+
+  void raise(const VoxelIndex& cell, double chance) {
+    if (best_.contains(cell)) {
+      std::uint16_t& best = best_[cell];
+      best = std::max(best, static_cast<std::uint16_t>(std::lround(chance * kWhole)));
+    }
+  }
+  // Nearer surfaces give no return.
+  [[nodiscard]] bool in_range(const VoxelIndex& cell) const {
+    return min_range_m_ <= 0.0 || (frame_.centre_of(cell) - sensor_).norm() >= min_range_m_;
+  }
+  [[nodiscard]] std::vector<SightedCell> cells() const {
+    std::vector<SightedCell> seen;
+    for (std::size_t i = 0; i < best_.size(); ++i) {
+      if (best_.values()[i] == 0) {
+        continue;
+      }
+      const VoxelIndex cell = best_.cell_at(i);
+      if (in_range(cell)) {
+        seen.push_back({cell, best_.values()[i] / kWhole});
+      }
+    }
+    return seen;
+  }
+
+  // Of one ray.
+  struct Passed {
+    VoxelIndex cell;
+    double reached;  // the chance that the ray comes to it
+  };
+  std::vector<Passed> on_ray;  // scratch
+
+ private:
+  static constexpr double kWhole = 65535.0;
+  VoxelGrid<std::uint16_t> best_;
+  Eigen::Vector3d sensor_;
+  double min_range_m_;
+  VoxelFrame frame_;
+};
+
+UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted,
+                           const UnknownSightOptions& options)
+    : frame_(map.frame()), options_(options), wanted_box_(box_around(wanted)), contents_(map.bounds()) {
+  detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
+                         "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
+  detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
+                         "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
+    if (occupancy == Occupancy::Occupied) {
+      contents_[cell] = Content::Surface;
+    }
+  });
+  for (const VoxelIndex& cell : wanted) {
+    if (contents_.contains(cell)) {
+      const bool beside_surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const auto& step) {
+        return contents_.value_or(cell + step, Content::Open) == Content::Surface;
+      });
+      contents_[cell] = beside_surface ? Content::WantedBesideSurface : Content::Wanted;
+    }
+  }
+}
+
+std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,
+                                            const ViewRays& rays) const {
+  std::vector<RayEnd> ends(rays.size());
+  caster.cast(world_from_sensor, rays, ends);
+  const Eigen::Vector3d sensor = world_from_sensor.translation();
+  const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m());
+  const VoxelBox near{frame_.cell_of(sensor - range), frame_.cell_of(sensor + range) + VoxelIndex{1, 1, 1}};
+  const VoxelBox box = common(wanted_box_, near);
+  if (box.empty()) {
+    return {};
+  }
+  Chances chances(box, sensor, rays.min_range_m(), frame_);
+  for (const RayTile& tile : rays.tiles()) {
+    for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const RayEnd& end = ends[tile.ray[i]];
+      if (end.occupancy != Occupancy::Unknown || contents_.value_or(end.cell, Content::Open) == Content::Open) {
+        continue;
+      }
+      const Eigen::Vector3d direction =
+          (world_from_sensor.linear() *
+           Eigen::Vector3f(tile.directions[3 * i], tile.directions[3 * i + 1], tile.directions[3 * i + 2])
+               .cast<double>())
+              .normalized();
+      follow({sensor, direction, end.cell, rays.max_range_m()}, chances);
+    }
+  }
+  return chances.cells();
+}
+
+void UnknownSight::follow(const Ray& ray, Chances& chances) const {
+  auto& passed = chances.on_ray;
+  passed.clear();
+  double reached = 1.0;
+  bool returns = options_.reports_no_return;
+  const auto pass = [&](const VoxelIndex& cell, Content content) {
+    if (content != Content::Open) {
+      passed.push_back({cell, reached});
+      reached *= 1.0 - (content == Content::Wanted ? options_.opaque_share : options_.opaque_beside_surface);
+    }
+  };
+  pass(ray.end, contents_[ray.end]);
+  // Depth never falls along a ray: so the walk may start anywhere before the cell behind its end.
+  const auto depth_of = [&](const VoxelIndex& cell) {
+    return ray.direction.dot(frame_.centre_of(cell) - ray.sensor);
+  };
+  const double end_depth = depth_of(ray.end);
+  const double start_m = std::clamp(end_depth - frame_.size_m, 0.0, ray.range_m);
+  bool behind = false;
+  for (const VoxelIndex& cell :
+       VoxelRay(frame_, ray.sensor + start_m * ray.direction, ray.sensor + ray.range_m * ray.direction)) {
+    behind = behind || (cell != ray.end && depth_of(cell) > end_depth);
+    if (!behind) {
+      continue;
+    }
+    if (!contents_.contains(cell) || reached < kLeastChance) {
+      break;  // the map is a box
+    }
+    const Content content = contents_[cell];
+    if (content == Content::Surface) {
+      if (!chances.in_range(cell)) {
+        return;
+      }
+      returns = true;
+      break;
+    }
+    pass(cell, content);
+  }
+  for (const Chances::Passed& one : passed) {
+    // It gets through all of the rest with `reached` / one.reached.
+    chances.raise(one.cell, returns ? one.reached : one.reached - reached);
+  }
+}
+
+}  // namespace vantage
