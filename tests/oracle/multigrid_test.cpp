@@ -188,6 +188,15 @@ TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
   EXPECT_GE(worlds_stuck_without, 3U);
 }
 
+// Flux out of the sensor's cell, phi being 1 there: 1 / u_s.
+double flux_of_source(const LaplaceProblem& problem, std::span<const double> phi) {
+  double flux = 0.0;
+  for (const Position neighbour : problem.neighbours(problem.source())) {
+    flux += neighbour == LaplaceProblem::kClosed ? 0.0 : 1.0 - phi[static_cast<std::size_t>(neighbour)];
+  }
+  return flux;
+}
+
 TEST(MultigridOracle, FluxIsTheSameThroughEveryCutBetweenSourceAndSinks) {
   std::size_t cuts = 0;
   for (const Worlds& kind : kinds_of_worlds()) {
@@ -209,16 +218,84 @@ TEST(MultigridOracle, FluxIsTheSameThroughEveryCutBetweenSourceAndSinks) {
       }
       return flux;
     };
-    double out_of_source = 0.0;
-    for (const Position neighbour : problem.neighbours(problem.source())) {
-      out_of_source += neighbour == LaplaceProblem::kClosed ? 0.0 : 1.0 - phi[static_cast<std::size_t>(neighbour)];
-    }
+    const double out_of_source = flux_of_source(problem, phi);
     for (const double level : {1e-3, 0.05, 0.2, 0.5, 0.9}) {
       ASSERT_NEAR(flux_across(level) / out_of_source, 1.0, 1e-6) << kind.name << " level " << level;
       ++cuts;
     }
   }
   EXPECT_GE(cuts, 35U);
+}
+
+// A surface is the border of a set of cells that holds the source and no sink, however torn: what flows out of it is
+// what the source gives, and what the uniform source gives to its cells.
+TEST(MultigridOracle, FluxThroughAnyClosedSurfaceIsWhatItEncloses) {
+  std::mt19937 engine(24);
+  std::size_t surfaces = 0;
+  for (const Worlds& kind : kinds_of_worlds()) {
+    const LaplaceProblem problem = RandomRooms(kind.options).problem();
+    if (problem.sink_count() == 0) {
+      continue;
+    }
+    for (const double uniform_source : {0.0, 0.3}) {
+      const LaplaceMultigrid field(problem, {.tolerance = 1e-11, .uniform_source = uniform_source});
+      const std::vector<double> phi = field.values(problem);
+      const double eps = field.report().source_per_cell;
+      const double unit = flux_of_source(problem, phi) / (1.0 + eps);  // 1 / u_s
+      if (uniform_source == 0.0) {                                     // the maximum principle
+        ASSERT_GE(*std::min_element(phi.begin(), phi.end()), -1e-9) << kind.name;
+        ASSERT_LE(*std::max_element(phi.begin(), phi.end()), 1.0 + 1e-9) << kind.name;
+      }
+      for (const double density : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+        std::bernoulli_distribution is_in(density);
+        std::vector<bool> inside(problem.size());
+        double enclosed = 1.0;
+        for (std::size_t i = 0; i < problem.size(); ++i) {
+          const auto position = static_cast<Position>(i);
+          inside[i] = position == problem.source() || (problem.kind(position) != LaplaceCell::Sink && is_in(engine));
+          enclosed += inside[i] ? eps : 0.0;
+        }
+        double flux = 0.0;
+        for (std::size_t i = 0; i < problem.size(); ++i) {
+          for (const Position neighbour : problem.neighbours(static_cast<Position>(i))) {
+            if (inside[i] && neighbour != LaplaceProblem::kClosed && !inside[static_cast<std::size_t>(neighbour)]) {
+              flux += phi[i] - phi[static_cast<std::size_t>(neighbour)];
+            }
+          }
+        }
+        ASSERT_NEAR(flux / unit, enclosed, 1e-6) << kind.name << " " << density << " " << uniform_source;
+        ++surfaces;
+      }
+    }
+  }
+  EXPECT_GE(surfaces, 70U);
+}
+
+// The response of one cell to a source in another is that of the other to a source in the first.
+TEST(MultigridOracle, SourceAndReceiverMayBeExchanged) {
+  std::mt19937 engine(25);
+  std::size_t pairs = 0;
+  for (const Worlds& kind : kinds_of_worlds()) {
+    const RandomRooms rooms(kind.options);
+    const LaplaceProblem problem = rooms.problem();
+    if (problem.sink_count() == 0) {
+      continue;
+    }
+    std::uniform_int_distribution<Position> any(0, static_cast<Position>(problem.size()) - 1);
+    Position receiver = problem.source();
+    while (receiver == problem.source() || problem.kind(receiver) == LaplaceCell::Sink) {
+      receiver = any(engine);
+    }
+    const LaplaceProblem exchanged(rooms.cells, rooms.sinks, problem.cell(receiver));
+    const MultigridOptions exact{.tolerance = 1e-11, .uniform_source = 0.0};
+    const std::vector<double> there = LaplaceMultigrid(problem, exact).values(problem);
+    const std::vector<double> back = LaplaceMultigrid(exchanged, exact).values(exchanged);
+    const double forward = there[static_cast<std::size_t>(receiver)] / flux_of_source(problem, there);
+    const auto sensor = static_cast<std::size_t>(*exchanged.position_of(problem.cell(problem.source())));
+    EXPECT_NEAR(back[sensor] / flux_of_source(exchanged, back), forward, 1e-8) << kind.name;
+    ++pairs;
+  }
+  EXPECT_GE(pairs, 7U);
 }
 
 // The operator of the black cells and the preconditioner, as conjugate gradients see them.
