@@ -200,7 +200,7 @@ void RunRecorder::record(const OccupancyMap& map, ViewRecord view, const Plan* p
     cycle.candidates = plan->candidates;
     cycle.leftover = plan->leftover;
     cycle.survey_ms = plan->statistics.survey_ms;
-    cycle.choose_ms = plan->statistics.choose_ms;
+    cycle.choose_ms = plan->statistics.evaluate_ms + plan->statistics.choose_ms;
     cycle.path_ms = plan->statistics.path_ms;
     if (field != nullptr) {
       cycle.field = samples_of(*field, state.setup.field_samples);

@@ -38,7 +38,7 @@ struct RecordedCycle {
   std::vector<View> candidates = {};     ///< Plan::candidates
   Leftover leftover = {};                ///< Plan::leftover
   double survey_ms = 0.0;                ///< PlanStatistics::survey_ms
-  double choose_ms = 0.0;                ///< PlanStatistics::choose_ms
+  double choose_ms = 0.0;                ///< PlanStatistics::evaluate_ms and choose_ms
   double path_ms = 0.0;                  ///< PlanStatistics::path_ms
   std::vector<FieldArrow> field = {};    ///< samples of the planner's field, where it has one
   std::vector<BrickState> changes = {};  ///< bricks of which a cell changed its state since the cycle before

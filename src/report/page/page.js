@@ -46,11 +46,16 @@ function measured() {
   return runs.some((run) => run.report.cycles.some((cycle) => shareOf(run, cycle) !== null));
 }
 
+// Runs that differ in their seed alone: one colour, and one row of the table.
+function groupOf(run) {
+  return `${run.report.planner} in ${baseName(run.report.world)}, ${run.report.resolution_m} m`;
+}
+
 function prepare(run, index) {
   let ms = 0;
   run.seconds = run.report.cycles.map((cycle) => (ms += cycle.insert_ms + cycle.plan_ms) / 1000);
-  const planners = [...new Set(runs.map((r) => r.report.planner))];
-  run.colour = several ? kRunColours[planners.indexOf(run.report.planner) % kRunColours.length] : kRunColours[0];
+  const groups = [...new Set(runs.map(groupOf))];
+  run.colour = several ? kRunColours[groups.indexOf(groupOf(run)) % kRunColours.length] : kRunColours[0];
   run.index = index;
 }
 
@@ -106,8 +111,7 @@ function quartiles(values) {
 function showTable() {
   const groups = new Map();
   for (const run of runs) {
-    const key = `${run.report.planner} in ${baseName(run.report.world)}, ${run.report.resolution_m} m`;
-    groups.set(key, [...(groups.get(key) || []), run]);
+    groups.set(groupOf(run), [...(groups.get(groupOf(run)) || []), run]);
   }
   const columns = [
     ["views", (r) => r.report.views, (v) => v.toFixed(0)], ["path [m]", (r) => r.report.path_length_m, (v) => v.toFixed(1)],
