@@ -145,7 +145,7 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
   command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
   command
       .add_option("--band", request.band,
-                  "It drives, and explores the plane of these heights; the sensor is in their middle unless given")
+                  "It drives, and explores the plane of these heights; the sensor is in the middle")
       ->type_name("LOW,HIGH[,SENSOR]")
       ->group("Robot");
   command

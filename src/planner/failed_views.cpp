@@ -27,8 +27,21 @@ FailedViews::FailedViews(int patience) : patience_(patience) {
   detail::require_option(patience > 0, "FailedViews::patience", patience, "> 0");
 }
 
-void FailedViews::expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought) {
-  expected_ = Expectation{goal, map.revision(), std::move(sought)};
+void FailedViews::expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought,
+                         std::vector<VoxelIndex> hoped) {
+  expected_ = Expectation{goal, map.revision(), std::move(sought), std::move(hoped)};
+}
+
+void FailedViews::fail(const OccupancyMap& map, const VoxelIndex& viewpoint, const std::vector<VoxelIndex>& cells) {
+  for (const VoxelIndex& cell : cells) {
+    if (map.at(cell) == Occupancy::Unknown) {
+      Failures& failures = failures_[cell];
+      if (!failed_from(cell, viewpoint)) {
+        failures.viewpoints.push_back(viewpoint);
+      }
+      failures.known_neighbours = known_neighbours(map, cell);
+    }
+  }
 }
 
 void FailedViews::review(const OccupancyMap& map, const Pose& current) {
@@ -48,14 +61,11 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
     return;
   }
   const VoxelIndex viewpoint = map.frame().cell_of(expected_->goal.translation());
-  for (const VoxelIndex& cell : expected_->sought) {
-    if (map.at(cell) == Occupancy::Unknown) {
-      Failures& failures = failures_[cell];
-      if (!failed_from(cell, viewpoint)) {
-        failures.viewpoints.push_back(viewpoint);
-      }
-      failures.known_neighbours = known_neighbours(map, cell);
-    }
+  fail(map, viewpoint, expected_->sought);
+  const std::vector<VoxelIndex>& hoped = expected_->hoped;
+  if (std::all_of(hoped.begin(), hoped.end(),
+                  [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
+    fail(map, viewpoint, hoped);
   }
   expected_.reset();
 }

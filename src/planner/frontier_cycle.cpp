@@ -70,7 +70,7 @@ Plan FrontierCycle::go(TargetView chosen, std::vector<Pose> path) {
   plan_.path = std::move(path);
   plan_.reason = "a view of " + std::to_string(chosen.unknown.size()) + " frontier cells";
   plan_.sought = std::move(chosen.unknown);
-  failed_.expect(map_, plan_.goal.pose, plan_.sought);
+  failed_.expect(map_, plan_.goal.pose, plan_.sought, std::move(chosen.hoped));
   return std::move(plan_);
 }
 

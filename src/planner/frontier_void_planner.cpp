@@ -354,9 +354,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     }
     view.view.utility = static_cast<double>(candidate.void_cells);
     for (const SightedCell& one : void_cells_seen(candidate.pose, *rays_)) {
-      if (one.chance >= options_.strategy.sought_chance) {
-        view.unknown.push_back(one.cell);
-      }
+      (one.chance >= options_.strategy.sought_chance ? view.unknown : view.hoped).push_back(one.cell);
     }
     if (auto path = way_to(map, current, survey, candidate.pose)) {
       Choice choice{std::move(view), std::move(*path), {}};

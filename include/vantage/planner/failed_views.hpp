@@ -22,8 +22,10 @@ class FailedViews {
   /// Throws std::invalid_argument unless `patience` > 0.
   explicit FailedViews(int patience = 2);
 
-  /// Announces that a view from `goal` is meant to resolve these cells.
-  void expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought);
+  /// Announces that a view from `goal` is meant to resolve the cells `sought`, and may resolve some of `hoped`: these
+  /// fail, too, if it resolves none of them.
+  void expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought,
+              std::vector<VoxelIndex> hoped = {});
   /// Looks at the map now. If it has changed since `expect` and `current` is the goal, to within a cell and ten
   /// degrees, every cell sought that is still unknown counts a failure. A second call without a change of the map
   /// does nothing.
@@ -36,10 +38,12 @@ class FailedViews {
   [[nodiscard]] std::size_t size() const { return failures_.size(); }
 
  private:
+  void fail(const OccupancyMap& map, const VoxelIndex& viewpoint, const std::vector<VoxelIndex>& cells);
   struct Expectation {
     Pose goal;
     OccupancyMap::Revision revision;
     std::vector<VoxelIndex> sought;
+    std::vector<VoxelIndex> hoped;
   };
   struct Failures {
     std::vector<VoxelIndex> viewpoints;

@@ -11,6 +11,9 @@ namespace vantage {
 struct TargetView {
   View view;                             ///< utility: the number of frontier targets seen
   std::vector<VoxelIndex> unknown = {};  ///< their unknown cells, in the order of the survey's targets
+  /// Unknown cells that it may resolve besides; they have failed where it resolves none of them
+  /// (FailedViews::expect).
+  std::vector<VoxelIndex> hoped = {};
 };
 
 /// What a given pose sees of the survey's targets, no further off than the sensor resolves cells of the map

@@ -58,6 +58,20 @@ TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {
   EXPECT_THROW(FailedViews(0), std::invalid_argument);
 }
 
+TEST(FailedViews, WhatAViewHopedForFailsOnlyIfItResolvesNoneOfIt) {
+  constexpr VoxelIndex kOther{5, 6, 6};
+  const Pose goal = pose_looking({0.5, 1.1, 1.1}, 0.0);
+  for (const bool one_resolved : {false, true}) {
+    OccupancyMap map = slab_before_the_unknown();
+    FailedViews failed(1);
+    failed.expect(map, goal, {kUnknown}, {kOther, {6, 6, 6}});
+    map.set(one_resolved ? VoxelIndex{6, 6, 6} : VoxelIndex{0, 0, 0}, Occupancy::Free);
+    failed.review(map, goal);
+    EXPECT_TRUE(failed.gave_up(kUnknown));
+    EXPECT_EQ(failed.gave_up(kOther), !one_resolved);
+  }
+}
+
 TEST(FailedViews, ForgetsWhenMoreOfTheNeighboursBecomesKnownNotWhenTheyChangeTheirMind) {
   OccupancyMap map = slab_before_the_unknown();
   FailedViews failed(1);
