@@ -17,6 +17,8 @@ class ThreadTeam {
   explicit ThreadTeam(std::size_t threads);
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
+  ThreadTeam(ThreadTeam&&) = delete;
+  ThreadTeam& operator=(ThreadTeam&&) = delete;
   ~ThreadTeam() { dismiss(); }
 
   [[nodiscard]] std::size_t size() const { return others_.size() + 1; }
