@@ -123,7 +123,7 @@ Box box_of(const char* flag, const std::string& text) {
     throw std::invalid_argument(std::string(flag) + " has " + std::to_string(n.size()) +
                                 " numbers, must be x0,y0,z0,x1,y1,z1");
   }
-  const Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  Box box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
   if (box.empty()) {
     throw std::invalid_argument(std::string(flag) + " '" + text +
                                 "' is empty: x0 < x1, y0 < y1 and z0 < z1 must hold");
