@@ -80,7 +80,8 @@ Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(
 Truth Truth::in_band(const HeightBandOptions& options) const {
   HeightBand band(map_.options(), options);
   band.follow(map_);
-  const auto [lowest, above] = band.layers();
+  const std::int32_t lowest = band.layers().first;
+  const std::int32_t above = band.layers().second;
   const std::int32_t layer = band.plane().region()->lo.z;
   const VoxelBox& box = cells_.box();
   VoxelGrid<CellTruth> cells({{box.lo.x, box.lo.y, layer}, {box.hi.x, box.hi.y, layer + 1}}, CellTruth::Free);
