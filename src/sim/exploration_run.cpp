@@ -214,17 +214,16 @@ bool ExplorationRun::collides(const Pose& from, const Pose& to, double radius_m)
   const double lowest_m = options_.band->min_height_m + radius_m;
   const double highest_m = std::max(lowest_m, options_.band->max_height_m - radius_m);
   const double step_m = std::max(radius_m, map_.resolution_m());
-  const auto touches_at = [&](double height_m) {
+  const auto steps = static_cast<int>(std::ceil((highest_m - lowest_m) / step_m));
+  for (int step = 0; step <= steps; ++step) {
     Eigen::Vector3d a = from.translation();
     Eigen::Vector3d b = to.translation();
-    a.z() = b.z() = height_m;
-    return scene_.touches(a, b, radius_m);
-  };
-  bool hit = touches_at(highest_m);
-  for (double height_m = lowest_m; height_m < highest_m; height_m += step_m) {
-    hit = hit || touches_at(height_m);
+    a.z() = b.z() = std::min(lowest_m + step * step_m, highest_m);
+    if (scene_.touches(a, b, radius_m)) {
+      return true;
+    }
   }
-  return hit;
+  return false;
 }
 
 void ExplorationRun::move(Progress& progress, const Pose& to) {
