@@ -9,6 +9,7 @@
 #include <vantage/frontier/void_clusters.hpp>
 #include <vantage/geometry/cell_moments.hpp>
 
+#include "geometry/box_around.hpp"
 #include "geometry/dice.hpp"
 #include "map/option_rule.hpp"
 
@@ -106,24 +107,12 @@ class Growth {
   CellMoments moments_;
 };
 
-VoxelBox box_around(std::span<const VoxelIndex> cells) {
-  if (cells.empty()) {
-    return {};
-  }
-  VoxelBox box{cells.front(), cells.front() + VoxelIndex{1, 1, 1}};
-  for (const VoxelIndex& cell : cells) {
-    box.lo = {std::min(box.lo.x, cell.x), std::min(box.lo.y, cell.y), std::min(box.lo.z, cell.z)};
-    box.hi = {std::max(box.hi.x, cell.x + 1), std::max(box.hi.y, cell.y + 1), std::max(box.hi.z, cell.z + 1)};
-  }
-  return box;
-}
-
 }  // namespace
 
 VoidClusters cluster_void_cells(std::span<const VoxelIndex> cells, const VoxelFrame& frame,
                                 const VoidClusterOptions& options) {
   detail::require_option(options.min_score > 0.0, "VoidClusterOptions::min_score", options.min_score, "> 0");
-  VoxelGrid<std::uint32_t> numbers(box_around(cells), kNoVoid);
+  VoxelGrid<std::uint32_t> numbers(detail::box_around(cells), kNoVoid);
   for (const VoxelIndex& cell : cells) {
     numbers[cell] = kUnassigned;
   }

@@ -4,6 +4,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/unknown_sight.hpp>
 
+#include "geometry/box_around.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage {
@@ -11,19 +12,6 @@ namespace {
 
 // Chances below this are as good as none.
 constexpr double kLeastChance = 0.01;
-
-VoxelBox box_around(std::span<const VoxelIndex> cells) {
-  if (cells.empty()) {
-    return {};
-  }
-  VoxelBox box{cells.front(), cells.front()};
-  for (const VoxelIndex& cell : cells) {
-    box.lo = {std::min(box.lo.x, cell.x), std::min(box.lo.y, cell.y), std::min(box.lo.z, cell.z)};
-    box.hi = {std::max(box.hi.x, cell.x), std::max(box.hi.y, cell.y), std::max(box.hi.z, cell.z)};
-  }
-  box.hi = box.hi + VoxelIndex{1, 1, 1};
-  return box;
-}
 
 VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
   return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
@@ -87,7 +75,7 @@ class UnknownSight::Chances {
 
 UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted,
                            const UnknownSightOptions& options)
-    : frame_(map.frame()), options_(options), wanted_box_(box_around(wanted)), contents_(map.bounds()) {
+    : frame_(map.frame()), options_(options), wanted_box_(detail::box_around(wanted)), contents_(map.bounds()) {
   detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
