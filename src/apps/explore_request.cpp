@@ -100,6 +100,9 @@ World world_of(const ExploreRequest& request) {
   if (!std::filesystem::exists(request.world) && request.world.find_first_of("./") == std::string::npos) {
     return World::by_name(request.world);  // neither a name nor a file: let it list the names
   }
+  if (!request.size.empty()) {
+    throw std::invalid_argument("--size: the world of a file has a size of its own");
+  }
   return World::from_file(request.world, {.up = request.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z,
                                           .scale = request.scale});
 }

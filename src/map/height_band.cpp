@@ -50,6 +50,15 @@ HeightBand::HeightBand(const OccupancyMapOptions& of_map, const HeightBandOption
   layer_ = plane_.region()->lo.z;
   detail::require_option(lowest_ < above_, "HeightBandOptions::max_height_m", options.max_height_m,
                          "such that the centre of a cell lies between the heights");
+  if (of_map.region) {
+    const VoxelBox region = frame.cells_centred_in(*of_map.region);
+    detail::require_option(lowest_ < region.hi.z, "HeightBandOptions::min_height_m", options.min_height_m,
+                           "below the top of the map's region");
+    detail::require_option(above_ > region.lo.z, "HeightBandOptions::max_height_m", options.max_height_m,
+                           "above the bottom of the map's region");
+    detail::require_option(region.lo.z <= layer_ && layer_ < region.hi.z, "HeightBandOptions::sensor_height_m",
+                           options.sensor_height_m, "within the map's region");
+  }
 }
 
 void HeightBand::follow(const OccupancyMap& map) {

@@ -13,7 +13,12 @@ namespace vantage {
 namespace {
 
 using Builder = World (*)(const WorldOptions&);
-using Named = std::pair<std::string_view, Builder>;
+
+struct Named {
+  std::string_view name;
+  Builder build;
+  bool sized = false;  // takes WorldOptions::length_m and width_m
+};
 
 World rooms_world(const WorldOptions&) { return world_of_cells("rooms", rooms_cells()); }
 World office_world(const WorldOptions& options) { return world_of_cells("office", office_cells(options)); }
@@ -35,16 +40,20 @@ World crates_open(const WorldOptions&) { return crates_open_world(); }
 World crates_closed(const WorldOptions&) { return crates_closed_world(); }
 
 constexpr std::array<Named, 7> kWorlds{{{"rooms", &rooms_world},
-                                        {"office", &office_world},
-                                        {"maze", &maze_world},
+                                        {"office", &office_world, true},
+                                        {"maze", &maze_world, true},
                                         {"two-storey", &two_storey_world},
                                         {"table", &table_world},
                                         {"crates-open", &crates_open},
                                         {"crates-closed", &crates_closed}}};
 
-void validate(const WorldOptions& options) {
-  const auto check = [](double metres, const char* option) {
+void validate(const WorldOptions& options, const Named& world) {
+  const auto check = [&](double metres, const char* option) {
     detail::require_option(metres == 0.0 || (metres >= 4.0 && metres <= 200.0), option, metres, "0 or in [4, 200]");
+    if (!world.sized) {
+      detail::require_option(metres == 0.0, option, metres,
+                             "0: " + std::string(world.name) + " has a size of its own");
+    }
   };
   check(options.length_m, "WorldOptions::length_m");
   check(options.width_m, "WorldOptions::width_m");
@@ -53,14 +62,14 @@ void validate(const WorldOptions& options) {
 }  // namespace
 
 World World::by_name(std::string_view name, const WorldOptions& options) {
-  validate(options);
-  const auto found = std::find_if(kWorlds.begin(), kWorlds.end(), [&](const Named& w) { return w.first == name; });
+  const auto found = std::find_if(kWorlds.begin(), kWorlds.end(), [&](const Named& w) { return w.name == name; });
   if (found != kWorlds.end()) {
-    return found->second(options);
+    validate(options, *found);
+    return found->build(options);
   }
   std::string message = "there is no world \"" + std::string(name) + "\"; there are";
   for (std::size_t i = 0; i < kWorlds.size(); ++i) {
-    message += (i == 0 ? " " : ", ") + std::string(kWorlds[i].first);
+    message += (i == 0 ? " " : ", ") + std::string(kWorlds[i].name);
   }
   throw std::invalid_argument(message);
 }
@@ -70,7 +79,7 @@ const std::vector<std::string_view>& World::names() {
     std::vector<std::string_view> all;
     all.reserve(std::size(kWorlds));
     for (const Named& world : kWorlds) {
-      all.push_back(world.first);
+      all.push_back(world.name);
     }
     return all;
   }();

@@ -114,6 +114,8 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--resolution nan", "--resolution");
   expect_refused(table + "--resolution 1e-7", "--resolution");
   expect_refused(table + "--resolution two", "--resolution: 'two' is not a number");
+  expect_refused(table + "--size 8,8", "WorldOptions::length_m is 8, must be 0: table has a size of its own");
+  expect_refused(table + "--band 0.2,1.4,2.5", "HeightBandOptions::sensor_height_m is 2.5, must be within");
   expect_refused(table + "--robot-radius -1", "--robot-radius");
   expect_refused(table + "--max-views 0", "--max-views");
   expect_refused(table + "--max-views -3", "--max-views: '-3' is not a whole number");
@@ -127,7 +129,7 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--pose-noise 0.01,-1", "--pose-noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 18);
+  EXPECT_EQ(refused_, 20);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {

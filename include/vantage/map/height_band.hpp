@@ -34,7 +34,7 @@ struct HeightBandOptions {
 class HeightBand {
  public:
   /// For maps made with `of_map`; its region, where it has one, bounds the plane. Throws std::invalid_argument naming
-  /// the option at fault, and if no cell's centre lies in the band.
+  /// the option at fault, if no cell's centre lies in the band, and if the region has none of it or not the sensor.
   HeightBand(const OccupancyMapOptions& of_map, const HeightBandOptions& options);
 
   /// The options it was made with.

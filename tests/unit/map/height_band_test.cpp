@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -120,9 +121,9 @@ TEST(HeightBand, ProjectsAnotherMapFromItsBeginning) {
 }
 
 TEST(HeightBand, NamesTheOptionAtFault) {
-  const auto message = [](const HeightBandOptions& options) -> std::string {
+  const auto message = [](const HeightBandOptions& options, std::optional<Box> region = {}) -> std::string {
     try {
-      const HeightBand band({.resolution_m = kCell}, options);
+      const HeightBand band({.resolution_m = kCell, .region = region}, options);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -135,6 +136,14 @@ TEST(HeightBand, NamesTheOptionAtFault) {
       "HeightBandOptions::max_height_m is 0.54, must be such that the centre of a cell lies between the heights");
   EXPECT_EQ(message({.free_share = 0.0}), "HeightBandOptions::free_share is 0, must be in (0, 1]");
   EXPECT_NE(message({.sensor_height_m = std::nan("")}).find("sensor_height_m"), std::string::npos);
+  const Box storey{{0.0, 0.0, 0.0}, {3.0, 3.0, 2.0}};
+  EXPECT_EQ(message({.min_height_m = 2.5, .max_height_m = 3.0, .sensor_height_m = 1.0}, storey),
+            "HeightBandOptions::min_height_m is 2.5, must be below the top of the map's region");
+  EXPECT_EQ(message({.min_height_m = -1.0, .max_height_m = 0.0, .sensor_height_m = 1.0}, storey),
+            "HeightBandOptions::max_height_m is 0, must be above the bottom of the map's region");
+  EXPECT_EQ(message({.min_height_m = 0.5, .max_height_m = 1.5, .sensor_height_m = 2.5}, storey),
+            "HeightBandOptions::sensor_height_m is 2.5, must be within the map's region");
+  EXPECT_EQ(message({.min_height_m = 0.5, .max_height_m = 2.5, .sensor_height_m = 1.9}, storey), "");
   HeightBand band({.resolution_m = kCell}, {});
   EXPECT_THROW(band.follow(OccupancyMap({.resolution_m = 0.2})), std::invalid_argument);
 }

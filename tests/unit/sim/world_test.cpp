@@ -71,6 +71,8 @@ TEST(World, AnUnknownNameListsThoseThereAre) {
       "there is no world \"moon\"; there are rooms, office, maze, two-storey, table, crates-open, crates-closed");
   EXPECT_EQ(complaint([] { (void)World::by_name("maze", {.length_m = 1.0}); }),
             "WorldOptions::length_m is 1, must be 0 or in [4, 200]");
+  EXPECT_EQ(complaint([] { (void)World::by_name("rooms", {.width_m = 8.0}); }),
+            "WorldOptions::width_m is 8, must be 0: rooms has a size of its own");
 }
 
 TEST(World, RoomsIsTheCubeOfThePaper) {
