@@ -14,6 +14,8 @@
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vector>
 
+#include "support/sanitized.hpp"
+
 namespace vantage {
 namespace {
 
@@ -38,8 +40,9 @@ Eigen::Vector3d random_point(std::mt19937& engine, const VoxelFrame& frame, doub
 TEST(RayCaster, OneRayAtATimeFindsWhatTheSlowWalkFinds) {
   std::mt19937 engine(31);
   std::array<std::size_t, 3> ends{};
+  constexpr int kWorlds = test::kSanitized ? 30 : 100;
   std::size_t differing = 0;
-  for (int world = 0; world < 100; ++world) {
+  for (int world = 0; world < kWorlds; ++world) {
     const double size_m = world % 3 == 0 ? 0.25 : 0.07;
     const OccupancyMap map = world % 4 == 0 ? test::random_map(engine, size_m) : test::hollow_map(engine, size_m);
     const RayCaster caster(map);
@@ -58,9 +61,9 @@ TEST(RayCaster, OneRayAtATimeFindsWhatTheSlowWalkFinds) {
     }
   }
   EXPECT_EQ(differing, 0U);
-  EXPECT_EQ(ends[0] + ends[1] + ends[2], 1'000'000U);
+  EXPECT_EQ(ends[0] + ends[1] + ends[2], 10'000U * kWorlds);
   for (const std::size_t count : ends) {
-    EXPECT_GT(count, 1'000U);
+    EXPECT_GT(count, 10U * kWorlds);
   }
 }
 
@@ -147,8 +150,9 @@ std::vector<RayEnd> slow_view(const OccupancyMap& map, const Pose& pose, const V
 
 TEST(RayCaster, EveryInstructionSetFindsWhatTheSlowWalkFinds) {
   std::mt19937 engine(32);
+  constexpr int kWorlds = test::kSanitized ? 30 : 100;
   std::vector<Compared> compared(instruction_sets().size());
-  for (int world = 0; world < 100; ++world) {
+  for (int world = 0; world < kWorlds; ++world) {
     const double size_m = world % 3 == 0 ? 0.25 : 0.07;
     const OccupancyMap map = world % 5 == 0 ? test::random_map(engine, size_m) : test::hollow_map(engine, size_m);
     BlockingGrid grid(0, CoarseningPolicy::Max);
@@ -167,9 +171,9 @@ TEST(RayCaster, EveryInstructionSetFindsWhatTheSlowWalkFinds) {
     }
   }
   for (const Compared& of_set : compared) {
-    EXPECT_GT(of_set.rays, 600'000U);
-    EXPECT_GT(of_set.stopped, 200'000U);
-    EXPECT_GT(of_set.rays - of_set.stopped, 20'000U);
+    EXPECT_GT(of_set.rays, 6'000U * kWorlds);
+    EXPECT_GT(of_set.stopped, 2'000U * kWorlds);
+    EXPECT_GT(of_set.rays - of_set.stopped, 200U * kWorlds);
     EXPECT_EQ(of_set.differing, 0U);
   }
 }
@@ -266,9 +270,10 @@ TEST(RayCaster, DistancesAreThoseToTheNearestWordThatStops) {
 
 TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
   std::mt19937 engine(36);
+  constexpr int kWorlds = test::kSanitized ? 15 : 60;
   std::size_t views = 0;
   std::size_t cells = 0;
-  for (int world = 0; world < 60; ++world) {
+  for (int world = 0; world < kWorlds; ++world) {
     const OccupancyMap map = test::hollow_map(engine, 0.1);
     const RayCaster caster(map);
     const Eigen::Vector3d inside(0.05, -0.11, 0.13);
@@ -299,8 +304,8 @@ TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
       cells += seen.size();
     }
   }
-  EXPECT_EQ(views, 1200U);
-  EXPECT_GT(cells, 20'000U);
+  EXPECT_EQ(views, 20U * kWorlds);
+  EXPECT_GT(cells, 300U * kWorlds);
 }
 
 TEST(RayCaster, NamesWhatIsWrong) {
