@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // frontier/<way>/<world> and void/<way>/<world>: frontier and void cells after one more scan of a depth camera, in a
-// map that 60 scans from all over the world have made. `incremental` keeps cells and clusters up to date; `full`
-// finds both from nothing, `full_cells` the cells alone. plan/<planner>/<world>: a whole plan in that map.
+// map that 60 scans from all over the world have made, of 0.05 m where the name says nothing else. `incremental`
+// keeps cells and clusters up to date; `full` finds both from nothing, `full_cells` the cells alone.
+// frontier_and_void/<way>/ <world>: what a planner that needs both pays after a scan. plan/<planner>/<world>: a whole
+// plan in that map.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -59,11 +61,13 @@ const Sequence& sequence_of(const std::string& name) {
   }
   const char* data = std::getenv("VANTAGE_DATA");
   const std::filesystem::path folder = data == nullptr ? "" : data;
-  const World world = name == "house"
+  const std::string place = name.substr(0, name.find('/'));
+  const World world = place == "house"
                           ? World::from_file(folder / "environments/aws_small_house/small_house_visual.ply")
-                      : name == "geb079" ? World::from_file(folder / "octomaps/geb079.bt")
-                                         : World::by_name(name);
-  return all.emplace(name, record(world, 0.05)).first->second;
+                      : place == "geb079" ? World::from_file(folder / "octomaps/geb079.bt")
+                                          : World::by_name(place);
+  return all.emplace(name, record(world, name == place ? 0.05 : std::stod(name.substr(place.size() + 1))))
+      .first->second;
 }
 
 // Calls `measured(map)` after every scan to come, timed; `prepared(map)` before the first, not.
@@ -117,6 +121,30 @@ void voids_full(benchmark::State& state, const std::string& world) {
       [](const OccupancyMap& map) { benchmark::DoNotOptimize(void_cells(map)); });
 }
 
+void both_incremental(benchmark::State& state, const std::string& world) {
+  std::unique_ptr<FrontierTracker> frontiers;
+  std::unique_ptr<VoidTracker> voids;
+  after_every_scan(
+      state, world,
+      [&](const OccupancyMap& map) {
+        frontiers = std::make_unique<FrontierTracker>(map);
+        voids = std::make_unique<VoidTracker>(map);
+      },
+      [&](const OccupancyMap&) {
+        benchmark::DoNotOptimize(frontiers->update());
+        benchmark::DoNotOptimize(voids->update());
+      });
+}
+
+void both_full(benchmark::State& state, const std::string& world) {
+  after_every_scan(
+      state, world, [](const OccupancyMap&) {},
+      [](const OccupancyMap& map) {
+        benchmark::DoNotOptimize(frontier_clusters(frontier_cells(map)));
+        benchmark::DoNotOptimize(void_cells(map));
+      });
+}
+
 void plan(benchmark::State& state, std::string_view name, const std::string& world) {
   const auto flyer = std::make_shared<const FreeFlyer>(kRobot);
   const auto planner = make_planner(name, {.sensor = RangeSensor::preset("realsense"), .platform = flyer});
@@ -129,6 +157,7 @@ void plan(benchmark::State& state, std::string_view name, const std::string& wor
       [&](const OccupancyMap& map) { latest = planner->plan(map, sequence.scans[next++].world_from_sensor); });
   state.counters["reachable_cells"] = static_cast<double>(latest.statistics.reachable_cells);
   state.counters["void_cells"] = static_cast<double>(latest.statistics.void_cells);
+  state.counters["survey_ms"] = latest.statistics.survey_ms;
 }
 
 void full_cells(benchmark::State& state, const std::string& world) {
@@ -140,14 +169,16 @@ void full_cells(benchmark::State& state, const std::string& world) {
 const bool registered = [] {
   std::vector<std::string> worlds{"office"};
   if (std::getenv("VANTAGE_DATA") != nullptr) {
-    worlds.insert(worlds.end(), {"house", "geb079"});
+    worlds.insert(worlds.end(), {"house", "geb079", "geb079/0.1"});
   }
   const std::map<std::string, void (*)(benchmark::State&, const std::string&)> ways{
       {"frontier/incremental", incremental},
       {"frontier/full", full},
       {"frontier/full_cells", full_cells},
       {"void/incremental", voids_incremental},
-      {"void/full", voids_full}};
+      {"void/full", voids_full},
+      {"frontier_and_void/incremental", both_incremental},
+      {"frontier_and_void/full", both_full}};
   const auto add = [](const std::string& name, std::size_t iterations, auto run) {
     benchmark::RegisterBenchmark(name.c_str(), run)
         ->Unit(benchmark::kMillisecond)

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 #include <vantage/frontier/frontiers.hpp>
-#include <vantage/geometry/convex_hull.hpp>
+#include <vantage/geometry/lattice_hull.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
@@ -18,9 +18,10 @@ namespace vantage {
 ///     voids.update();  // costs what the scan changed
 ///
 /// At every moment it holds what `void_cells` would find in the map of the last update, whatever the way by which the
-/// map came there. The hull grows by the occupied cells that a change has put outside it; only where a corner of it
-/// is no longer occupied it is found anew, from the corners that are left and what lies outside of these. The map
-/// must outlive the tracker.
+/// map came there. The hull grows by the occupied cells that a change has put outside it; where a corner of it is no
+/// longer occupied it shrinks to the corners that are left and grows from there. Of the cells, only those are asked
+/// again that lie beyond a plane which bounded the hull before, or does now, but not both. The map must outlive the
+/// tracker.
 class VoidTracker {
  public:
   /// Takes the map as it is now.
@@ -29,9 +30,8 @@ class VoidTracker {
   /// Follows the changes of the map since the last call. Returns whether the hull has changed.
   bool update();
 
-  /// The hull of the occupied cells, as `occupied_hull`: in units of cells, the centre of cell (x, y, z) at (x, y,
-  /// z).
-  [[nodiscard]] const ConvexHull& hull() const { return hull_; }
+  /// The hull of the occupied cells, as `occupied_hull`.
+  [[nodiscard]] const LatticeHull& hull() const { return hull_; }
   /// How many void cells there are.
   [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
   /// Whether a cell is one of them.
@@ -48,16 +48,19 @@ class VoidTracker {
     BrickPlane voids{};
   };
 
-  void find_anew();
-  void enclose(ConvexHull hull);
-  void enclose(const VoxelBox& bricks, const std::vector<const ConvexHull::Plane*>& planes);
+  [[nodiscard]] bool has_lost_a_corner() const;
+  void start_anew();
+  void shrink(std::vector<VoxelIndex>& touched);
+  void reshape(LatticeHull hull, std::vector<VoxelIndex>* reshaped = nullptr);
+  BrickVoids& brick_at(const VoxelIndex& address);
   void refresh(BrickVoids& brick);
-  void collect_outside(const VoxelIndex& address, const Brick& brick, std::vector<Eigen::Vector3d>& points) const;
-  [[nodiscard]] bool is_occupied(const Eigen::Vector3d& corner) const;
+  void collect_outside(const VoxelIndex& address, std::vector<VoxelIndex>& cells) const;
 
   const OccupancyMap* map_;
   OccupancyMap::Revision revision_ = 0;
-  ConvexHull hull_;
+  LatticeHull hull_;
+  std::vector<LatticeHull::Plane> planes_;  // of the hull
+  std::vector<VoxelIndex> corners_;         // of the hull
   std::size_t cell_count_ = 0;
   std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // of the bricks that the hull reaches into
   std::vector<BrickVoids> bricks_;

@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::int32_t kExtent = 20;
 
+VoxelIndex cell_at(const Eigen::Vector3d& corner) {
+  const auto whole = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
+  return {whole(corner.x()), whole(corner.y()), whole(corner.z())};
+}
+
 // What happens to a map: scans come in, from ever further away, cells at the rim of all that is occupied become
 // free, and boxes become free or unknown again.
 void change(OccupancyMap& map, int step, std::mt19937& engine) {
@@ -31,8 +36,7 @@ void change(OccupancyMap& map, int step, std::mt19937& engine) {
     const ConvexHull hull = occupied_hull(map);
     if (!hull.empty()) {
       const Eigen::Vector3d& corner = hull.corners()[engine() % hull.corners().size()];
-      const auto whole = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
-      map.set({whole(corner.x()), whole(corner.y()), whole(corner.z())}, Occupancy::Free);
+      map.set(cell_at(corner), Occupancy::Free);
     }
   } else {
     const auto edge = static_cast<std::int32_t>(1 + engine() % 14);
@@ -58,25 +62,26 @@ TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
     VoidTracker tracker(map);
     EXPECT_EQ(tracker.cell_count(), 0U);
     for (int step = 0; step < 30; ++step) {
-      const ConvexHull before = tracker.hull();
+      const LatticeHull before = tracker.hull();
       change(map, step, engine);
       const bool hull_changed = tracker.update();
       const std::vector<VoxelIndex> expected = void_cells(map);
       ASSERT_EQ(tracker.cells(), expected) << "world " << world << ", step " << step;
       ASSERT_EQ(tracker.cell_count(), expected.size());
-      const ConvexHull hull = occupied_hull(map);
-      for (const Eigen::Vector3d& corner : hull.corners()) {
-        ASSERT_TRUE(tracker.hull().contains(corner, 1e-6));
+      const ConvexHull expected_hull = occupied_hull(map);
+      for (const Eigen::Vector3d& corner : expected_hull.corners()) {
+        ASSERT_TRUE(tracker.hull().contains(cell_at(corner)));
       }
       hulls_kept += !hull_changed && !before.empty() ? 1U : 0U;
-      const auto& corners = tracker.hull().corners();
-      const bool shrunk = !before.empty() && !std::all_of(before.corners().begin(), before.corners().end(),
-                                                          [&](auto& c) { return tracker.hull().contains(c, 1e-6); });
+      const std::vector<VoxelIndex> corners = tracker.hull().corners();
+      const std::vector<VoxelIndex> corners_before = before.corners();
+      const bool shrunk = std::any_of(corners_before.begin(), corners_before.end(),
+                                      [&](auto& corner) { return !tracker.hull().contains(corner); });
       hulls_shrunk += shrunk ? 1U : 0U;
-      hulls_grown +=
-          !shrunk && std::any_of(corners.begin(), corners.end(), [&](auto& c) { return !before.contains(c, 1e-6); })
-              ? 1U
-              : 0U;
+      hulls_grown += !shrunk && std::any_of(corners.begin(), corners.end(),
+                                            [&](auto& corner) { return !before.contains(corner); })
+                         ? 1U
+                         : 0U;
       ++compared;
       cells += expected.size();
     }

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vantage/geometry/lattice_hull.hpp>
+
+namespace vantage {
+namespace {
+
+std::vector<Eigen::Vector3d> as_points(const std::vector<VoxelIndex>& cells) {
+  std::vector<Eigen::Vector3d> points;
+  for (const VoxelIndex& cell : cells) {
+    points.emplace_back(cell.x, cell.y, cell.z);
+  }
+  return points;
+}
+
+// Clouds as maps have them: whole walls in one plane, edges of many cells, scattered cells, and cells far away.
+std::vector<VoxelIndex> cloud(int kind, std::mt19937& engine) {
+  std::uniform_int_distribution<std::int32_t> near(-9, 9);
+  std::uniform_int_distribution<std::int32_t> far(-4'000, 4'000);
+  std::vector<VoxelIndex> cells;
+  for (int i = 0; i < 60; ++i) {
+    switch (kind % 4) {
+      case 0:  // on the sides of a box
+        cells.push_back({near(engine), near(engine), (i % 2) * 12});
+        break;
+      case 1:  // scattered
+        cells.push_back({near(engine), near(engine), near(engine)});
+        break;
+      case 2:  // on a few parallel lines
+        cells.push_back({near(engine), i % 3 * 5, i % 2 * 7});
+        break;
+      default:
+        cells.push_back({far(engine), far(engine), far(engine)});
+    }
+  }
+  return cells;
+}
+
+// Every plane of either hull is one of the other's.
+void expect_same_planes(const LatticeHull& ours, const ConvexHull& theirs) {
+  for (const LatticeHull::Plane& exact : ours.planes()) {
+    const ConvexHull::Plane plane = exact.plane();
+    EXPECT_TRUE(std::any_of(theirs.planes().begin(), theirs.planes().end(), [&](const ConvexHull::Plane& other) {
+      return (plane.normal - other.normal).norm() < 1e-9 && std::abs(plane.offset - other.offset) < 1e-6;
+    }));
+  }
+  for (const ConvexHull::Plane& plane : theirs.planes()) {
+    const std::vector<LatticeHull::Plane> planes = ours.planes();
+    EXPECT_TRUE(std::any_of(planes.begin(), planes.end(), [&](const LatticeHull::Plane& exact) {
+      return (exact.plane().normal - plane.normal).norm() < 1e-9;
+    }));
+  }
+}
+
+// Against Qhull: the same planes, and corners that are corners there.
+TEST(LatticeHull, HasThePlanesThatQhullFinds) {
+  std::mt19937 engine(5);
+  std::size_t compared = 0;
+  for (int world = 0; world < 200; ++world) {
+    const std::vector<VoxelIndex> cells = cloud(world, engine);
+    const LatticeHull hull(cells);
+    const ConvexHull qhull(as_points(cells));
+    ASSERT_EQ(hull.empty(), qhull.empty()) << "world " << world;
+    expect_same_planes(hull, qhull);
+    for (const VoxelIndex& corner : hull.corners()) {
+      const Eigen::Vector3d point(corner.x, corner.y, corner.z);
+      EXPECT_TRUE(std::find(qhull.corners().begin(), qhull.corners().end(), point) != qhull.corners().end());
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, 200U);
+}
+
+// Grown bit by bit, in any order, it is the hull of all; and its corners alone have the same.
+TEST(LatticeHull, GrowsToTheHullOfAll) {
+  std::mt19937 engine(6);
+  std::size_t compared = 0;
+  for (int world = 0; world < 60; ++world) {
+    LatticeHull grown;
+    std::vector<VoxelIndex> all;
+    for (int step = 0; step < 5; ++step) {
+      const std::vector<VoxelIndex> cells = cloud(world + (step > 2 ? 1 : 0), engine);
+      all.insert(all.end(), cells.begin(), cells.end());
+      const bool was_empty = grown.empty();
+      grown.insert(was_empty ? all : cells);
+      std::shuffle(all.begin(), all.end(), engine);
+      const LatticeHull anew(all);
+      ASSERT_EQ(grown.planes(), anew.planes()) << "world " << world << ", step " << step;
+      ASSERT_EQ(grown.corners(), anew.corners());
+      ASSERT_EQ(LatticeHull(grown.corners()).planes(), grown.planes());
+      for (const VoxelIndex& cell : all) {
+        ASSERT_TRUE(grown.empty() || grown.contains(cell));
+      }
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 300U);
+}
+
+TEST(LatticeHull, AWallOfCellsHasFourCorners) {
+  std::vector<VoxelIndex> cells;
+  for_each_cell({{0, 0, 0}, {9, 9, 1}}, [&](const VoxelIndex& cell) { cells.push_back(cell); });
+  LatticeHull hull(cells);
+  EXPECT_TRUE(hull.empty());
+  EXPECT_FALSE(hull.contains({4, 4, 0}));
+  cells.push_back({4, 4, 6});
+  hull.insert(cells);
+  EXPECT_EQ(hull.corners(), (std::vector<VoxelIndex>{{0, 0, 0}, {0, 8, 0}, {4, 4, 6}, {8, 0, 0}, {8, 8, 0}}));
+  EXPECT_EQ(hull.planes().size(), 5U);
+  EXPECT_TRUE(hull.contains({4, 4, 0}));
+  EXPECT_FALSE(hull.contains({4, 4, -1}));
+}
+
+// Normals of such a size do not fit 32 bits, nor distances 64.
+TEST(LatticeHull, IsExactAtTheEndsOfTheMap) {
+  constexpr std::int32_t kFar = kFurthestVoxel;
+  const LatticeHull hull(std::vector<VoxelIndex>{
+      {-kFar, -kFar, kFar}, {kFar, -kFar, -kFar}, {-kFar, kFar, -kFar}, {kFar, kFar, kFar}, {1, 2, 3}});
+  EXPECT_EQ(hull.corners().size(), 4U);
+  EXPECT_TRUE(hull.contains({0, 0, kFar}));  // on the edge of two corners
+  EXPECT_FALSE(hull.contains({1, 0, kFar}));
+  EXPECT_TRUE(hull.contains({0, 0, kFar - 1}));
+}
+
+}  // namespace
+}  // namespace vantage
