@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <vantage/report/report_html.hpp>
+#include <vantage/report/run_record_reader.hpp>
 #include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/picture.hpp>
 
@@ -24,6 +25,7 @@ namespace {
 struct CompareRequest {
   std::vector<std::string> reports;
   std::string out;
+  bool by_folder = false;
 };
 
 // What the table needs of a run.
@@ -36,6 +38,7 @@ struct ComparedRun {
   double share = std::nan("");  // coverage, else surface coverage
   double seconds = 0.0;         // computing
   double plan_ms = std::nan("");
+  std::vector<double> curve;  // the share after every view
 };
 
 double number_or_nan(const nlohmann::json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
@@ -63,6 +66,30 @@ ComparedRun compared(const std::string& file, const std::string& text) {
   } catch (const nlohmann::json::exception&) {
     throw std::runtime_error(file + ": is no report.json of a run");
   }
+}
+
+// What the record beside a report says of the surface after every view; nothing where there is none.
+std::vector<double> surface_curve(const std::filesystem::path& record) {
+  std::vector<double> curve;
+  if (!record.empty()) {
+    RunRecordReader reader(record);
+    while (const std::optional<RecordedCycle> cycle = reader.next()) {
+      curve.push_back(cycle->view.surface_coverage.value_or(std::nan("")));
+    }
+  }
+  return curve;
+}
+
+void add_curve(ComparedRun& run, const std::filesystem::path& record) {
+  const nlohmann::json& cycles = run.report.at("cycles");
+  if (run.report.at("coverage").is_null()) {
+    run.curve = surface_curve(record);
+  } else {
+    for (const nlohmann::json& cycle : cycles) {
+      run.curve.push_back(number_or_nan(cycle.at("coverage")));
+    }
+  }
+  run.curve.resize(cycles.size(), std::nan(""));
 }
 
 std::string read_file(const std::string& file) {
@@ -131,19 +158,25 @@ void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
 Picture overlaid_coverage(const std::vector<ComparedRun>& runs) {
   LinePlot views{.title = "coverage over views",
                  .x_label = "views (scans integrated)",
-                 .y_label = "observable cells known rightly [%]",
+                 .y_label = "",
                  .y_range = std::pair(0.0, 100.0),
                  .value_unit = " %"};
   LinePlot metres = views;
   metres.title = "coverage over metres";
   metres.x_label = "path travelled [m]";
+  const bool surfaces = std::all_of(runs.begin(), runs.end(),
+                                    [](const ComparedRun& run) { return run.report.at("coverage").is_null(); });
+  views.y_label = surfaces ? "surface measured [%]" : "observable cells known rightly [%]";
+  metres.y_label = views.y_label;
   for (const ComparedRun& run : runs) {
     LineSeries over_views{.name = run.name};
     LineSeries over_metres{.name = run.name};
     for (const nlohmann::json& cycle : run.report.at("cycles")) {
       over_views.x.push_back(cycle.at("view").get<double>());
       over_metres.x.push_back(cycle.at("path_length_m").get<double>());
-      over_views.y.push_back(100.0 * number_or_nan(cycle.at("coverage")));
+    }
+    for (const double share : run.curve) {
+      over_views.y.push_back(100.0 * share);
     }
     over_metres.y = over_views.y;
     views.series.push_back(std::move(over_views));
@@ -160,13 +193,19 @@ void compare(const CompareRequest& request) {
     const std::filesystem::path record = std::filesystem::path(file).parent_path() / "run.record";
     reported.push_back({read_file(file), std::filesystem::exists(record) ? record : std::filesystem::path()});
     runs.push_back(compared(file, reported.back().report));
+    add_curve(runs.back(), reported.back().record);
+    if (request.by_folder) {
+      runs.back().group = std::filesystem::absolute(file).parent_path().filename().string();
+      runs.back().name = runs.back().group;
+    }
   }
   const std::filesystem::path folder = request.out;
   make_folder(folder);
   write_report_html(reported, folder / "report.html");
   std::vector<std::filesystem::path> files{folder / "report.html"};
-  if (std::any_of(runs.begin(), runs.end(),
-                  [](const ComparedRun& run) { return !run.report.at("coverage").is_null(); })) {
+  if (std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
+        return std::any_of(run.curve.begin(), run.curve.end(), [](double share) { return !std::isnan(share); });
+      })) {
     files.push_back(folder / "coverage.png");
     write_png(overlaid_coverage(runs), files.back());
   }
@@ -185,6 +224,8 @@ void add_compare_command(CLI::App& app) {
   command->add_option("--out", request->out, "Folder for report.html and coverage.png; must be given")
       ->required()
       ->type_name("DIR");
+  command->add_flag("--by-folder", request->by_folder,
+                    "Call every run by its folder: where runs differ by settings, not by planner, world and seed");
   command->footer(
       "Examples:\n"
       "  vantage compare harmonic/report.json gain/report.json --out both\n"

@@ -340,6 +340,12 @@ TEST_F(Program, RecordsAndCompares) {
   EXPECT_GT(fs::file_size(fs::path(out()) / "report.html"), 500'000U);
   EXPECT_TRUE(fs::exists(fs::path(out()) / "coverage.png"));
 
+  const Ran named =
+      run("compare --by-folder '" + first + "/report.json' '" + second + "/report.json' --out '" + out() + "'");
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_NE(named.out.find("\nfirst    1     3 "), std::string::npos) << named.out;
+  EXPECT_NE(named.out.find("\nsecond   1     3 "), std::string::npos) << named.out;
+
   // As after a crash: the end is missing.
   const fs::path record = fs::path(first) / "run.record";
   fs::resize_file(record, fs::file_size(record) - 20);
