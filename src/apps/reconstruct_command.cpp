@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <random>
@@ -36,7 +37,8 @@ struct ReconstructRequest {
   double gap_m = 0.0;
   std::string method = "default";
   std::uint64_t candidates = 320;
-  double radius_m = 1.5;
+  std::string radii = "1.5";
+  std::uint64_t aimed = 320;
   ExploreRequest run;  // what the commands share
 
   ReconstructRequest() {
@@ -92,12 +94,21 @@ Box object_box_of(const ReconstructRequest& request, const TriangleMesh& object)
   return box;
 }
 
-World world_around(const ReconstructRequest& request, const TriangleMesh& object, const Box& box) {
+// Of the shells of candidates.
+std::vector<double> radii_of(const ReconstructRequest& request) {
+  std::vector<double> radii_m = numbers_of("--radius", request.radii);
+  for (const double radius_m : radii_m) {
+    detail::require_option(radius_m > 0.0, "--radius", radius_m, "> 0 metres");
+  }
+  return radii_m;
+}
+
+World world_around(const ReconstructRequest& request, const TriangleMesh& object, const Box& box, double furthest_m) {
   World world;
   if (request.table) {
     world = World::by_name("table");
   } else {
-    const double reach_m = request.radius_m + 0.5 * box.extent().norm();
+    const double reach_m = furthest_m + 0.5 * box.extent().norm();
     world.region = {box.centre().array() - reach_m, box.centre().array() + reach_m};
   }
   world.name = request.object;
@@ -147,30 +158,32 @@ std::vector<Eigen::Vector3d> surface_points(const TriangleMesh& mesh) {
   return points;
 }
 
-std::string text_of(const Box& box) {
+std::string text_of(std::initializer_list<double> numbers) {
   std::ostringstream text;
   text.precision(17);
-  text << box.min.x() << ',' << box.min.y() << ',' << box.min.z() << ',' << box.max.x() << ',' << box.max.y() << ','
-       << box.max.z();
+  for (const double number : numbers) {
+    text << (text.tellp() > 0 ? "," : "") << number;
+  }
   return text.str();
 }
 
-// As many candidates as an icosahedron has faces, at some level, are its; any other number is drawn at random.
-PlannerSettings settings_for(const ReconstructRequest& request, const Box& box) {
+// As many candidates as an icosahedron has faces, at some level, are its; any other number is drawn at random. Aimed
+// ones stand no further off than the furthest shell, and as near as a third of that.
+PlannerSettings settings_for(const ReconstructRequest& request, const Box& box, double furthest_m) {
   int subdivisions = 0;
   std::uint64_t faces = 20;
   for (; subdivisions < 6 && faces < request.candidates; faces *= 4) {
     ++subdivisions;
   }
-  std::ostringstream radius;
-  radius.precision(17);
-  radius << request.radius_m;
   PlannerSettings settings{
-      {"object", text_of(box)},
-      {"radius_m", radius.str()},
+      {"object", text_of({box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()})},
+      {"radii_m", request.radii},
       {"method", request.method},
       {"subdivisions", faces == request.candidates ? std::to_string(subdivisions) : "-1"},
       {"random_candidates", faces == request.candidates ? "0" : std::to_string(request.candidates)},
+      {"aimed_candidates", std::to_string(request.aimed)},
+      {"aimed_min_distance_m", text_of({furthest_m / 3.0})},
+      {"aimed_max_distance_m", text_of({furthest_m})},
       {"min_unknown_cells", "15"}};
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
@@ -183,18 +196,19 @@ int reconstruct(const ReconstructRequest& request) {
   check_numbers(shared);
   check_targets(shared.out, shared.json);
   detail::require_option(request.candidates > 0, "--candidates", request.candidates, "> 0");
-  detail::require_option(request.radius_m > 0.0, "--radius", request.radius_m, "> 0 metres");
+  const std::vector<double> radii_m = radii_of(request);
   detail::require_option(request.gap_m >= 0.0, "--gap", request.gap_m, ">= 0 metres");
   const RangeSensor sensor = sensor_of(shared);
   const TriangleMesh object = placed_object(request);
   const Box box = object_box_of(request, object);
-  const World world = world_around(request, object, box);
+  const double furthest_m = *std::max_element(radii_m.begin(), radii_m.end());
+  const World world = world_around(request, object, box, furthest_m);
   check_cell_count(world.region, shared.resolution_m);
   const auto platform = std::make_shared<const FreeFlyer>(
       FreeFlyerOptions{.radius_m = shared.robot_radius_m, .yaw_only = shared.yaw_only});
   const auto planner = make_planner(
       shared.planner, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
-      settings_for(request, box));
+      settings_for(request, box, furthest_m));
 
   ExplorationRunOptions options;
   options.map.resolution_m = shared.resolution_m;
@@ -210,7 +224,7 @@ int reconstruct(const ReconstructRequest& request) {
   options.surface_gap_m = request.gap_m > 0.0         ? request.gap_m
                           : request.reference.empty() ? shared.resolution_m
                                                       : options.surface_gap_m;
-  const Eigen::Vector3d aside = box.centre() - Eigen::Vector3d(request.radius_m, 0.0, 0.0);
+  const Eigen::Vector3d aside = box.centre() - Eigen::Vector3d(radii_m.front(), 0.0, 0.0);
   const Pose start = start_of(shared).value_or(pose_looking_along(aside, box.centre() - aside));
   ExplorationRun run(world, sensor, platform, options);
 
@@ -264,7 +278,11 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
   option("--candidates", request.candidates, "N",
          "How many views are tried: 20, 80, 320, 1280 evenly all around; other numbers at random in the room")
       ->check(a_whole_number());
-  option("--radius", request.radius_m, "M", "Their distance from the middle of the box, metres")->check(a_number());
+  option("--radius", request.radii, "M[,M...]",
+         "Their distance from the middle of the box, metres; of several, as many views at each");
+  option("--aimed", request.aimed, "N",
+         "So many more, drawn anew after every scan: aimed at cells still unknown, from where these are in sight")
+      ->check(a_whole_number());
   option("--start", run.start, "x,y,z[,yaw[,pitch]]",
          "First pose of the sensor, metres and degrees; beside the object unless given");
   add_sensor_options(command, run, "Views");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vantage/planner/failed_views.hpp>
 
@@ -74,6 +75,23 @@ bool FailedViews::failed_from(const VoxelIndex& unknown, const VoxelIndex& viewp
   const auto failure = failures_.find(unknown);
   return failure != failures_.end() && std::find(failure->second.viewpoints.begin(), failure->second.viewpoints.end(),
                                                  viewpoint) != failure->second.viewpoints.end();
+}
+
+bool FailedViews::failed_towards(const VoxelIndex& unknown, const VoxelIndex& viewpoint, double within_rad) const {
+  const auto failure = failures_.find(unknown);
+  if (failure == failures_.end()) {
+    return false;
+  }
+  const auto direction_to = [&](const VoxelIndex& place) {
+    const VoxelIndex step = place - unknown;
+    return Eigen::Vector3d(step.x, step.y, step.z).normalized().eval();
+  };
+  const Eigen::Vector3d towards = direction_to(viewpoint);
+  const double least_cosine = std::cos(within_rad);
+  const auto& viewpoints = failure->second.viewpoints;
+  return std::any_of(viewpoints.begin(), viewpoints.end(), [&](const VoxelIndex& place) {
+    return place == viewpoint || direction_to(place).dot(towards) >= least_cosine;
+  });
 }
 
 bool FailedViews::gave_up(const VoxelIndex& unknown) const {

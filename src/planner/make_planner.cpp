@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -76,19 +75,22 @@ class SettingReader {
     }
     return *this;
   }
+  // "x,y,...".
+  SettingReader& numbers(std::string_view name, std::vector<double>& field) {
+    if (const std::string* text = find(name)) {
+      field = numbers_in(*text);
+      if (field.empty()) {
+        refuse(name, *text, "numbers, with commas between them");
+      }
+    }
+    return *this;
+  }
   // "x0,y0,z0,x1,y1,z1", metres.
   SettingReader& box(std::string_view name, std::optional<Box>& field) {
     if (const std::string* text = find(name)) {
-      std::array<double, 6> corners{};
-      const char* at = text->data();
-      const char* const end = at + text->size();
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto [after, error] = std::from_chars(at, end, corners[i]);
-        const bool separated = i + 1 == corners.size() ? after == end : after != end && *after == ',';
-        if (error != std::errc{} || !separated) {
-          refuse(name, *text, "six numbers x0,y0,z0,x1,y1,z1");
-        }
-        at = after + 1;
+      const std::vector<double> corners = numbers_in(*text);
+      if (corners.size() != 6) {
+        refuse(name, *text, "six numbers x0,y0,z0,x1,y1,z1");
       }
       field = Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
     }
@@ -105,6 +107,21 @@ class SettingReader {
   }
 
  private:
+  // None if the text is anything else.
+  static std::vector<double> numbers_in(const std::string& text) {
+    std::vector<double> numbers;
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data();; ++at) {
+      const auto [after, error] = std::from_chars(at, end, numbers.emplace_back());
+      if (error != std::errc{} || (after != end && *after != ',')) {
+        return {};
+      }
+      if (after == end) {
+        return numbers;
+      }
+      at = after;
+    }
+  }
   const std::string* find(std::string_view name) {
     known_.push_back(name);
     const auto setting = settings_.find(name);
@@ -208,10 +225,14 @@ std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setu
   }
   read_survey(read, options.survey)
       .box("object", options.object)
-      .number("radius_m", options.radius_m)
+      .numbers("radii_m", options.radii_m)
       .number("subdivisions", options.subdivisions)
       .number("random_candidates", options.random_candidates)
+      .number("aimed_candidates", options.aimed.count)
+      .number("aimed_min_distance_m", options.aimed.min_distance_m)
+      .number("aimed_max_distance_m", options.aimed.max_distance_m)
       .number("min_overlap_cells", options.min_overlap_cells)
+      .degrees("failed_within_deg", options.failed_within_rad)
       .number("min_unknown_cells", options.min_unknown_cells)
       .choice("gain", options.gain, gains)
       .degrees("vision_angle_deg", options.sensing.max_incidence_rad)

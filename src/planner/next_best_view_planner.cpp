@@ -3,8 +3,8 @@
 // Vasquez-Gomez, Sucar, Murrieta-Cid 2013, "Hierarchical ray tracing for fast volumetric next-best-view planning",
 // Algorithm 1.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <queue>
 #include <stdexcept>
@@ -31,8 +31,13 @@ void validate(const NextBestViewOptions& options) {
       (options.object->empty() || !options.object->min.allFinite() || !options.object->max.allFinite())) {
     throw std::invalid_argument("NextBestViewOptions::object must have min < max on every axis and be finite");
   }
-  detail::require_option(std::isfinite(options.radius_m) && options.radius_m > 0.0, "NextBestViewOptions::radius_m",
-                         options.radius_m, "> 0");
+  if (options.radii_m.empty()) {
+    throw std::invalid_argument("NextBestViewOptions::radii_m is empty, must have at least one radius");
+  }
+  for (const double radius_m : options.radii_m) {
+    detail::require_option(std::isfinite(radius_m) && radius_m > 0.0, "NextBestViewOptions::radii_m", radius_m,
+                           "> 0");
+  }
   detail::require_option(options.subdivisions >= -1 && options.subdivisions <= 6, "NextBestViewOptions::subdivisions",
                          options.subdivisions, "in [-1, 6]");
   detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
@@ -40,6 +45,9 @@ void validate(const NextBestViewOptions& options) {
   detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
                          "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
   detail::require_option(options.hypotheses >= 1, "NextBestViewOptions::hypotheses", options.hypotheses, ">= 1");
+  detail::require_option(options.failed_within_rad >= 0.0 && options.failed_within_rad <= std::numbers::pi,
+                         "NextBestViewOptions::failed_within_rad", options.failed_within_rad, "in [0, pi]");
+  validate(options.aimed);
   validate(options.sensing);
   detail::validate(options.survey);
 }
@@ -56,25 +64,6 @@ struct Rank {
     return a.utility != b.utility ? a.utility < b.utility : a.candidate > b.candidate;
   }
 };
-
-// Line 8: the candidates, in the orientations that the platform can take.
-std::vector<Pose> candidates_for(const OccupancyMap& map, const PlannerSetup& setup,
-                                 const NextBestViewOptions& options) {
-  const Eigen::Vector3d middle = options.object->centre();
-  std::vector<Pose> views;
-  if (options.subdivisions >= 0) {
-    views = views_around(middle, std::array{options.radius_m}, options.subdivisions);
-  }
-  if (options.random_candidates > 0 && !cells_of_interest(map).empty()) {
-    const Box workspace = map.frame().box_of(cells_of_interest(map));
-    const std::vector<Pose> random = random_views_of(middle, workspace, options.random_candidates, setup.seed);
-    views.insert(views.end(), random.begin(), random.end());
-  }
-  for (Pose& view : views) {
-    view = setup.platform->facing(view.translation(), optical_axis(view));
-  }
-  return views;
-}
 
 // Those of any use, for whoever wants to look.
 std::vector<View> views_of(const std::vector<ScoredView>& scored) {
@@ -136,15 +125,57 @@ void NextBestViewPlanner::follow(const OccupancyMap& map) {
   }
 }
 
-// Lines 9 to 20: what every candidate that the platform admits is worth.
+// Line 8: the candidates that the platform admits, in the orientations that it can take.
+std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, const VoxelBox& object) const {
+  const Eigen::Vector3d middle = options_.object->centre();
+  std::vector<Pose> views;
+  const auto add = [&](const std::vector<Pose>& more) { views.insert(views.end(), more.begin(), more.end()); };
+  if (options_.subdivisions >= 0) {
+    add(views_around(middle, options_.radii_m, options_.subdivisions));
+  }
+  if (options_.random_candidates > 0 && !cells_of_interest(map).empty()) {
+    const Box workspace = map.frame().box_of(cells_of_interest(map));
+    add(random_views_of(middle, workspace, options_.random_candidates, setup_.seed));
+  }
+  if (options_.aimed.count > 0) {
+    CellSet sought(object);
+    for_each_cell(object, [&](const VoxelIndex& cell) {
+      if (caster_->at(cell) == Occupancy::Unknown && !failed_.gave_up(cell)) {
+        sought.insert(cell);
+      }
+    });
+    add(aimed_views(*caster_, sought, options_.aimed, setup_.seed));
+  }
+  for (Pose& view : views) {
+    view = setup_.platform->facing(view.translation(), optical_axis(view));
+  }
+  std::erase_if(views, [&](const Pose& view) { return !setup_.platform->admits(map, view); });
+  return views;
+}
+
+// Cells that views have failed to resolve: too often, or once at least.
+CellSet NextBestViewPlanner::failed_cells(const VoxelBox& object, bool given_up) const {
+  CellSet cells(object);
+  if (failed_.size() > 0) {
+    for_each_cell(object, [&](const VoxelIndex& cell) {
+      if (given_up ? failed_.gave_up(cell) : failed_.failed(cell)) {
+        cells.insert(cell);
+      }
+    });
+  }
+  return cells;
+}
+
+// Lines 9 to 20: what every candidate is worth.
 std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(const OccupancyMap& map,
                                                                             const Pose& current,
                                                                             const VoxelBox& object) const {
-  std::vector<Pose> views = candidates_for(map, setup_, options_);
-  std::erase_if(views, [&](const Pose& view) { return !setup_.platform->admits(map, view); });
+  const std::vector<Pose> views = views_of_object(map, object);
   std::vector<CellSet> seen(views.size());
   const std::vector<ViewEvaluation> evaluations = evaluate(map, object, views, seen);
   const std::vector<ScoredView> scored = score(map, current, object, views, evaluations);
+  const CellSet given_up = failed_cells(object, true);
+  const CellSet failed_once = failed_cells(object, false);
   std::vector<Candidate> candidates(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     Candidate& candidate = candidates[i];
@@ -155,7 +186,8 @@ std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(cons
     seen[i].for_each([&](const VoxelIndex& cell) {
       if (caster_->at(cell) == Occupancy::Unknown) {
         ++all;
-        if (failed_.size() == 0 || (!failed_.gave_up(cell) && !failed_.failed_from(cell, viewpoint))) {
+        if (!given_up.contains(cell) &&
+            !(failed_once.contains(cell) && failed_.failed_towards(cell, viewpoint, options_.failed_within_rad))) {
           candidate.sought.insert(cell);
         }
       }

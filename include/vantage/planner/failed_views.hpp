@@ -32,6 +32,11 @@ class FailedViews {
   void review(const OccupancyMap& map, const Pose& current);
   /// Whether a view from this cell has failed to resolve `unknown`.
   [[nodiscard]] bool failed_from(const VoxelIndex& unknown, const VoxelIndex& viewpoint) const;
+  /// Whether one has failed from there, or from anywhere else in nearly the same direction: at most `within_rad`
+  /// between the lines from the unknown cell.
+  [[nodiscard]] bool failed_towards(const VoxelIndex& unknown, const VoxelIndex& viewpoint, double within_rad) const;
+  /// Whether any view of this unknown cell has failed.
+  [[nodiscard]] bool failed(const VoxelIndex& unknown) const { return failures_.count(unknown) != 0; }
   /// Whether views of this unknown cell have failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
   /// How many cells have failed at least once.

@@ -12,6 +12,7 @@
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/view/aimed_views.hpp>
 #include <vantage/view/information_gain.hpp>
 #include <vantage/view/sensing_constraint.hpp>
 #include <vantage/view/view_utility.hpp>
@@ -40,16 +41,23 @@ struct NextBestViewOptions {
   std::optional<Box> object = std::nullopt;
 
   // With an object:
-  double radius_m = 1.5;  ///< candidates look at the middle of the object from this far off, > 0 (VI-A)
-  /// Those candidates are 20 * 4^this, evenly spread, in [-1, 6]; the paper's 320 by default. -1: there are none.
+  /// Candidates look at the middle of the object from shells this far off, each > 0, at least one (VI-A).
+  std::vector<double> radii_m = {1.5};
+  /// Those of a shell are 20 * 4^this, evenly spread, in [-1, 6]; the paper's 320 by default. -1: there are none.
   int subdivisions = 2;
   /// As many more, from places drawn in the region or, without one, in the known part of the map (VI-B).
   std::size_t random_candidates = 0;
+  /// And these, drawn anew for every map: aimed at unknown cells of the object from where they can be seen.
+  AimedViewOptions aimed = {};
   /// The least overlap: how many occupied cells of the object a view must see, `h_oc` in eq. 2. Waived while none is
   /// known.
   std::size_t min_overlap_cells = 0;
   /// A view must see this many unknown cells of the object, >= 1; when none does, the object is done (VI-B: 50).
   std::size_t min_unknown_cells = 50;
+
+  /// A cell that a view has failed to resolve is not sought again from directions that differ by no more than this,
+  /// radians, in [0, pi]: where a ray has met nothing behind it, its neighbours meet nothing either.
+  double failed_within_rad = 0.5;
 
   /// What new surface is worth (eq. 3); none: the paper's count of unknown cells (eq. 4). Whatever it is, a view must
   /// see `min_unknown_cells`; where it finds nothing in any view, the count decides.
@@ -91,6 +99,8 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   };
 
   void follow(const OccupancyMap& map);
+  [[nodiscard]] std::vector<Pose> views_of_object(const OccupancyMap& map, const VoxelBox& object) const;
+  [[nodiscard]] CellSet failed_cells(const VoxelBox& object, bool given_up) const;
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current,
                                                   const VoxelBox& object) const;
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,

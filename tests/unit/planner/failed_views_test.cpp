@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <vantage/planner/failed_views.hpp>
 
@@ -37,6 +38,22 @@ TEST(FailedViews, GivesACellUpAfterViewsFromAsManyPlacesAsItHasPatience) {
       EXPECT_EQ(failed.gave_up(kUnknown), view == patience) << view;
     }
     EXPECT_FALSE(failed.gave_up({5, 5, 6}));
+  }
+}
+
+TEST(FailedViews, FailsTowardsAllThatLieInTheSameDirection) {
+  OccupancyMap map = slab_before_the_unknown();
+  FailedViews failed(2);
+  EXPECT_FALSE(failed.failed(kUnknown));
+  EXPECT_FALSE(failed.failed_towards(kUnknown, {2, 5, 5}, 0.5));
+  view_in_vain(failed, map, pose_looking(map.frame().centre_of({2, 5, 5}), 0.0));
+  EXPECT_TRUE(failed.failed(kUnknown));
+  for (const double within_rad : {0.0, 0.3, 0.5, 1.0}) {
+    EXPECT_TRUE(failed.failed_towards(kUnknown, {2, 5, 5}, within_rad));
+    EXPECT_EQ(failed.failed_towards(kUnknown, {-5, 9, 5}, within_rad), within_rad > std::atan(0.4));
+    EXPECT_EQ(failed.failed_towards(kUnknown, {3, 5, 3}, within_rad), within_rad > std::atan(1.0));
+    EXPECT_FALSE(failed.failed_towards(kUnknown, {8, 5, 5}, within_rad)) << "the other side";
+    EXPECT_FALSE(failed.failed_towards({5, 5, 6}, {2, 5, 5}, within_rad));
   }
 }
 

@@ -79,7 +79,7 @@ double best_utility(const Robot& run, const NextBestViewOptions& options) {
   const ViewRays rays(run.sensor.rays_for(0.05));
   const UniformRayTracer uniform(run.map);
   double best = 0.0;
-  for (const Pose& view : views_around(kObject.centre(), std::array{options.radius_m}, options.subdivisions)) {
+  for (const Pose& view : views_around(kObject.centre(), options.radii_m, options.subdivisions)) {
     if (run.platform->admits(run.map, view)) {
       const ViewEvaluation seen = uniform.evaluate(view, rays, run.map.frame().cells_centred_in(kObject));
       const double rho_m = run.platform->distance_m(run.pose, view);
@@ -95,7 +95,7 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     Robot run(seed);
     const NextBestViewOptions options{.object = kObject,
-                                      .radius_m = 0.8,
+                                      .radii_m = {0.8},
                                       .subdivisions = 1,
                                       .min_overlap_cells = 5,
                                       .min_unknown_cells = 5,
@@ -133,7 +133,7 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
 TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
   Robot run(2);
   NextBestViewOptions options{
-      .object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
+      .object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
   const Plan exact = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
   options.method = VisibilityMethod::Uniform;
   const Plan uniform = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
@@ -159,7 +159,7 @@ TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
 std::size_t reconstruct(Robot& run, const PlannerSettings& settings) {
   PlannerSettings all = settings;
   all.merge(PlannerSettings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"},
-                            {"radius_m", "0.8"},
+                            {"radii_m", "0.8"},
                             {"subdivisions", "1"},
                             {"min_unknown_cells", "5"}});
   const auto planner = make_planner("next-best-view", run.setup(), all);
@@ -189,15 +189,59 @@ TEST(NextBestViewPlanner, NeedsNoMoreViewsByACoverThanByGreed) {
   EXPECT_LE(by_cover, by_greed);
 }
 
+// Views aimed at what is unknown see into what those of the whole pass over.
+TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
+  double by_one_shell = 0.0;
+  double by_aimed = 0.0;
+  std::size_t views_of_one_shell = 0;
+  std::size_t views_aimed = 0;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    const auto seen_by = [&](double& coverage, const PlannerSettings& settings) {
+      Robot run(seed);
+      const std::size_t views = reconstruct(run, settings);
+      coverage += run.coverage() / 4.0;
+      return views;
+    };
+    double by_shells = 0.0;
+    views_of_one_shell += seen_by(by_one_shell, {});
+    views_aimed += seen_by(by_aimed, {{"aimed_candidates", "80"}, {"aimed_max_distance_m", "0.9"}});
+    (void)seen_by(by_shells, {{"radii_m", "0.6,0.8,1"}, {"subdivisions", "0"}});
+    EXPECT_GT(by_shells, 0.94 / 4.0);
+  }
+  EXPECT_GE(by_aimed, by_one_shell);
+  EXPECT_LE(views_aimed, views_of_one_shell);
+}
+
+TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
+  Robot run(2);
+  NextBestViewOptions options{.object = kObject, .subdivisions = -1, .min_unknown_cells = 5};
+  EXPECT_EQ(NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose).outcome, Outcome::Explored);
+  options.aimed = {.count = 100, .min_distance_m = 0.4, .max_distance_m = 0.9};
+  NextBestViewPlanner follower(run.setup(), options);
+  std::size_t plans = 0;
+  for (Plan plan = follower.plan(run.map, run.pose); plans < 3 && plan.outcome == Outcome::Move; ++plans) {
+    EXPECT_LE(plan.candidates.size(), 100U);
+    EXPECT_EQ(plan.goal.pose.matrix(), follower.plan(run.map, run.pose).goal.pose.matrix());
+    if (plans == 0) {  // before anything can have been given up
+      const Plan alone = NextBestViewPlanner(run.setup(2), options).plan(run.map, run.pose);
+      EXPECT_EQ(plan.goal.pose.matrix(), alone.goal.pose.matrix());
+    }
+    run.pose = plan.goal.pose;
+    run.look();
+    plan = follower.plan(run.map, run.pose);
+  }
+  EXPECT_GE(plans, 2U);
+}
+
 TEST(NextBestViewPlanner, TakesAViewOfTheCover) {
   Robot run(4);
-  const NextBestViewOptions options{.object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_unknown_cells = 5};
+  const NextBestViewOptions options{.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_unknown_cells = 5};
   const Plan plan = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
   const ViewRays rays(run.sensor.rays_for(0.05));
   const RayCaster caster(run.map);
   std::vector<Pose> poses;
   std::vector<CellSet> seen;
-  for (const Pose& view : views_around(kObject.centre(), std::array{options.radius_m}, options.subdivisions)) {
+  for (const Pose& view : views_around(kObject.centre(), options.radii_m, options.subdivisions)) {
     if (run.platform->admits(run.map, view)) {
       CellSet cells;
       (void)evaluate_view(caster, view, rays, run.map.frame().cells_centred_in(kObject), &cells);
@@ -232,7 +276,7 @@ TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
 
 TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
   Robot run(2);
-  const NextBestViewOptions any{.object = kObject, .radius_m = 0.8, .subdivisions = 1, .min_unknown_cells = 5};
+  const NextBestViewOptions any{.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_unknown_cells = 5};
   NextBestViewOptions steep = any;
   steep.sensing = {.max_incidence_rad = 0.9, .min_depth_m = 0.5, .max_depth_m = 1.0};
   const Plan plan = NextBestViewPlanner(run.setup(), steep).plan(run.map, run.pose);
@@ -266,7 +310,10 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   EXPECT_NE(complaint({{"object", "0,0,0,1,1,1,1"}}).find("must be six numbers"), std::string::npos);
   EXPECT_EQ(complaint({{"object", "0,0,0,1,-1,1"}}),
             "NextBestViewOptions::object must have min < max on every axis and be finite");
-  EXPECT_EQ(complaint({{"radius_m", "0"}}), "NextBestViewOptions::radius_m is 0, must be > 0");
+  EXPECT_EQ(complaint({{"radii_m", "1,0"}}), "NextBestViewOptions::radii_m is 0, must be > 0");
+  EXPECT_NE(complaint({{"radii_m", "1,,2"}}).find("must be numbers, with commas between them"), std::string::npos);
+  EXPECT_EQ(complaint({{"aimed_max_distance_m", "0.1"}}),
+            "AimedViewOptions::max_distance_m is 0.1, must be >= min_distance_m");
   EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [-1, 6]");
   EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
   EXPECT_NE(complaint({{"gain", "entropy"}}).find("unknown-cells, occlusion-aware"), std::string::npos);

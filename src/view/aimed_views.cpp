@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <optional>
+#include <vantage/view/aimed_views.hpp>
+
+#include "geometry/dice.hpp"
+#include "map/option_rule.hpp"
+
+namespace vantage {
+namespace {
+
+// An unknown cell that can be seen from the free cell beside it.
+struct VisibleFace {
+  VoxelIndex unknown;
+  VoxelIndex normal;  // step to the free cell
+};
+
+std::vector<VisibleFace> visible_faces(const RayCaster& caster, const CellSet& sought) {
+  std::vector<VisibleFace> faces;
+  sought.for_each([&](const VoxelIndex& cell) {
+    if (caster.at(cell) != Occupancy::Unknown) {
+      return;
+    }
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      if (caster.at(cell + step) == Occupancy::Free) {
+        faces.push_back({cell, step});
+      }
+    }
+  });
+  return faces;
+}
+
+std::optional<Pose> view_of(const VisibleFace& face, const RayCaster& caster, const AimedViewOptions& options,
+                            Dice& dice) {
+  constexpr int kDraws = 64;
+  constexpr double kIntoFreeCell = 0.5 + 1e-3;  // of a cell: just across the face
+  const Eigen::Vector3d normal(face.normal.x, face.normal.y, face.normal.z);
+  const Eigen::Vector3d on_face =
+      caster.frame().centre_of(face.unknown) + kIntoFreeCell * caster.frame().size_m * normal;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Eigen::Vector3d towards = normal + dice.direction();
+    const double distance_m =
+        options.min_distance_m + dice.share() * (options.max_distance_m - options.min_distance_m);
+    if (towards.norm() < 1e-3) {
+      continue;
+    }
+    const Eigen::Vector3d place = on_face + distance_m * towards.normalized();
+    if (caster.cast(on_face, place).occupancy == Occupancy::Free) {
+      return pose_looking_along(place, on_face - place);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void validate(const AimedViewOptions& options) {
+  detail::require_option(std::isfinite(options.min_distance_m) && options.min_distance_m > 0.0,
+                         "AimedViewOptions::min_distance_m", options.min_distance_m, "> 0");
+  detail::require_option(std::isfinite(options.max_distance_m) && options.max_distance_m >= options.min_distance_m,
+                         "AimedViewOptions::max_distance_m", options.max_distance_m, ">= min_distance_m");
+}
+
+std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought, const AimedViewOptions& options,
+                              std::uint64_t seed) {
+  validate(options);
+  std::vector<Pose> views;
+  if (options.count == 0) {
+    return views;
+  }
+  const std::vector<VisibleFace> faces = visible_faces(caster, sought);
+  Dice dice(seed);
+  for (std::size_t i = 0; i < options.count && !faces.empty(); ++i) {
+    if (const std::optional<Pose> view = view_of(faces[dice.below(faces.size())], caster, options, dice)) {
+      views.push_back(*view);
+    }
+  }
+  return views;
+}
+
+}  // namespace vantage
