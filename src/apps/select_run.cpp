@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -32,7 +34,8 @@ struct Contender {
   ViewOrderCurve curve;
   double above_random_volume = 0.0;  // share of the random orders with a smaller area
   double above_random_surface = 0.0;
-  double choose_ms = 0.0;  // per view; 0 where nothing was chosen
+  double above_random_void = 0.0;  // with a larger one: more void is left
+  double choose_ms = 0.0;          // per view; 0 where nothing was chosen
 };
 
 struct Comparison {
@@ -41,6 +44,10 @@ struct Comparison {
   std::vector<Contender> contenders;
   ViewOrderCurve greedy_volume;
   ViewOrderCurve greedy_surface;
+  ViewOrderCurve greedy_void;
+  ViewOrderCurve random_void;  // the median by void cells left
+  double cell_dm3 = 0.0;
+  std::size_t void_cells = 0;  // before the first view
 };
 
 // Tells how far choosing has come: one bar over all that choose, or a line for each that is done.
@@ -79,6 +86,13 @@ class ChoosingPrinter {
   std::size_t chosen_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+// The curve in the middle, by the area given; leaves them in its order.
+template <class Area>
+const ViewOrderCurve& median_of(std::vector<ViewOrderCurve>& curves, const Area& area) {
+  std::sort(curves.begin(), curves.end(), [&](const auto& a, const auto& b) { return area(a) < area(b); });
+  return curves[curves.size() / 2];
+}
 
 double share_below(const std::vector<double>& areas, double area) {
   const auto below = std::count_if(areas.begin(), areas.end(), [&](double other) { return other < area; });
@@ -148,24 +162,32 @@ Comparison compare(const ReplayRequest& request, const Recording& recording, Pro
   const RecordedViews views = views_of(request, recording, comparison);
   std::vector<double> random_volume;
   std::vector<double> random_surface;
+  std::vector<double> random_void;  // negative: the less is left, the better
   std::vector<ViewOrderCurve> random;
   for (std::uint64_t i = 0; i < kRandomOrders; ++i) {
     random.push_back(views.curve("random, the median", views.random_order(0, request.run.seed + i)));
     random_volume.push_back(random.back().volume_area());
     random_surface.push_back(random.back().surface_area());
+    random_void.push_back(-random.back().void_area());
   }
   comparison.contenders.push_back({views.curve("recorded order", views.recorded_order())});
   comparison.contenders.push_back({views.evenly_spaced("evenly spaced")});
-  std::sort(random.begin(), random.end(),
-            [](const auto& a, const auto& b) { return a.volume_area() < b.volume_area(); });
-  comparison.contenders.push_back({random[random.size() / 2]});
+  comparison.contenders.push_back({median_of(random, std::mem_fn(&ViewOrderCurve::volume_area))});
+  comparison.random_void = median_of(random, std::mem_fn(&ViewOrderCurve::void_area));
   add_choosers(request, recording, views, told, comparison.contenders);
   for (Contender& contender : comparison.contenders) {
     contender.above_random_volume = share_below(random_volume, contender.curve.volume_area());
     contender.above_random_surface = share_below(random_surface, contender.curve.surface_area());
+    contender.above_random_void = share_below(random_void, -contender.curve.void_area());
   }
-  comparison.greedy_volume = views.curve("greedy", views.greedy_order(0, RecordedViews::Measure::Volume));
-  comparison.greedy_surface = views.curve("greedy", views.greedy_order(0, RecordedViews::Measure::Surface));
+  const auto greedy = [&](RecordedViews::Measure measure) {
+    return views.curve("greedy", views.greedy_order(0, measure));
+  };
+  comparison.greedy_volume = greedy(RecordedViews::Measure::Volume);
+  comparison.greedy_surface = greedy(RecordedViews::Measure::Surface);
+  comparison.greedy_void = greedy(RecordedViews::Measure::Void);
+  comparison.cell_dm3 = std::pow(10.0 * request.run.resolution_m, 3);
+  comparison.void_cells = views.void_cells();
   return comparison;
 }
 
@@ -196,13 +218,64 @@ void print_table(std::ostream& out, const Comparison& comparison) {
          "> random: of 100 random orders, those it is above; greedy: who has seen all views already.\n";
 }
 
+// Up to eight numbers of views, evenly spread, the first and the last among them.
+std::vector<std::size_t> columns_of(std::size_t views) {
+  const std::size_t count = std::min<std::size_t>(views, 8);
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < count; ++i) {
+    columns.push_back(1 + (2 * i * (views - 1) + count - 1) / (2 * (count - 1)));
+  }
+  return columns;
+}
+
+void print_void_table(std::ostream& out, const Comparison& comparison) {
+  if (comparison.void_cells == 0) {
+    return;  // what was hit encloses nothing
+  }
+  const std::vector<std::size_t> columns = columns_of(comparison.frames.size());
+  char text[128];
+  std::snprintf(text, sizeof text, "\n%-24s", "void left, dm^3, after");
+  out << text;
+  for (const std::size_t views : columns) {
+    std::snprintf(text, sizeof text, " %7zu", views);
+    out << text;
+  }
+  out << "     mean  > random\n";
+  const auto row = [&](const ViewOrderCurve& curve, const Contender* contender) {
+    std::snprintf(text, sizeof text, "%-24s", curve.name.c_str());
+    out << text;
+    for (const std::size_t views : columns) {
+      std::snprintf(text, sizeof text, " %7.1f",
+                    comparison.cell_dm3 * static_cast<double>(curve.void_cells[views - 1]));
+      out << text;
+    }
+    std::snprintf(text, sizeof text, " %8.2f", comparison.cell_dm3 * curve.void_area());
+    out << text;
+    if (contender != nullptr) {
+      std::snprintf(text, sizeof text, " %7.0f %%", 100.0 * contender->above_random_void);
+      out << text;
+    }
+    out << '\n';
+  };
+  for (const Contender& contender : comparison.contenders) {
+    const bool median = contender.curve.name == comparison.random_void.name;
+    median ? row(comparison.random_void, nullptr) : row(contender.curve, &contender);
+  }
+  row(comparison.greedy_void, nullptr);
+  std::snprintf(text, sizeof text, "\nOf %.1f dm^3 inside the convex hull of all that the views hit;",
+                comparison.cell_dm3 * static_cast<double>(comparison.void_cells));
+  out << text << " the less is left, the better.\n";
+}
+
 SelectionJson json_of(const ViewOrderCurve& curve) {
   return {{"name", curve.name},
           {"volume_area", curve.volume_area()},
           {"surface_area", curve.surface_area()},
+          {"void_area", curve.void_area()},
           {"order", curve.order},
           {"volume", curve.volume},
-          {"surface", curve.surface}};
+          {"surface", curve.surface},
+          {"void_cells", curve.void_cells}};
 }
 
 std::string selection_json(const ReplayRequest& request, const Comparison& comparison) {
@@ -211,6 +284,7 @@ std::string selection_json(const ReplayRequest& request, const Comparison& compa
     SelectionJson order = json_of(contender.curve);
     order["above_random_volume"] = contender.above_random_volume;
     order["above_random_surface"] = contender.above_random_surface;
+    order["above_random_void"] = contender.above_random_void;
     order["choose_ms"] = contender.choose_ms;
     orders.push_back(std::move(order));
   }
@@ -228,9 +302,12 @@ std::string selection_json(const ReplayRequest& request, const Comparison& compa
                                {{"format", request.format},
                                 {"frames", comparison.frames},
                                 {"skipped", std::move(skipped)},
+                                {"void_cells", comparison.void_cells},
                                 {"orders", std::move(orders)},
+                                {"random_void", json_of(comparison.random_void)},
                                 {"greedy_volume", json_of(comparison.greedy_volume)},
-                                {"greedy_surface", json_of(comparison.greedy_surface)}}}};
+                                {"greedy_surface", json_of(comparison.greedy_surface)},
+                                {"greedy_void", json_of(comparison.greedy_void)}}}};
   return json.dump(1) + "\n";
 }
 
@@ -265,6 +342,7 @@ int select_views(const ReplayRequest& request, const Recording& recording, Progr
   std::ostream& progress = told.stream();
   const Comparison comparison = compare(request, recording, told);
   print_table(progress, comparison);
+  print_void_table(progress, comparison);
   for (const SkippedFrame& frame : comparison.skipped) {
     progress << "left out " << frame.name << ": " << frame.reason << '\n';
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <stdexcept>
 #include <utility>
+#include <vantage/frontier/void_cells.hpp>
 #include <vantage/planner/recorded_views.hpp>
 
 namespace vantage {
@@ -42,11 +44,65 @@ VoxelBox joined(const VoxelBox& a, const VoxelBox& b) {
           {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
 }
 
+// Numbers the cells of a box.
+class CellNumbers {
+ public:
+  // Throws std::invalid_argument if there are too many.
+  explicit CellNumbers(const VoxelBox& box)
+      : box_(box),
+        width_(static_cast<std::uint64_t>(std::int64_t{box.hi.x} - box.lo.x)),
+        depth_(static_cast<std::uint64_t>(std::int64_t{box.hi.y} - box.lo.y)) {
+    const auto height = static_cast<std::uint64_t>(std::int64_t{box.hi.z} - box.lo.z);
+    constexpr double kMost = 2147483648.0;
+    if (static_cast<double>(width_) * static_cast<double>(depth_) * static_cast<double>(height) > kMost) {
+      throw std::invalid_argument("RecordedViews: the cells known are too far apart");
+    }
+    count_ = static_cast<std::size_t>(width_ * depth_ * height);
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::uint32_t of(const VoxelIndex& cell) const {
+    const auto dx = static_cast<std::uint64_t>(cell.x - box_.lo.x);
+    const auto dy = static_cast<std::uint64_t>(cell.y - box_.lo.y);
+    const auto dz = static_cast<std::uint64_t>(cell.z - box_.lo.z);
+    return static_cast<std::uint32_t>((dz * depth_ + dy) * width_ + dx);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> of(const std::vector<VoxelIndex>& cells) const {
+    std::vector<std::uint32_t> numbers(cells.size());
+    std::transform(cells.begin(), cells.end(), numbers.begin(), [&](const VoxelIndex& cell) { return of(cell); });
+    return numbers;
+  }
+
+ private:
+  VoxelBox box_;
+  std::uint64_t width_;
+  std::uint64_t depth_;
+  std::size_t count_ = 0;
+};
+
+// All cells inside the hull of the occupied ones: the void cells of a map that knows nothing but its corners, and
+// these.
+std::vector<VoxelIndex> cells_in_hull(const OccupancyMap& map) {
+  OccupancyMap corners(map.options());
+  const ConvexHull hull = occupied_hull(map);
+  for (const Eigen::Vector3d& corner : hull.corners()) {
+    const Eigen::Vector3i at = corner.array().round().cast<int>();
+    corners.set(VoxelIndex{at.x(), at.y(), at.z()}, Occupancy::Occupied);
+  }
+  std::vector<VoxelIndex> cells = void_cells(corners);
+  corners.for_each_known([&](const VoxelIndex& cell, Occupancy) { cells.push_back(cell); });
+  return cells;
+}
+
 }  // namespace
 
 double ViewOrderCurve::volume_area() const { return mean_of(volume); }
 
 double ViewOrderCurve::surface_area() const { return mean_of(surface); }
+
+double ViewOrderCurve::void_area() const {
+  return mean_of(std::vector<double>(void_cells.begin(), void_cells.end()));
+}
 
 RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions& options,
                              const std::optional<Box>& object)
@@ -61,44 +117,36 @@ RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions&
     std::vector<VoxelIndex> known;
     std::vector<VoxelIndex> hit;
   };
+  OccupancyMapOptions counted = options_;
+  counted.region = object_ ? object_ : options_.region;
   std::vector<Cells> cells;
+  OccupancyMap of_all(counted);
   VoxelBox box;
-  for (std::size_t i = 0; i < scans_.size(); ++i) {
-    OccupancyMapOptions of_one = options_;
-    of_one.region = object_ ? object_ : options_.region;
-    OccupancyMap map(of_one);
-    map.insert(scans_[i]);
-    box = i == 0 ? map.bounds() : joined(box, map.bounds());
+  for (const Scan& scan : scans_) {
+    OccupancyMap of_one(counted);
+    of_one.insert(scan);
+    of_all.insert(scan);
+    box = cells.empty() ? of_one.bounds() : joined(box, of_one.bounds());
     Cells& of_view = cells.emplace_back();
-    map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+    of_one.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
       of_view.known.push_back(cell);
       if (state == Occupancy::Occupied) {
         of_view.hit.push_back(cell);
       }
     });
   }
-  const auto x = static_cast<std::uint64_t>(std::int64_t{box.hi.x} - box.lo.x);
-  const auto y = static_cast<std::uint64_t>(std::int64_t{box.hi.y} - box.lo.y);
-  const auto z = static_cast<std::uint64_t>(std::int64_t{box.hi.z} - box.lo.z);
-  constexpr double kMost = 2147483648.0;
-  if (static_cast<double>(x) * static_cast<double>(y) * static_cast<double>(z) > kMost) {
-    throw std::invalid_argument("RecordedViews: the cells known are too far apart");
+  const CellNumbers numbers(box);
+  box_cells_ = numbers.count();
+  std::vector<bool> in_hull(box_cells_, false);
+  for (const VoxelIndex& cell : cells_in_hull(of_all)) {
+    in_hull[numbers.of(cell)] = true;
+    ++void_cells_;
   }
-  box_cells_ = static_cast<std::size_t>(x * y * z);
-  const auto numbers = [&](const std::vector<VoxelIndex>& list) {
-    std::vector<std::uint32_t> result;
-    result.reserve(list.size());
-    for (const VoxelIndex& cell : list) {
-      const auto dx = static_cast<std::uint64_t>(cell.x - box.lo.x);
-      const auto dy = static_cast<std::uint64_t>(cell.y - box.lo.y);
-      const auto dz = static_cast<std::uint64_t>(cell.z - box.lo.z);
-      result.push_back(static_cast<std::uint32_t>((dz * y + dy) * x + dx));
-    }
-    return result;
-  };
   for (const Cells& of_view : cells) {
-    known_.push_back(numbers(of_view.known));
-    hit_.push_back(numbers(of_view.hit));
+    known_.push_back(numbers.of(of_view.known));
+    hit_.push_back(numbers.of(of_view.hit));
+    std::copy_if(known_.back().begin(), known_.back().end(), std::back_inserter(inside_.emplace_back()),
+                 [&](std::uint32_t cell) { return in_hull[cell]; });
   }
 }
 
@@ -120,12 +168,15 @@ OccupancyMap RecordedViews::map_before() const {
 ViewOrderCurve RecordedViews::curve(std::string name, std::vector<std::size_t> order) const {
   SeenCells known(box_cells_);
   SeenCells hit(box_cells_);
+  SeenCells inside(box_cells_);
   ViewOrderCurve result{.name = std::move(name), .order = std::move(order)};
   for (const std::size_t view : result.order) {
     known.add(known_.at(view));
     hit.add(hit_.at(view));
     result.volume.push_back(static_cast<double>(known.count()));
+    inside.add(inside_.at(view));
     result.surface.push_back(static_cast<double>(hit.count()));
+    result.void_cells.push_back(void_cells_ - inside.count());
   }
   for (std::size_t view = 0; view < size(); ++view) {  // what all of them make known
     known.add(known_[view]);
@@ -156,6 +207,7 @@ ViewOrderCurve RecordedViews::evenly_spaced(std::string name) const {
     const ViewOrderCurve of_these = curve("", spread);
     result.volume.push_back(of_these.volume.back());
     result.surface.push_back(of_these.surface.back());
+    result.void_cells.push_back(of_these.void_cells.back());
   }
   return result;
 }
@@ -171,7 +223,7 @@ std::vector<std::size_t> RecordedViews::random_order(std::size_t start, std::uin
 }
 
 std::vector<std::size_t> RecordedViews::greedy_order(std::size_t start, Measure measure) const {
-  const auto& cells = measure == Measure::Volume ? known_ : hit_;
+  const auto& cells = measure == Measure::Volume ? known_ : measure == Measure::Surface ? hit_ : inside_;
   SeenCells seen(box_cells_);
   seen.add(cells.at(start));
   std::vector<std::size_t> order{start};

@@ -166,6 +166,8 @@ TEST_F(ReplayProgram, ComparesOrdersOfViews) {
     EXPECT_NEAR(order.at("volume").back().get<double>(), 1.0, 1e-12) << "every order ends with all that is known";
     EXPECT_LE(order.at("volume_area").get<double>(),
               selection.at("greedy_volume").at("volume_area").get<double>() + 0.05);
+    EXPECT_EQ(order.at("void_cells").size(), 5U) << order.at("name");
+    EXPECT_LE(order.at("void_cells").back(), selection.at("void_cells")) << order.at("name");
   }
   EXPECT_NE(err_.find("expected cells"), std::string::npos);
   EXPECT_TRUE(fs::exists(out / "selection.png"));

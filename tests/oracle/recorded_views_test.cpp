@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vantage/frontier/void_cells.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/recorded_views.hpp>
 #include <vantage/robot/free_flyer.hpp>
@@ -99,7 +101,8 @@ TEST(RealViews, BunnyScans) {
 
 TEST(RealViews, ShelfBin) {
   VANTAGE_REAL_DATA(folder, "rgbd/apc_shelf_bin_15");
-  expect_good_choice(recorded("apc", folder, 0.02), {"harmonic", "frontier-void"});
+  const Dataset data = recorded("apc", folder, 0.02);
+  expect_good_choice(data, {"harmonic", "frontier-void"});
 }
 
 TEST(RealViews, Kitchen) {
@@ -138,6 +141,56 @@ TEST(RecordedViews, EveryOrderEndsWithTheSameCells) {
     std::sort(order.begin(), order.end());
     EXPECT_EQ(order, views.recorded_order());
   }
+}
+
+// Scans of 60 rays each, of lengths drawn at random.
+std::vector<Scan> drawn_scans(std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  const auto draw = [&](double lo, double hi) {
+    return lo + (hi - lo) * (static_cast<double>(engine() >> 11U) * 0x1p-53);
+  };
+  std::vector<Scan> scans(4);
+  for (Scan& scan : scans) {
+    scan.world_from_sensor = pose_looking({draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)}, draw(-3.0, 3.0));
+    for (int ray = 0; ray < 60; ++ray) {
+      const double range_m = draw(0.5, 2.0);
+      scan.points.push_back(Eigen::Vector3d(draw(-range_m, range_m), draw(-range_m, range_m), range_m).cast<float>());
+    }
+  }
+  return scans;
+}
+
+// Every cell asked on its own, against maps of the scans so far.
+TEST(RecordedViews, VoidCellsAreThoseUnknownInTheHullOfAllThatIsHit) {
+  int compared = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const std::optional<Box> object =
+        seed % 3 == 0 ? std::optional(Box{{-1.0, -1.0, -1.0}, {1.5, 1.0, 0.5}}) : std::nullopt;
+    const RecordedViews views(drawn_scans(seed), {.resolution_m = 0.1}, object);
+    const OccupancyMapOptions options{.resolution_m = 0.1, .region = object};
+    OccupancyMap of_all(options);
+    for (const Scan& scan : views.scans()) {
+      of_all.insert(scan);
+    }
+    const ConvexHull hull = occupied_hull(of_all);
+    const auto left = [&](const OccupancyMap& map) {
+      std::size_t cells = 0;
+      for_each_cell(of_all.bounds(), [&](const VoxelIndex& cell) {
+        const bool inside = hull.contains(Eigen::Vector3d(cell.x, cell.y, cell.z), 1e-6) && map.in_region(cell);
+        cells += inside && map.at(cell) == Occupancy::Unknown ? 1U : 0U;
+      });
+      return cells;
+    };
+    const ViewOrderCurve curve = views.curve("", views.random_order(seed % 4, seed));
+    OccupancyMap map(options);
+    EXPECT_EQ(views.void_cells(), left(map)) << "seed " << seed;
+    for (std::size_t view = 0; view < 4; ++view, ++compared) {
+      map.insert(views.scans()[curve.order[view]]);
+      EXPECT_EQ(curve.void_cells[view], left(map)) << "seed " << seed << ", view " << view;
+    }
+    EXPECT_LT(curve.void_cells.back(), views.void_cells()) << "seed " << seed;
+  }
+  EXPECT_EQ(compared, 48);
 }
 
 TEST(RecordedViews, ChoosersTakeTheViewThatShowsMore) {

@@ -22,11 +22,16 @@ struct ViewOrderCurve {
   std::vector<std::size_t> order = {};  ///< numbers of the views
   std::vector<double> volume = {};      ///< cells known (free or occupied), after 1, 2, ... views
   std::vector<double> surface = {};     ///< cells in which a return ended, after 1, 2, ... views
+  /// Void cells left, after 1, 2, ... views: unknown, inside the convex hull of all that the views together hit
+  /// (Dornhege & Kleiner 2011, IV-B). One hull for all orders: that of the views so far grows with them.
+  std::vector<std::size_t> void_cells = {};
 
   /// Area under the curve of the volume: its mean over the numbers of views.
   [[nodiscard]] double volume_area() const;
   /// The same of the surface.
   [[nodiscard]] double surface_area() const;
+  /// The same of the void cells left: their mean over the numbers of views. The less, the better.
+  [[nodiscard]] double void_area() const;
 };
 
 /// Views that were taken by a real sensor, to be chosen among: how good would another order have been?
@@ -52,6 +57,10 @@ class RecordedViews {
   /// The map before the first view: nothing known, but for what is known around an object.
   [[nodiscard]] OccupancyMap map_before() const;
 
+  /// Void cells before the first view: all that lie inside the convex hull of what the views together hit, as the map
+  /// of all of them has it. None where that hull is empty.
+  [[nodiscard]] std::size_t void_cells() const { return void_cells_; }
+
   /// What an order, each view at most once, would have made known. Throws std::out_of_range for a wrong number.
   [[nodiscard]] ViewOrderCurve curve(std::string name, std::vector<std::size_t> order) const;
   /// The recorded order, from its first view.
@@ -61,9 +70,9 @@ class RecordedViews {
   [[nodiscard]] ViewOrderCurve evenly_spaced(std::string name) const;
   /// An order drawn at random behind the first view `start`.
   [[nodiscard]] std::vector<std::size_t> random_order(std::size_t start, std::uint64_t seed) const;
+  /// What the greedy order is greedy for: cells known, cells hit, or void cells known.
+  enum class Measure : std::uint8_t { Volume, Surface, Void };
   /// The order behind `start` that adds the most at every step, which only who has seen all views can know.
-  enum class Measure : std::uint8_t { Volume, Surface };
-  /// See Measure.
   [[nodiscard]] std::vector<std::size_t> greedy_order(std::size_t start, Measure measure) const;
 
  private:
@@ -71,8 +80,10 @@ class RecordedViews {
   OccupancyMapOptions options_;
   std::optional<Box> object_;
   std::size_t box_cells_ = 0;
+  std::size_t void_cells_ = 0;
   std::vector<std::vector<std::uint32_t>> known_;  // by view: numbers of the cells in the common box
   std::vector<std::vector<std::uint32_t>> hit_;
+  std::vector<std::vector<std::uint32_t>> inside_;  // of those known, the ones inside the hull
 };
 
 /// Chooses one of the views `left` (never empty) for what `map` lacks; `last` is the one taken last.
