@@ -2,7 +2,10 @@
 #include "robot/body_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <utility>
+#include <vantage/geometry/raster_order.hpp>
 
 namespace vantage::detail {
 namespace {
@@ -18,9 +21,41 @@ VoxelGrid<std::uint8_t> clear_cells_of(const OccupancyMap& map, const VoxelBox& 
   return clear;
 }
 
-bool has_clear_neighbour(const VoxelGrid<std::uint8_t>& clear, const VoxelIndex& cell) {
-  return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(),
-                     [&](const VoxelIndex& step) { return clear.value_or(cell + step, 0) != 0; });
+// Cells beside which (26 neighbours) one is clear, or that are clear, as 1: spread by a cell along x, then y, then z.
+std::vector<std::uint8_t> beside_clear(const VoxelGrid<std::uint8_t>& clear) {
+  std::vector<std::uint8_t> spread = clear.values();
+  const VoxelIndex extent = clear.box().extent();
+  const auto row = static_cast<std::size_t>(extent.x);
+  const std::array<std::size_t, 3> strides{1, row, row * static_cast<std::size_t>(extent.y)};
+  std::vector<std::uint8_t> before;
+  for (const std::size_t stride : strides) {
+    before = spread;
+    // Along x and y a cell at the end of its line also marks the first of the next: one more to look at, no harm.
+    for (std::size_t i = stride; i < spread.size(); ++i) {
+      spread[i] |= before[i - stride];
+      spread[i - stride] |= before[i];
+    }
+  }
+  return spread;
+}
+
+// Cells of a row, from `first`, as many as `length`.
+struct Run {
+  VoxelIndex first;
+  std::int32_t length = 0;
+};
+
+std::vector<Run> runs_of(std::vector<VoxelIndex> cells) {
+  std::sort(cells.begin(), cells.end(), RasterOrder{});
+  std::vector<Run> runs;
+  for (const VoxelIndex& cell : cells) {
+    if (!runs.empty() && cell == runs.back().first + VoxelIndex{runs.back().length, 0, 0}) {
+      ++runs.back().length;
+    } else {
+      runs.push_back({cell, 1});
+    }
+  }
+  return runs;
 }
 
 std::int32_t reach_of(const std::vector<VoxelIndex>& touched) {
@@ -38,17 +73,28 @@ VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& 
   const VoxelGrid<std::uint8_t> clear = clear_cells_of(map, box.grown(reach_of(touched)));
   VoxelGrid<std::uint8_t> fits(box);
   for_each_cell(box, [&](const VoxelIndex& cell) { fits[cell] = clear[cell]; });
-  for_each_cell(clear.box(), [&](const VoxelIndex& cell) {
+  // What a centre must not be, seen from a cell that is not clear: the body turned about its centre, row by row.
+  std::vector<VoxelIndex> forbidden(touched.size());
+  std::transform(touched.begin(), touched.end(), forbidden.begin(),
+                 [](const VoxelIndex& offset) { return VoxelIndex{} - offset; });
+  const std::vector<Run> runs = runs_of(std::move(forbidden));
+  const std::vector<std::uint8_t> beside = beside_clear(clear);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
     // Deep inside what is not clear there is no centre left to forbid.
-    if (clear[cell] != 0 || !has_clear_neighbour(clear, cell)) {
-      return;
+    if (clear.values()[i] != 0 || beside[i] == 0) {
+      continue;
     }
-    for (const VoxelIndex& offset : touched) {
-      if (box.contains(cell - offset)) {
-        fits[cell - offset] = 0;
+    const VoxelIndex cell = clear.cell_at(i);
+    for (const Run& run : runs) {
+      const VoxelIndex first = cell + run.first;
+      const std::int32_t from = std::max(first.x, box.lo.x);
+      const std::int32_t to = std::min(first.x + run.length, box.hi.x);
+      if (from < to && first.y >= box.lo.y && first.y < box.hi.y && first.z >= box.lo.z && first.z < box.hi.z) {
+        const auto at = fits.values().begin() + static_cast<std::ptrdiff_t>(fits.offset_of({from, first.y, first.z}));
+        std::fill_n(at, to - from, std::uint8_t{0});
       }
     }
-  });
+  }
   return fits;
 }
 
