@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t kProofViews = 50;  // tried before it is said that no view sees a void
 constexpr double kSparse = 4.0;          // times the distance between rays, where many views are told apart
+constexpr double kNearM = 1.0;           // so much further than the nearest is near
 
 void validate(const FrontierVoidOptions& options) {
   const FrontierVoidStrategy& strategy = options.strategy;
@@ -67,6 +68,14 @@ std::size_t expected(const std::vector<SightedCell>& seen) {
     cells += one.chance;
   }
   return static_cast<std::size_t>(std::llround(cells));
+}
+
+double length_m(const std::vector<Pose>& path) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length_m += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return length_m;
 }
 
 // One cell is the least.
@@ -162,7 +171,10 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
   extract(map, survey);
   accumulate(map, survey, statistics);
 
-  std::optional<Choice> choice = choose(map, current, survey, sample_views(map, current, statistics), statistics);
+  std::vector<Pose> views = sample_views(map, current, statistics);
+  const std::vector<Pose> near = near_views(map, survey, statistics);
+  views.insert(views.end(), near.begin(), near.end());
+  std::optional<Choice> choice = choose(map, current, survey, views, statistics);
   if (!choice) {
     choice = choose(map, current, survey, views_of_voids(map, survey, statistics), statistics);
   }
@@ -235,8 +247,8 @@ void FrontierVoidPlanner::accumulate(const OccupancyMap& map, const FrontierSurv
   }
 }
 
-double FrontierVoidPlanner::discounted(double utility, const Pose& current, const Eigen::Vector3d& place) const {
-  return utility / (1.0 + options_.strategy.cost_per_m * (place - current.translation()).norm());
+double FrontierVoidPlanner::discounted(double utility, double way_m) const {
+  return utility / (1.0 + options_.strategy.cost_per_m * way_m);
 }
 
 // IV-C: orientations sampled at the places in the order of their utility, until there are N valid views.
@@ -247,8 +259,8 @@ std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, con
   DirectionDraw draw(map, setup_.sensor, search_.frontier_voids, dice);
   std::vector<double> values(search_.places.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] =
-        discounted(static_cast<double>(search_.utility[i]), current, map.frame().centre_of(search_.places[i]));
+    const Eigen::Vector3d line = map.frame().centre_of(search_.places[i]) - current.translation();
+    values[i] = discounted(static_cast<double>(search_.utility[i]), line.norm());
   }
   const std::size_t orientations = sees_all_around(setup_.sensor) ? 1 : strategy.orientations_per_place;
   std::vector<Pose> views;
@@ -294,6 +306,34 @@ std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, c
   return views;
 }
 
+// Views from the nearest places that see a void through its frontier.
+std::vector<Pose> FrontierVoidPlanner::near_views(const OccupancyMap& map, const FrontierSurvey& survey,
+                                                  PlanStatistics& statistics) const {
+  std::vector<Pose> views;
+  if (options_.strategy.near_views == 0) {
+    return views;
+  }
+  std::vector<VoxelIndex> viewpoints;
+  for (const FrontierTarget& target : survey.targets) {
+    if (search_.voids.number_at(target.unknown) != VoidClusters::kNone) {
+      viewpoints.push_back(target.viewpoint);
+    }
+  }
+  const auto near = GridPaths(survey.reachable).nearest_within(viewpoints, kNearM, map.resolution_m());
+  const std::size_t stride = near.size() / options_.strategy.near_views + 1;
+  for (std::size_t i = 0; i < near.size(); i += stride) {
+    const auto target = std::find_if(survey.targets.begin(), survey.targets.end(), [&](const FrontierTarget& one) {
+      return one.viewpoint == near[i] && search_.voids.number_at(one.unknown) != VoidClusters::kNone;
+    });
+    const TargetView view =
+        view_of_target(map, *setup_.platform, setup_.sensor, survey, *target, statistics.ray_operations);
+    if (setup_.platform->admits(map, view.view.pose)) {
+      views.push_back(view.view.pose);
+    }
+  }
+  return views;
+}
+
 // What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere
 // too often.
 std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays) const {
@@ -314,7 +354,8 @@ std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vecto
   detail::share_work(candidates.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     candidate.void_cells = expected(void_cells_seen(candidate.pose, rays));
-    candidate.value = discounted(static_cast<double>(candidate.void_cells), current, candidate.pose.translation());
+    candidate.value = discounted(static_cast<double>(candidate.void_cells),
+                                 (candidate.pose.translation() - current.translation()).norm());
   });
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
@@ -344,27 +385,38 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
   }
   candidates = rank(std::move(candidates), *rays_, current);
   const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
+  std::optional<Choice> best;
+  double best_value = 0.0;
   for (const Candidate& candidate : candidates) {
+    if (best && candidate.value <= best_value) {
+      break;  // no way is shorter than the straight line
+    }
     if (candidate.void_cells < least) {
       continue;
     }
     TargetView view = targets_seen_from(map, setup_.sensor, survey, candidate.pose, statistics.ray_operations);
-    if (view.unknown.empty()) {
+    auto path = view.unknown.empty() ? std::nullopt : way_to(map, current, survey, candidate.pose);
+    if (!path) {
       continue;
     }
-    view.view.utility = static_cast<double>(candidate.void_cells);
-    for (const SightedCell& one : void_cells_seen(candidate.pose, *rays_)) {
-      (one.chance >= options_.strategy.sought_chance ? view.unknown : view.hoped).push_back(one.cell);
-    }
-    if (auto path = way_to(map, current, survey, candidate.pose)) {
-      Choice choice{std::move(view), std::move(*path), {}};
-      for (const Candidate& weighed : candidates) {
-        choice.candidates.push_back({weighed.pose, static_cast<double>(weighed.void_cells)});
-      }
-      return choice;
+    const double value = options_.strategy.along_way
+                             ? discounted(static_cast<double>(candidate.void_cells), length_m(*path))
+                             : candidate.value;
+    if (!best || value > best_value) {
+      view.view.utility = static_cast<double>(candidate.void_cells);
+      best = Choice{std::move(view), std::move(*path), {}};
+      best_value = value;
     }
   }
-  return std::nullopt;
+  if (best) {
+    for (const SightedCell& one : void_cells_seen(best->view.view.pose, *rays_)) {
+      (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
+    }
+    for (const Candidate& weighed : candidates) {
+      best->candidates.push_back({weighed.pose, static_cast<double>(weighed.void_cells)});
+    }
+  }
+  return best;
 }
 
 std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::nearest_frontier(const OccupancyMap& map,

@@ -174,6 +174,8 @@ std::unique_ptr<ExplorationPlanner> make_frontier_void(const PlannerSetup& setup
       .number("place_spacing_m", options.strategy.place_spacing_m)
       .flag("aimed", options.strategy.aimed)
       .number("cost_per_m", options.strategy.cost_per_m)
+      .flag("along_way", options.strategy.along_way)
+      .number("near_views", options.strategy.near_views)
       .number("finalists", options.strategy.finalists)
       .number("opaque_share", options.strategy.opaque_share)
       .number("opaque_beside_surface", options.strategy.opaque_beside_surface)

@@ -35,6 +35,12 @@ struct FrontierVoidStrategy {
   /// Places and views are ranked by void cells / (1 + this * metres to the place, straight), >= 0; 0: void cells
   /// alone count (eq. 3).
   double cost_per_m = 0.3;
+  /// Of the finalists the best by the metres of the way there is taken, not by the straight line: behind a wall is
+  /// far.
+  bool along_way = false;
+  /// So many views from the nearest places that see a void through its frontier are weighed besides, >= 0: places and
+  /// directions are drawn by the size of voids, which passes by the small ones.
+  std::size_t near_views = 0;
   /// All views are counted by a sixteenth of the rays first, and the best so many of them by all, >= 1.
   std::size_t finalists = 5;
   /// UnknownSightOptions::opaque_share of void cells: what a view is expected to learn behind the first void cell of
@@ -123,7 +129,9 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   void accumulate(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
   [[nodiscard]] std::vector<Pose> sample_views(const OccupancyMap& map, const Pose& current,
                                                PlanStatistics& statistics) const;
-  [[nodiscard]] double discounted(double utility, const Pose& current, const Eigen::Vector3d& place) const;
+  [[nodiscard]] std::vector<Pose> near_views(const OccupancyMap& map, const FrontierSurvey& survey,
+                                             PlanStatistics& statistics) const;
+  [[nodiscard]] double discounted(double utility, double way_m) const;
   [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
                                             const Pose& current) const;
   [[nodiscard]] std::optional<Choice> choose(const OccupancyMap& map, const Pose& current,

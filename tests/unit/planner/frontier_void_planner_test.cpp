@@ -116,6 +116,51 @@ TEST(FrontierVoidPlanner, ExpectsMoreThanTheFirstCells) {
   EXPECT_GT(through.goal.utility, 1.5 * first.goal.utility);
 }
 
+double length_m(const std::vector<Pose>& path) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length_m += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return length_m;
+}
+
+// Every finalist's way is looked for; those that resolve no frontier do not count.
+TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
+  constexpr double kCostPerM = 20.0;
+  Robot robot;
+  const FrontierVoidOptions options{.strategy = {.cost_per_m = kCostPerM, .along_way = true, .near_views = 20}};
+  std::size_t compared = 0;
+  for (int step = 0; step < 8; ++step) {
+    const Plan plan = FrontierVoidPlanner(robot.setup(), options).plan(robot.map, robot.pose);
+    if (plan.outcome != Outcome::Move || plan.candidates.empty()) {
+      break;
+    }
+    const FrontierSurvey survey = survey_frontiers(robot.map, *robot.platform, robot.sensor, robot.pose,
+                                                   options.survey, FailedViews(options.survey.patience));
+    const double chosen = plan.goal.utility / (1.0 + kCostPerM * length_m(plan.path));
+    std::uint64_t operations = 0;
+    for (const View& other : plan.candidates) {
+      const auto way = robot.platform->path(robot.map, robot.pose, other.pose);
+      if (way && !targets_seen_from(robot.map, robot.sensor, survey, other.pose, operations).unknown.empty()) {
+        EXPECT_GE(chosen * 1.05, other.utility / (1.0 + kCostPerM * length_m(*way))) << "step " << step;
+        ++compared;
+      }
+    }
+    robot.pose = plan.goal.pose;
+    robot.look();
+  }
+  EXPECT_GE(compared, 15U);
+}
+
+TEST(FrontierVoidPlanner, FinishesWhatLiesNear) {
+  Robot robot;
+  FrontierVoidPlanner planner(robot.setup(),
+                              {.strategy = {.cost_per_m = 100.0, .along_way = true, .near_views = 20}});
+  const Plan last = robot.run(planner);
+  EXPECT_EQ(last.outcome, Outcome::Explored) << last.reason;
+  EXPECT_EQ(robot.unknown_in_the_chest(), 0U);
+}
+
 TEST(FrontierVoidPlanner, EndsWhereNoViewIsWorthIt) {
   Robot robot;
   const double of_the_chest_dm3 = static_cast<double>(kChest.size());  // cells of 0.1 m
