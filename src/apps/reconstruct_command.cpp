@@ -184,7 +184,8 @@ PlannerSettings settings_for(const ReconstructRequest& request, const Box& box, 
       {"aimed_candidates", std::to_string(request.aimed)},
       {"aimed_min_distance_m", text_of({furthest_m / 3.0})},
       {"aimed_max_distance_m", text_of({furthest_m})},
-      {"min_unknown_cells", "15"}};
+      {"min_unknown_cells", "12"},
+      {"choice", "greedy"}};  // of aimed views it sees more over a shorter way than covers do
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
   }
