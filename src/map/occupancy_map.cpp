@@ -148,10 +148,20 @@ OccupancyMap::Counts OccupancyMap::counts() const {
 VoxelBox OccupancyMap::bounds() const {
   constexpr std::int32_t kFar = kFurthestVoxel;
   VoxelBox bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  for_each_known([&](const VoxelIndex& cell, Occupancy) {
-    bounds.lo = {std::min(bounds.lo.x, cell.x), std::min(bounds.lo.y, cell.y), std::min(bounds.lo.z, cell.z)};
-    bounds.hi = {std::max(bounds.hi.x, cell.x + 1), std::max(bounds.hi.y, cell.y + 1),
-                 std::max(bounds.hi.z, cell.z + 1)};
+  for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    const VoxelIndex first = Brick::first_cell(address);
+    const VoxelIndex last = Brick::first_cell(address + VoxelIndex{1, 1, 1}) - VoxelIndex{1, 1, 1};
+    if (bounds.contains(first) && bounds.contains(last)) {
+      return;
+    }
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.known[word], word, [&](std::size_t offset) {
+        const VoxelIndex cell = first + Brick::cell_at(offset);
+        bounds.lo = {std::min(bounds.lo.x, cell.x), std::min(bounds.lo.y, cell.y), std::min(bounds.lo.z, cell.z)};
+        bounds.hi = {std::max(bounds.hi.x, cell.x + 1), std::max(bounds.hi.y, cell.y + 1),
+                     std::max(bounds.hi.z, cell.z + 1)};
+      });
+    }
   });
   return bounds.empty() ? VoxelBox{} : bounds;
 }

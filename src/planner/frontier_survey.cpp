@@ -4,12 +4,16 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/frontier_survey.hpp>
+
+#include "geometry/cell_rows.hpp"
+#include "planner/sight_tree.hpp"
 
 namespace vantage {
 namespace {
@@ -28,25 +32,41 @@ std::vector<Eigen::Vector3d> spread_directions(std::size_t count) {
   return directions;
 }
 
-// The cells that sight passes, in one block: a survey asks for them millions of times.
-VoxelGrid<std::uint8_t> clear_cells(const OccupancyMap& map) {
-  VoxelGrid<std::uint8_t> clear(map.bounds());
-  map.for_each_clear([&](const VoxelIndex& cell) { clear[cell] = 1; });
+// The cells that sight passes: a survey asks for them millions of times.
+detail::CellRows clear_cells(const OccupancyMap& map) {
+  detail::CellRows clear(map.bounds());
+  map.for_each_clear([&](const VoxelIndex& cell) { clear.insert(cell); });
   return clear;
+}
+
+detail::CellRows rows_of(const ReachableSpace& reachable, const VoxelBox& box) {
+  detail::CellRows rows(box);
+  for (const VoxelIndex& cell : reachable.cells()) {
+    rows.insert(cell);
+  }
+  return rows;
+}
+
+// No further than the known part of the map can reach: a sensor's range may be without bound.
+double furthest_m(const OccupancyMap& map, const VoxelBox& bounds, const RangeSensor& sensor) {
+  return std::min(sensor.max_range_m, map.frame().box_of(bounds).extent().norm() + map.resolution_m());
 }
 
 // Finds a viewpoint for one unknown cell after another.
 class ViewpointSearch {
  public:
   ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                  const ReachableSpace& reachable, const FailedViews& failed, std::size_t direction_count)
+                  const ReachableSpace& reachable, const detail::CellRows& reachable_rows, const FailedViews& failed,
+                  std::size_t direction_count)
       : frame_(map.frame()),
         platform_(platform),
         sensor_(sensor),
         reachable_(reachable),
+        reachable_rows_(reachable_rows),
         failed_(failed),
         clear_(clear_cells(map)),
-        directions_(spread_directions(direction_count)) {}
+        furthest_m_(furthest_m(map, clear_.box(), sensor)),
+        tree_(frame_, spread_directions(direction_count), furthest_m_) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
@@ -54,15 +74,19 @@ class ViewpointSearch {
       return std::nullopt;
     }
     const Eigen::Vector3d centre = frame_.centre_of(unknown);
-    if (const auto found = along(unknown, (frame_.centre_of(frontier) - centre).normalized())) {
-      return found;
-    }
-    for (const Eigen::Vector3d& direction : directions_) {
-      if (const auto found = along(unknown, direction)) {
-        return found;
+    const Eigen::Vector3d straight = (frame_.centre_of(frontier) - centre).normalized();
+    for (const VoxelIndex& cell : VoxelRay(frame_, centre, centre + furthest_m_ * straight)) {
+      if (cell == unknown) {
+        continue;
+      }
+      if (!passes(cell)) {
+        break;
+      }
+      if (is_viewpoint(cell, unknown)) {
+        return cell;
       }
     }
-    return std::nullopt;
+    return look_around(unknown);
   }
   // Tries every reachable cell, while there are pairs left to try.
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
@@ -88,26 +112,24 @@ class ViewpointSearch {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return clear(unknown + step); });
   }
-  bool clear(const VoxelIndex& cell) const { return clear_.value_or(cell, 0) != 0; }
+  bool clear(const VoxelIndex& cell) const { return clear_.contains(cell); }
+  bool passes(const VoxelIndex& cell) {
+    ++operations_;
+    return clear(cell);
+  }
+  bool is_viewpoint(const VoxelIndex& cell, const VoxelIndex& unknown) {
+    return reachable_rows_.contains(cell) && serves(cell, unknown);
+  }
 
-  std::optional<VoxelIndex> along(const VoxelIndex& unknown, const Eigen::Vector3d& direction) {
-    const Eigen::Vector3d centre = frame_.centre_of(unknown);
-    // No further than the known part of the map can reach: a sensor's range may be without bound.
-    const double furthest_m =
-        std::min(sensor_.max_range_m, frame_.box_of(clear_.box()).extent().norm() + frame_.size_m);
-    for (const VoxelIndex& cell : VoxelRay(frame_, centre, centre + furthest_m * direction)) {
-      if (cell == unknown) {
-        continue;
-      }
-      ++operations_;
-      if (!clear(cell)) {
-        return std::nullopt;
-      }
-      if (reachable_.contains(cell) && serves(cell, unknown)) {
-        return cell;
-      }
+  // The same from whichever frontier cell it is asked.
+  std::optional<VoxelIndex> look_around(const VoxelIndex& unknown) {
+    const auto [known, is_new] = looked_around_.try_emplace(unknown);
+    if (is_new) {
+      known->second = tree_.first(
+          unknown, [&](const VoxelIndex& cell) { return passes(cell); },
+          [&](const VoxelIndex& cell) { return is_viewpoint(cell, unknown); });
     }
-    return std::nullopt;
+    return known->second;
   }
 
   // The tests are in the order of their price: most pairs fail beside the unknown cell.
@@ -123,8 +145,7 @@ class ViewpointSearch {
     }
     const bool in_sight =
         VoxelRay(frame_, from, frame_.centre_of(unknown)).all_from_the_end([&](const VoxelIndex& cell) {
-          ++operations_;
-          return cell == unknown || clear(cell);
+          return passes(cell) || cell == unknown;
         });
     return in_sight && !failed_.failed_from(unknown, viewpoint) &&
            (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
@@ -142,9 +163,12 @@ class ViewpointSearch {
   const Platform& platform_;
   const RangeSensor& sensor_;
   const ReachableSpace& reachable_;
+  const detail::CellRows& reachable_rows_;
   const FailedViews& failed_;
-  VoxelGrid<std::uint8_t> clear_;
-  std::vector<Eigen::Vector3d> directions_;
+  detail::CellRows clear_;
+  double furthest_m_;
+  detail::SightTree tree_;
+  std::unordered_map<VoxelIndex, std::optional<VoxelIndex>> looked_around_;
   std::uint64_t operations_ = 0;
 };
 
@@ -200,15 +224,10 @@ std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<
   return beside.empty() ? std::move(targets) : beside;
 }
 
-// Whether the platform comes close: some reachable cell lies within half its body, and one cell more.
-bool body_comes_near(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
-                     const VoxelIndex& cell) {
+// Where the platform comes close: some reachable cell lies within half its body, and one cell more.
+detail::CellRows near_body(const OccupancyMap& map, const Platform& platform, const detail::CellRows& reachable) {
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
-  const auto cells = static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1;
-  bool near = false;
-  for_each_cell(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(cells),
-                [&](const VoxelIndex& other) { near = near || reachable.contains(other); });
-  return near;
+  return detail::grown(reachable, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
 }
 
 }  // namespace
@@ -225,9 +244,10 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
   FrontierSurvey survey{.reachable = ReachableSpace(map, platform, current)};
   survey.frontier_cells = frontier.size();
 
+  const detail::CellRows reachable = rows_of(survey.reachable, map.bounds());
   std::vector<VoxelIndex> hidden;
   if (!frontier.empty() && survey.reachable.start()) {
-    ViewpointSearch search(map, platform, sensor, survey.reachable, failed, options.sight_directions);
+    ViewpointSearch search(map, platform, sensor, survey.reachable, reachable, failed, options.sight_directions);
     const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
       for (const VoxelIndex& unknown : unknown_neighbours(map, cell, failed)) {
         if (const std::optional<VoxelIndex> viewpoint = find(unknown)) {
@@ -262,9 +282,11 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
   } else {
     hidden = std::move(frontier);
   }
-  for (const VoxelIndex& cell : hidden) {
-    ++(body_comes_near(map, platform, survey.reachable, cell) ? survey.leftover.unobservable
-                                                              : survey.leftover.unreachable);
+  if (!hidden.empty()) {
+    const detail::CellRows near = near_body(map, platform, reachable);
+    for (const VoxelIndex& cell : hidden) {
+      ++(near.contains(cell) ? survey.leftover.unobservable : survey.leftover.unreachable);
+    }
   }
   return survey;
 }

@@ -2,60 +2,23 @@
 #include "robot/body_cells.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
+#include <map>
 #include <utility>
-#include <vantage/geometry/raster_order.hpp>
+
+#include "geometry/cell_rows.hpp"
 
 namespace vantage::detail {
 namespace {
 
-// The clear cells of a box, as 1.
-VoxelGrid<std::uint8_t> clear_cells_of(const OccupancyMap& map, const VoxelBox& box) {
-  VoxelGrid<std::uint8_t> clear(box);
+CellRows clear_rows(const OccupancyMap& map, const VoxelBox& box) {
+  CellRows clear(box);
   map.for_each_clear([&](const VoxelIndex& cell) {
     if (box.contains(cell)) {
-      clear[cell] = 1;
+      clear.insert(cell);
     }
   });
   return clear;
-}
-
-// Cells beside which (26 neighbours) one is clear, or that are clear, as 1: spread by a cell along x, then y, then z.
-std::vector<std::uint8_t> beside_clear(const VoxelGrid<std::uint8_t>& clear) {
-  std::vector<std::uint8_t> spread = clear.values();
-  const VoxelIndex extent = clear.box().extent();
-  const auto row = static_cast<std::size_t>(extent.x);
-  const std::array<std::size_t, 3> strides{1, row, row * static_cast<std::size_t>(extent.y)};
-  std::vector<std::uint8_t> before;
-  for (const std::size_t stride : strides) {
-    before = spread;
-    // Along x and y a cell at the end of its line also marks the first of the next: one more to look at, no harm.
-    for (std::size_t i = stride; i < spread.size(); ++i) {
-      spread[i] |= before[i - stride];
-      spread[i - stride] |= before[i];
-    }
-  }
-  return spread;
-}
-
-// Cells of a row, from `first`, as many as `length`.
-struct Run {
-  VoxelIndex first;
-  std::int32_t length = 0;
-};
-
-std::vector<Run> runs_of(std::vector<VoxelIndex> cells) {
-  std::sort(cells.begin(), cells.end(), RasterOrder{});
-  std::vector<Run> runs;
-  for (const VoxelIndex& cell : cells) {
-    if (!runs.empty() && cell == runs.back().first + VoxelIndex{runs.back().length, 0, 0}) {
-      ++runs.back().length;
-    } else {
-      runs.push_back({cell, 1});
-    }
-  }
-  return runs;
 }
 
 std::int32_t reach_of(const std::vector<VoxelIndex>& touched) {
@@ -66,36 +29,63 @@ std::int32_t reach_of(const std::vector<VoxelIndex>& touched) {
   return reach;
 }
 
-}  // namespace
+// The rows of a body, by what they touch along x: a sphere has few that differ.
+using RowsOfBody = std::map<std::vector<std::int32_t>, std::vector<std::pair<std::int32_t, std::int32_t>>>;
 
-VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& box,
-                                       const std::vector<VoxelIndex>& touched) {
-  const VoxelGrid<std::uint8_t> clear = clear_cells_of(map, box.grown(reach_of(touched)));
-  VoxelGrid<std::uint8_t> fits(box);
-  for_each_cell(box, [&](const VoxelIndex& cell) { fits[cell] = clear[cell]; });
-  // What a centre must not be, seen from a cell that is not clear: the body turned about its centre, row by row.
-  std::vector<VoxelIndex> forbidden(touched.size());
-  std::transform(touched.begin(), touched.end(), forbidden.begin(),
-                 [](const VoxelIndex& offset) { return VoxelIndex{} - offset; });
-  const std::vector<Run> runs = runs_of(std::move(forbidden));
-  const std::vector<std::uint8_t> beside = beside_clear(clear);
-  for (std::size_t i = 0; i < beside.size(); ++i) {
-    // Deep inside what is not clear there is no centre left to forbid.
-    if (clear.values()[i] != 0 || beside[i] == 0) {
-      continue;
-    }
-    const VoxelIndex cell = clear.cell_at(i);
-    for (const Run& run : runs) {
-      const VoxelIndex first = cell + run.first;
-      const std::int32_t from = std::max(first.x, box.lo.x);
-      const std::int32_t to = std::min(first.x + run.length, box.hi.x);
-      if (from < to && first.y >= box.lo.y && first.y < box.hi.y && first.z >= box.lo.z && first.z < box.hi.z) {
-        const auto at = fits.values().begin() + static_cast<std::ptrdiff_t>(fits.offset_of({from, first.y, first.z}));
-        std::fill_n(at, to - from, std::uint8_t{0});
+RowsOfBody rows_of_body(const std::vector<VoxelIndex>& touched) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> rows;
+  for (const VoxelIndex& cell : touched) {
+    rows[{cell.y, cell.z}].push_back(cell.x);
+  }
+  RowsOfBody alike;
+  for (auto& [row, steps] : rows) {
+    std::sort(steps.begin(), steps.end());
+    alike[steps].push_back(row);
+  }
+  return alike;
+}
+
+// Where all cells at these steps along x are clear.
+CellRows clear_along(const CellRows& clear, const std::vector<std::int32_t>& steps) {
+  CellRows along(clear.box());
+  for (std::int32_t z = clear.box().lo.z; z < clear.box().hi.z; ++z) {
+    for (std::int32_t y = clear.box().lo.y; y < clear.box().hi.y; ++y) {
+      const std::span<const std::uint64_t> from = clear.row(y, z);
+      const std::span<std::uint64_t> into = along.row(y, z);
+      for (std::size_t word = 0; word < into.size(); ++word) {
+        into[word] = ~std::uint64_t{0};
+        for (const std::int32_t step : steps) {
+          into[word] &= shifted_word(from, word, step);
+        }
       }
     }
   }
-  return fits;
+  return along;
+}
+
+}  // namespace
+
+// Row by row of the body, for 64 places at a time.
+VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& box,
+                                       const std::vector<VoxelIndex>& touched) {
+  const CellRows clear = clear_rows(map, box.grown(reach_of(touched)));
+  CellRows fits = clear;
+  for (const auto& [steps, rows] : rows_of_body(touched)) {
+    const CellRows along = clear_along(clear, steps);
+    for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
+      for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
+        const std::span<std::uint64_t> into = fits.row(y, z);
+        for (const auto& [step_y, step_z] : rows) {
+          const std::span<const std::uint64_t> row = along.row(y + step_y, z + step_z);
+          std::transform(into.begin(), into.end(), row.begin(), into.begin(), [](auto a, auto b) { return a & b; });
+        }
+      }
+    }
+  }
+  VoxelGrid<std::uint8_t> grid(box);
+  auto value = grid.values().begin();
+  for_each_cell(box, [&](const VoxelIndex& cell) { *value++ = fits.contains(cell) ? 1 : 0; });
+  return grid;
 }
 
 }  // namespace vantage::detail

@@ -39,11 +39,12 @@ bool FreeFlyer::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) con
 VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
   VoxelGrid<std::uint8_t> admitted =
       detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), reach_m()));
-  for_each_cell(box, [&](const VoxelIndex& cell) {
-    if (!height_allowed(map.frame().centre_of(cell).z())) {
-      admitted[cell] = 0;
+  for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
+    if (!height_allowed(map.frame().centre_of({0, 0, z}).z())) {
+      for_each_cell({{box.lo.x, box.lo.y, z}, {box.hi.x, box.hi.y, z + 1}},
+                    [&](const VoxelIndex& cell) { admitted[cell] = 0; });
     }
-  });
+  }
   return admitted;
 }
 

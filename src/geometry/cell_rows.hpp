@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vantage/geometry/voxel.hpp>
+#include <vector>
+
+namespace vantage::detail {
+
+/// A set of cells of a box, one bit each, in rows of whole words along x: for what moves whole sets about, and for
+/// what asks for single cells so often that they had better stay in the cache.
+class CellRows {
+ public:
+  CellRows() = default;
+  /// No cell of `box`.
+  explicit CellRows(const VoxelBox& box)
+      : box_(box), words_per_row_((static_cast<std::size_t>(box.extent().x) + 63) / 64) {
+    const VoxelIndex extent = box.extent();
+    words_.resize(words_per_row_ * static_cast<std::size_t>(extent.y) * static_cast<std::size_t>(extent.z));
+  }
+
+  [[nodiscard]] const VoxelBox& box() const { return box_; }
+  /// The cell must be in the box.
+  void insert(const VoxelIndex& cell) { words_[word_of(cell)] |= std::uint64_t{1} << bit_of(cell); }
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const {
+    return box_.contains(cell) && (words_[word_of(cell)] >> bit_of(cell) & 1U) != 0;
+  }
+  /// The row (., y, z) of the box; bit i of word w is the cell 64 w + i from its start.
+  [[nodiscard]] std::span<std::uint64_t> row(std::int32_t y, std::int32_t z) {
+    return {words_.data() + word_of({box_.lo.x, y, z}), words_per_row_};
+  }
+  [[nodiscard]] std::span<const std::uint64_t> row(std::int32_t y, std::int32_t z) const {
+    return {words_.data() + word_of({box_.lo.x, y, z}), words_per_row_};
+  }
+
+ private:
+  [[nodiscard]] std::size_t word_of(const VoxelIndex& cell) const {
+    const VoxelIndex at = cell - box_.lo;
+    const auto row = static_cast<std::size_t>(at.z) * static_cast<std::size_t>(box_.hi.y - box_.lo.y) +
+                     static_cast<std::size_t>(at.y);
+    return row * words_per_row_ + static_cast<std::size_t>(at.x) / 64;
+  }
+  [[nodiscard]] std::uint32_t bit_of(const VoxelIndex& cell) const {
+    return static_cast<std::uint32_t>(cell.x - box_.lo.x) & 63U;
+  }
+
+  VoxelBox box_;
+  std::size_t words_per_row_ = 0;
+  std::vector<std::uint64_t> words_;
+};
+
+/// Word `at` of a row in which every cell has the value of that `steps` further along x; nothing lies beyond the
+/// ends.
+[[nodiscard]] inline std::uint64_t shifted_word(std::span<const std::uint64_t> row, std::size_t at,
+                                                std::int32_t steps) {
+  const std::int64_t first = static_cast<std::int64_t>(at) * 64 + steps;
+  const std::int64_t word = first >> 6;
+  const auto bits = static_cast<std::uint32_t>(first & 63);
+  const auto word_at = [&](std::int64_t i) {
+    return i >= 0 && i < static_cast<std::int64_t>(row.size()) ? row[static_cast<std::size_t>(i)] : std::uint64_t{0};
+  };
+  return bits == 0 ? word_at(word) : word_at(word) >> bits | word_at(word + 1) << (64U - bits);
+}
+
+/// The cells of the same box that are at most `by` away from one of these on every axis.
+[[nodiscard]] CellRows grown(const CellRows& cells, std::int32_t by);
+
+}  // namespace vantage::detail

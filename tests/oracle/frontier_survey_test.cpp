@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+//
+// The survey against its definition: every line of sight looked along cell by cell in the map, one after the other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/robot/free_flyer.hpp>
+
+namespace vantage {
+namespace {
+
+constexpr std::int32_t kExtent = 11;
+constexpr std::size_t kDirections = 48;
+
+struct SurveyedWorld {
+  OccupancyMap map;
+  FreeFlyer flyer;
+  RangeSensor sensor;
+  Pose current;
+  double furthest_m;  // that anything is looked at from
+  FrontierSurveyOptions options{.min_cluster_cells = 1,
+                                .min_contested_cluster_cells = 1,
+                                .surfaces_first = false,
+                                .sight_directions = kDirections,
+                                .exhaustive_pairs = 10'000};
+  FailedViews failed{};
+};
+
+// Rooms, walls between them, worn walls, and holes in what is known.
+OccupancyMap random_rooms(std::mt19937& engine, double resolution_m) {
+  OccupancyMapOptions options{.resolution_m = resolution_m};
+  if (engine() % 3 == 0) {
+    const double edge_m = 0.9 * kExtent * resolution_m;
+    options.region = Box{Eigen::Vector3d::Constant(-edge_m), Eigen::Vector3d::Constant(edge_m)};
+  }
+  OccupancyMap map(options);
+  std::uniform_int_distribution<std::int32_t> coordinate(-kExtent, kExtent);
+  std::uniform_int_distribution<std::int32_t> edge(3, kExtent);
+  const auto box = [&](std::int32_t thin) {
+    const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
+    VoxelIndex extent{edge(engine), edge(engine), edge(engine)};
+    (thin == 0 ? extent.x : thin == 1 ? extent.y : thin == 2 ? extent.z : extent.x) = thin < 3 ? 1 : extent.x;
+    return VoxelBox{lo, lo + extent};
+  };
+  map.set_log_odds(VoxelBox{{-4, -4, -4}, {5, 5, 5}}, -2.0);
+  for (int i = 0; i < 14; ++i) {
+    map.set_log_odds(box(3), -2.0);
+  }
+  for (int i = 0; i < 14; ++i) {
+    map.set_log_odds(box(i % 3), i % 7 == 0 ? 0.85 - 3 * 0.4 : 3.0);
+  }
+  for (int i = 0; i < 6; ++i) {
+    for_each_cell(box(i % 3), [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
+  }
+  map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);  // where the sensor is
+  return map;
+}
+
+SurveyedWorld random_world(std::mt19937& engine) {
+  const double resolution_m = engine() % 2 == 0 ? 0.1 : 0.05;
+  const double far_m = (engine() % 4 == 0 ? 1000.0 : static_cast<double>(5 + engine() % 30)) * resolution_m;
+  RangeSensor sensor = RangeSensor::spherical(90, 60, 1.2, 1.0, 2.0 * resolution_m, far_m);
+  const OccupancyMap map = random_rooms(engine, resolution_m);
+  const double across_m = map.frame().box_of(map.bounds()).extent().norm() + resolution_m;
+  return {map, FreeFlyer({.radius_m = (engine() % 2 == 0 ? 0.4 : 1.6) * resolution_m, .yaw_only = engine() % 3 == 0}),
+          sensor, pose_looking(Eigen::Vector3d::Constant(0.5 * resolution_m), 0.0), std::min(far_m, across_m)};
+}
+
+std::vector<Eigen::Vector3d> directions(std::size_t count) {
+  std::vector<Eigen::Vector3d> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    const double angle = std::numbers::pi * (3.0 - std::sqrt(5.0)) * static_cast<double>(i);
+    all.emplace_back(std::sqrt(1.0 - z * z) * std::cos(angle), std::sqrt(1.0 - z * z) * std::sin(angle), z);
+  }
+  return all;
+}
+
+bool serves(const SurveyedWorld& world, const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+  const Eigen::Vector3d from = world.map.frame().centre_of(viewpoint);
+  const Eigen::Vector3d line = world.map.frame().centre_of(unknown) - from;
+  std::uint64_t operations = 0;
+  return line.norm() >= world.sensor.min_range_m && line.norm() <= world.sensor.max_range_m &&
+         in_plain_sight(world.map, from, unknown, operations) && !world.failed.failed_from(unknown, viewpoint) &&
+         (world.flyer.can_tilt() || world.sensor.in_view(world.flyer.facing(from, line).linear().transpose() * line));
+}
+
+std::optional<VoxelIndex> along(const SurveyedWorld& world, const ReachableSpace& reachable,
+                                const VoxelIndex& unknown, const Eigen::Vector3d& direction) {
+  const VoxelFrame& frame = world.map.frame();
+  const Eigen::Vector3d centre = frame.centre_of(unknown);
+  for (const VoxelIndex& cell : VoxelRay(frame, centre, centre + world.furthest_m * direction)) {
+    if (cell != unknown && !world.map.is_clear(cell)) {
+      return std::nullopt;
+    }
+    if (cell != unknown && reachable.contains(cell) && serves(world, cell, unknown)) {
+      return cell;
+    }
+  }
+  return std::nullopt;
+}
+
+// A frontier cell's target: the first of its unknown neighbours that is seen along the first of its directions.
+std::optional<FrontierTarget> target_of(const SurveyedWorld& world, const ReachableSpace& reachable,
+                                        const VoxelIndex& frontier) {
+  static const std::vector<Eigen::Vector3d> all_around = directions(kDirections);
+  for (const VoxelIndex& step : kFaceNeighbours) {
+    const VoxelIndex unknown = frontier + step;
+    if (!world.map.in_region(unknown) || world.map.at(unknown) != Occupancy::Unknown ||
+        world.failed.gave_up(unknown)) {
+      continue;
+    }
+    if (const auto straight = along(world, reachable, unknown, Eigen::Vector3d(-step.x, -step.y, -step.z))) {
+      return FrontierTarget{frontier, unknown, *straight};
+    }
+    for (const Eigen::Vector3d& direction : all_around) {
+      if (const auto viewpoint = along(world, reachable, unknown, direction)) {
+        return FrontierTarget{frontier, unknown, *viewpoint};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// Whether some reachable cell lies within half the body, and a cell more.
+bool body_comes_near(const SurveyedWorld& world, const ReachableSpace& reachable, const VoxelIndex& cell) {
+  const double half_m = 0.5 * world.flyer.body_box(Pose::Identity()).extent().maxCoeff();
+  const auto cells = static_cast<std::int32_t>(std::ceil(half_m / world.map.resolution_m())) + 1;
+  bool near = false;
+  for_each_cell(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(cells),
+                [&](const VoxelIndex& other) { near = near || reachable.contains(other); });
+  return near;
+}
+
+// Lets views from some of the viewpoints found fail, of all the cells that were to be seen from there; and some
+// twice.
+void fail_some(SurveyedWorld& world, const FrontierSurvey& survey) {
+  std::map<VoxelIndex, std::vector<VoxelIndex>> sought;
+  for (const FrontierTarget& target : survey.targets) {
+    sought[target.viewpoint].push_back(target.unknown);
+  }
+  std::size_t number = 0;
+  for (const auto& [viewpoint, cells] : sought) {
+    if (++number % (1 + sought.size() / 20) == 0) {
+      for (const VoxelIndex& from : {viewpoint, sought.begin()->first}) {
+        const Pose goal = pose_looking(world.map.frame().centre_of(from), 0.0);
+        world.failed.expect(world.map, goal, cells);
+        world.map.confirm();
+        world.failed.review(world.map, goal);
+      }
+    }
+  }
+}
+
+TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
+  std::mt19937 engine(83);
+  std::size_t compared = 0;
+  std::size_t targets = 0;
+  std::size_t hidden = 0;
+  std::size_t failed = 0;
+  for (int i = 0; i < 40; ++i) {
+    SurveyedWorld world = random_world(engine);
+    const auto survey_of = [&] {
+      return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.failed);
+    };
+    if (i % 2 == 1) {
+      fail_some(world, survey_of());
+      failed += world.failed.size();
+    }
+    const FrontierSurvey survey = survey_of();
+    std::vector<FrontierTarget> expected;
+    Leftover leftover;
+    for (const VoxelIndex& cell : frontier_cells(world.map)) {
+      if (const auto target = target_of(world, survey.reachable, cell)) {
+        expected.push_back(*target);
+      } else {
+        ++(body_comes_near(world, survey.reachable, cell) ? leftover.unobservable : leftover.unreachable);
+      }
+    }
+    if (expected.empty()) {
+      continue;  // then the survey tries every pair
+    }
+    ASSERT_EQ(survey.targets.size(), expected.size()) << "world " << i;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      ASSERT_EQ(survey.targets[k].frontier, expected[k].frontier) << "world " << i;
+      ASSERT_EQ(survey.targets[k].unknown, expected[k].unknown) << "world " << i;
+      ASSERT_EQ(survey.targets[k].viewpoint, expected[k].viewpoint) << "world " << i;
+    }
+    EXPECT_EQ(survey.leftover.unobservable, leftover.unobservable) << "world " << i;
+    EXPECT_EQ(survey.leftover.unreachable, leftover.unreachable) << "world " << i;
+    ++compared;
+    targets += expected.size();
+    hidden += leftover.unobservable + leftover.unreachable;
+  }
+  EXPECT_EQ(compared, 40U);
+  EXPECT_GT(targets, 30'000U);
+  EXPECT_GT(hidden, 30'000U);
+  EXPECT_GT(failed, 1'000U);
+}
+
+}  // namespace
+}  // namespace vantage
