@@ -3,13 +3,41 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vantage/field/laplace_problem.hpp>
+#include <vantage/geometry/voxel_grid.hpp>
+
+#include "geometry/box_around.hpp"
 
 namespace vantage {
 namespace {
 
-bool before(const VoxelIndex& a, const VoxelIndex& b) { return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x); }
+bool before(const VoxelIndex& a, const VoxelIndex& b) {
+  return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+// In raster order. A flood's cells fill most of their box: then marking them there is much faster than comparing.
+void sort(std::vector<VoxelIndex>& cells) {
+  constexpr std::size_t kMostOfABox = 16;
+  const VoxelBox box = detail::box_around(cells);
+  if (box.size() > kMostOfABox * cells.size()) {
+    std::sort(cells.begin(), cells.end(), before);
+    return;
+  }
+  VoxelGrid<std::uint8_t> marked(box);
+  for (const VoxelIndex& cell : cells) {
+    if (marked[cell] != 0) {  // given twice: for the caller to find
+      std::sort(cells.begin(), cells.end(), before);
+      return;
+    }
+    marked[cell] = 1;
+  }
+  auto next = cells.begin();
+  for_each_cell(box, [&](const VoxelIndex& cell) {
+    if (marked[cell] != 0) {
+      *next++ = cell;
+    }
+  });
+}
 
 std::string text(const VoxelIndex& cell) {
   return "(" + std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " + std::to_string(cell.z) + ")";
@@ -22,7 +50,7 @@ LaplaceProblem::LaplaceProblem(std::vector<VoxelIndex> cells, std::span<const Vo
   if (cells.size() >= static_cast<std::size_t>(std::numeric_limits<Position>::max())) {
     throw std::invalid_argument("LaplaceProblem: " + std::to_string(cells.size()) + " cells are too many");
   }
-  std::sort(cells.begin(), cells.end(), before);
+  sort(cells);
   if (const auto twice = std::adjacent_find(cells.begin(), cells.end()); twice != cells.end()) {
     throw std::invalid_argument("LaplaceProblem: cell " + text(*twice) + " is given twice");
   }
@@ -61,13 +89,15 @@ std::optional<LaplaceProblem::Position> LaplaceProblem::position_of(const VoxelI
 void LaplaceProblem::keep_component(std::vector<VoxelIndex> cells, const VoxelIndex& source) {
   cells_ = std::move(cells);
   link();
-  std::vector<bool> joined(cells_.size(), false);
-  std::vector<Position> queue{*position_of(source)};
-  joined[static_cast<std::size_t>(queue.front())] = true;
+  std::vector<std::uint8_t> joined(cells_.size(), 0);  // bytes: they are read six times a cell
+  std::vector<Position> queue;
+  queue.reserve(cells_.size());
+  queue.push_back(*position_of(source));
+  joined[static_cast<std::size_t>(queue.front())] = 1;
   for (std::size_t next = 0; next < queue.size(); ++next) {
     for (const Position neighbour : neighbours(queue[next])) {
-      if (neighbour != kClosed && !joined[static_cast<std::size_t>(neighbour)]) {
-        joined[static_cast<std::size_t>(neighbour)] = true;
+      if (neighbour != kClosed && joined[static_cast<std::size_t>(neighbour)] == 0) {
+        joined[static_cast<std::size_t>(neighbour)] = 1;
         queue.push_back(neighbour);
       }
     }
@@ -76,7 +106,7 @@ void LaplaceProblem::keep_component(std::vector<VoxelIndex> cells, const VoxelIn
   if (dropped_ > 0) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (joined[i]) {
+      if (joined[i] != 0) {
         cells_[kept++] = cells_[i];
       }
     }
@@ -85,12 +115,13 @@ void LaplaceProblem::keep_component(std::vector<VoxelIndex> cells, const VoxelIn
   }
 }
 
-// Shifting every cell by the same step keeps their order, so all neighbours in one direction are found in one merge.
+// Shifting every cell by the same step keeps their order, so all neighbours in one direction are found in one merge,
+// and those in the opposite direction, which comes before it, with them.
 void LaplaceProblem::link() {
   std::array<Position, 6> closed{};
   closed.fill(kClosed);
   neighbours_.assign(cells_.size(), closed);
-  for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
+  for (std::size_t face = 1; face < kFaceNeighbours.size(); face += 2) {
     std::size_t candidate = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const VoxelIndex wanted = cells_[i] + kFaceNeighbours[face];
@@ -99,6 +130,7 @@ void LaplaceProblem::link() {
       }
       if (candidate < cells_.size() && cells_[candidate] == wanted) {
         neighbours_[i][face] = static_cast<Position>(candidate);
+        neighbours_[candidate][face - 1] = static_cast<Position>(i);
       }
     }
   }

@@ -44,16 +44,20 @@ ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform
     return;
   }
   number_ = VoxelGrid<std::uint32_t>(bounds, kOutside);
-  const auto reach = [this](const VoxelIndex& cell) {
-    number_[cell] = static_cast<std::uint32_t>(cells_.size());
+  std::vector<std::uint32_t>& numbers = number_.values();
+  const auto reach = [&](const VoxelIndex& cell, std::size_t offset) {
+    numbers[offset] = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back(cell);
   };
-  reach(*start_);
+  reach(*start_, number_.offset_of(*start_));
   for (std::size_t next = 0; next < cells_.size(); ++next) {
     for (const VoxelIndex& step : kFaceNeighbours) {
       const VoxelIndex neighbour = cells_[next] + step;
-      if (admitted.value_or(neighbour, 0) != 0 && number_[neighbour] == kOutside) {
-        reach(neighbour);
+      if (bounds.contains(neighbour)) {
+        const std::size_t offset = number_.offset_of(neighbour);
+        if (admitted.values()[offset] != 0 && numbers[offset] == kOutside) {
+          reach(neighbour, offset);
+        }
       }
     }
   }

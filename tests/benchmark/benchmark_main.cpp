@@ -50,6 +50,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
                                                 {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}},
                                                 {"/incremental", {"/full", "/full_cells"}},
                                                 {"/record", {"/cycle"}},
+                                                {"/harmonic", {"/frontier-gain"}},
                                                 {"/default/vantage",
                                                  {"/uniform/octomap", "/culled/octomap", "/hierarchical/octomap",
                                                   "/uniform/vantage", "/hierarchical/vantage"}}};
