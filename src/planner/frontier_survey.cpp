@@ -12,6 +12,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 
+#include "geometry/block_counts.hpp"
 #include "geometry/cell_rows.hpp"
 #include "planner/sight_tree.hpp"
 
@@ -65,6 +66,7 @@ class ViewpointSearch {
         reachable_rows_(reachable_rows),
         failed_(failed),
         clear_(clear_cells(map)),
+        places_(clear_.box(), reachable.cells()),
         furthest_m_(furthest_m(map, clear_.box(), sensor)),
         tree_(frame_, spread_directions(direction_count), furthest_m_) {}
 
@@ -126,7 +128,8 @@ class ViewpointSearch {
     const auto [known, is_new] = looked_around_.try_emplace(unknown);
     if (is_new) {
       known->second = tree_.first(
-          unknown, [&](const VoxelIndex& cell) { return passes(cell); },
+          unknown, [&](const VoxelBox& cells) { return places_.may_hold(cells); },
+          [&](const VoxelIndex& cell) { return passes(cell); },
           [&](const VoxelIndex& cell) { return is_viewpoint(cell, unknown); });
     }
     return known->second;
@@ -166,6 +169,7 @@ class ViewpointSearch {
   const detail::CellRows& reachable_rows_;
   const FailedViews& failed_;
   detail::CellRows clear_;
+  detail::BlockCounts places_;  // that are reachable
   double furthest_m_;
   detail::SightTree tree_;
   std::unordered_map<VoxelIndex, std::optional<VoxelIndex>> looked_around_;

@@ -6,7 +6,20 @@
 #include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
 
+#include "geometry/box_around.hpp"
+
 namespace vantage::detail {
+namespace {
+
+VoxelBox joined(const VoxelBox& a, const VoxelBox& b) {
+  if (a.empty() || b.empty()) {
+    return a.empty() ? b : a;
+  }
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
+}  // namespace
 
 SightTree::SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m) {
   const VoxelIndex home{0, 0, 0};
@@ -31,7 +44,7 @@ SightTree::SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> d
 std::size_t SightTree::grow(const std::vector<std::vector<VoxelIndex>>& rays,
                             const std::vector<std::size_t>& together, std::size_t depth) {
   const std::size_t number = branches_.size();
-  branches_.push_back({together.front(), steps_.size(), 0, {}});
+  branches_.push_back({together.front(), steps_.size(), 0, {}, {}});
   const auto go_on_alike = [&](std::size_t ray) {
     const std::vector<VoxelIndex>& first = rays[together.front()];
     return depth < first.size() && depth < rays[ray].size() && rays[ray][depth] == first[depth];
@@ -40,6 +53,7 @@ std::size_t SightTree::grow(const std::vector<std::vector<VoxelIndex>>& rays,
     steps_.push_back(rays[together.front()][depth]);
   }
   branches_[number].last_step = steps_.size();
+  VoxelBox reach = box_around(std::span(steps_).subspan(branches_[number].first_step));
   std::vector<std::pair<VoxelIndex, std::vector<std::size_t>>> parts;
   for (const std::size_t ray : together) {
     if (depth == rays[ray].size()) {
@@ -53,7 +67,9 @@ std::size_t SightTree::grow(const std::vector<std::vector<VoxelIndex>>& rays,
   for (const auto& [cell, part] : parts) {
     const std::size_t further = grow(rays, part, depth);
     branches_[number].further.push_back(further);
+    reach = joined(reach, branches_[further].reach);
   }
+  branches_[number].reach = reach;
   return number;
 }
 

@@ -21,12 +21,13 @@ class SightTree {
 
   /// Follows the rays from `start`, which they do not ask about: each until `clear(cell)` denies a cell or
   /// `accepts(cell)` takes one. The cell taken on the first of the directions on which one is; none if there is none.
-  template <class Clear, class Accepts>
-  [[nodiscard]] std::optional<VoxelIndex> first(const VoxelIndex& start, const Clear& clear,
-                                                const Accepts& accepts) const {
+  /// Rays are not followed into a box of cells none of which `may_accept(box)`.
+  template <class MayAccept, class Clear, class Accepts>
+  [[nodiscard]] std::optional<VoxelIndex> first(const VoxelIndex& start, const MayAccept& may_accept,
+                                                const Clear& clear, const Accepts& accepts) const {
     Found found;
     if (!branches_.empty()) {
-      follow(branches_.front(), start, clear, accepts, found);
+      follow(branches_.front(), start, may_accept, clear, accepts, found);
     }
     return found.cell;
   }
@@ -37,6 +38,7 @@ class SightTree {
     std::size_t direction = 0;  // the first of those that pass here
     std::size_t first_step = 0;
     std::size_t last_step = 0;
+    VoxelBox reach;                    // around the cells of these and of all further branches
     std::vector<std::size_t> further;  // ascending by direction
   };
   struct Found {
@@ -48,9 +50,12 @@ class SightTree {
                    std::size_t depth);
 
   // Branches whose directions all come after that of what has been found need no asking.
-  template <class Clear, class Accepts>
-  void follow(const Branch& branch, const VoxelIndex& start, const Clear& clear, const Accepts& accepts,
-              Found& found) const {
+  template <class MayAccept, class Clear, class Accepts>
+  void follow(const Branch& branch, const VoxelIndex& start, const MayAccept& may_accept, const Clear& clear,
+              const Accepts& accepts, Found& found) const {
+    if (branch.direction >= found.direction || !may_accept({start + branch.reach.lo, start + branch.reach.hi})) {
+      return;
+    }
     for (std::size_t step = branch.first_step; step < branch.last_step; ++step) {
       const VoxelIndex cell = start + steps_[step];
       if (!clear(cell)) {
@@ -62,9 +67,7 @@ class SightTree {
       }
     }
     for (const std::size_t next : branch.further) {
-      if (branches_[next].direction < found.direction) {
-        follow(branches_[next], start, clear, accepts, found);
-      }
+      follow(branches_[next], start, may_accept, clear, accepts, found);
     }
   }
 
