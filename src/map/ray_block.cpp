@@ -6,27 +6,35 @@
 namespace vantage {
 namespace {
 
-template <bool kLimited>
-inline void ends(const RayPlacer& placer, RayFate beyond, RayBlock& block) {
+enum class Given : std::uint8_t { Returns, ReturnsOfAnyRange, Directions };
+
+template <Given kGiven>
+inline void ends(const RayPlacer& placer, const RayBlock::Points& point, RayBlock& block) {
   const SensorFrame sensor = placer.sensor;
   const double max_range_m = placer.max_range_m;
   const double furthest_m = placer.furthest_m;
-  const double furthest_hit_m = beyond == RayFate::BeyondRange ? max_range_m : -1.0;
+  const float* const in = point.data();
+  std::int64_t* const fates = block.fate.data();
+  double* const x_end = block.end[0].data();
+  double* const y_end = block.end[1].data();
+  double* const z_end = block.end[2].data();
+  VANTAGE_INDEPENDENT
   for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-    double x = block.point[3 * i];
-    double y = block.point[3 * i + 1];
-    double z = block.point[3 * i + 2];
+    double x = in[3 * i];
+    double y = in[3 * i + 1];
+    double z = in[3 * i + 2];
     const double squared = SensorFrame::squared(x, y, z);
     std::int64_t fate = 0;
-    if constexpr (kLimited) {
+    if constexpr (kGiven != Given::ReturnsOfAnyRange) {
       const double range_m = std::sqrt(squared);
-      const bool ends_here = range_m <= furthest_hit_m;
       const double shorter = max_range_m / range_m;
+      const bool ends_here = kGiven == Given::Returns && range_m <= max_range_m;
       const double scale = ends_here ? 1.0 : shorter;
       x *= scale;
       y *= scale;
       z *= scale;
-      fate = ends_here ? 0 : static_cast<std::int64_t>(beyond);
+      constexpr RayFate kBeyond = kGiven == Given::Returns ? RayFate::BeyondRange : RayFate::NoReturn;
+      fate = ends_here ? 0 : static_cast<std::int64_t>(kBeyond);
     }
     const double end_x = sensor.world(0, x, y, z);
     const double end_y = sensor.world(1, x, y, z);
@@ -37,22 +45,27 @@ inline void ends(const RayPlacer& placer, RayFate beyond, RayBlock& block) {
     fate = squared == 0.0 ? static_cast<std::int64_t>(RayFate::ZeroLength) : fate;
     fate = squared <= std::numeric_limits<double>::max() ? fate : static_cast<std::int64_t>(RayFate::NotFinite);
     const bool usable = fate <= static_cast<std::int64_t>(RayFate::NoReturn);
-    block.fate[i] = fate;
-    block.end[0][i] = usable ? end_x : sensor.translation[0];
-    block.end[1][i] = usable ? end_y : sensor.translation[1];
-    block.end[2][i] = usable ? end_z : sensor.translation[2];
+    fates[i] = fate;
+    x_end[i] = usable ? end_x : sensor.translation[0];
+    y_end[i] = usable ? end_y : sensor.translation[1];
+    z_end[i] = usable ? end_z : sensor.translation[2];
   }
 }
 
 }  // namespace
 
 void RayPlacer::place_ends(bool are_returns, RayBlock& block, InstructionSet set) const {
-  const RayFate beyond = are_returns ? RayFate::BeyondRange : RayFate::NoReturn;
-  if (are_returns && std::isinf(max_range_m)) {
-    compiled_for(set, [&] { ends<false>(*this, beyond, block); });
+  if (!are_returns) {
+    place_ends(block.point, block, set);
+  } else if (std::isinf(max_range_m)) {
+    compiled_for(set, [&] { ends<Given::ReturnsOfAnyRange>(*this, block.point, block); });
   } else {
-    compiled_for(set, [&] { ends<true>(*this, beyond, block); });
+    compiled_for(set, [&] { ends<Given::Returns>(*this, block.point, block); });
   }
+}
+
+void RayPlacer::place_ends(const RayBlock::Points& directions, RayBlock& block, InstructionSet set) const {
+  compiled_for(set, [&] { ends<Given::Directions>(*this, directions, block); });
 }
 
 // VoxelFrame::cell_of, without a branch.

@@ -18,9 +18,12 @@ struct RayBlock {
   template <class T>
   using PerRay = std::array<T, kRays>;
 
-  alignas(64) std::array<float, 3 * kRays> point{};  ///< in: x, y, z of returns or directions, sensor frame
-  alignas(64) PerRay<std::int64_t> fate{};           ///< a RayFate
-  alignas(64) std::array<PerRay<double>, 3> end{};   ///< metres; that of the origin for a ray that cannot be used
+  /// Three coordinates of one after the other.
+  using Points = std::array<float, 3 * kRays>;
+
+  alignas(64) Points point{};                       ///< in: x, y, z of returns or directions, sensor frame
+  alignas(64) PerRay<std::int64_t> fate{};          ///< a RayFate
+  alignas(64) std::array<PerRay<double>, 3> end{};  ///< metres; that of the origin for a ray that cannot be used
   alignas(64) std::array<PerRay<std::int32_t>, 3> cell{};  ///< of the end
 
   /// Whether the ray is drawn.
@@ -49,6 +52,9 @@ struct RayPlacer {
 
   /// From `point`, returns or directions without one, to `fate` and `end`.
   void place_ends(bool are_returns, RayBlock& block, InstructionSet set = best_instruction_set()) const;
+  /// The same for directions that lie elsewhere.
+  void place_ends(const RayBlock::Points& directions, RayBlock& block,
+                  InstructionSet set = best_instruction_set()) const;
   /// From `end` to `cell`.
   void place_cells(RayBlock& block, InstructionSet set = best_instruction_set()) const;
 };

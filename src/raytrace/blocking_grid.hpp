@@ -17,7 +17,11 @@ namespace vantage {
 /// Pages of 8 x 8 x 8 words exist where the map has bricks; a dense table finds them. All that is unseen shares one
 /// page that stops everything.
 class BlockingGrid {
+  struct Page;
+
  public:
+  class Reader;
+
   /// No distance is larger: a page need only know its neighbours.
   static constexpr std::uint8_t kFurthest = 8;
 
@@ -109,6 +113,34 @@ class BlockingGrid {
   std::deque<Page> pages_;
   std::vector<Page*> stale_;
   Page unseen_;
+};
+
+/// Looks at words of a grid that does not change meanwhile, and is quick where they lie near to the one before.
+class BlockingGrid::Reader {
+ public:
+  /// The grid must outlive it.
+  explicit Reader(const BlockingGrid& grid) : grid_(&grid), page_(&grid.page_of({})) {}
+
+  /// As BlockingGrid::blocking.
+  [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) {
+    return page_of(word).blocking[offset_in_page(word)];
+  }
+  /// As BlockingGrid::distance.
+  [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) { return page_of(word).distance[offset_in_page(word)]; }
+
+ private:
+  const Page& page_of(const VoxelIndex& word) {
+    const std::int32_t differing = (word.x ^ last_.x) | (word.y ^ last_.y) | (word.z ^ last_.z);
+    if ((differing & ~(kPageSide - 1)) != 0) {
+      page_ = &grid_->page_of(word);
+      last_ = word;
+    }
+    return *page_;
+  }
+
+  const BlockingGrid* grid_;
+  const Page* page_;
+  VoxelIndex last_;  // a word of the page
 };
 
 }  // namespace vantage

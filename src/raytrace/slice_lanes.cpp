@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
-#include <limits>
+#include <cstdlib>
 #include <raytrace/slice_lanes.hpp>
-#include <vantage/geometry/voxel_ray.hpp>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -12,277 +11,337 @@
 namespace vantage {
 namespace {
 
-constexpr double kLarge = std::numeric_limits<double>::max();
+constexpr int kBits = static_cast<int>(SliceLanes::kBits);
+// A place is near the edge of a cell if these bits of it, kDoubt added, are all zero.
+constexpr std::int32_t kAfterPoint = (SliceLanes::kCell - 1) & ~(2 * SliceLanes::kDoubt - 1);
+// Of two faces, the products that compare the times at which they are crossed may be as wrong as this: each the doubt
+// of a place and the rounding of single precision times a step of at most a cell.
+constexpr auto kDoubtOfOrder = static_cast<float>(std::int64_t{4} * SliceLanes::kDoubt * SliceLanes::kCell);
 
-// Of faces crossed at the same time, that across the lower axis comes first: those across a lateral axis above the
-// major one only up to the time before.
-std::int64_t tie(std::size_t lateral, std::size_t major) { return lateral > major ? 1 : 0; }
+// A place in a slice, and what is to be known of it.
+struct Place {
+  Place(std::int32_t u, std::int32_t v)
+      : column(u >> kBits),
+        row(v >> kBits),
+        near_edge(((u + SliceLanes::kDoubt) & kAfterPoint) == 0 || ((v + SliceLanes::kDoubt) & kAfterPoint) == 0) {}
+  std::int32_t column;
+  std::int32_t row;
+  bool near_edge;
+};
 
-bool stops(const SliceWindows& windows, std::size_t slice, std::int64_t within) {
-  return (windows.rows[slice][static_cast<std::size_t>(within >> 5)] >> (within & 31) & 1U) != 0;
+enum class First : std::uint8_t { U, V, Unsure };
+
+// Which face is crossed first on the way to another column and another row.
+First first_crossed(const Place& from, const Place& to, std::int32_t u, std::int32_t v, std::int32_t step_u,
+                    std::int32_t step_v) {
+  const std::int32_t until_u = std::abs((std::max(from.column, to.column) << kBits) - u);
+  const std::int32_t until_v = std::abs((std::max(from.row, to.row) << kBits) - v);
+  const float v_later = static_cast<float>(until_v) * static_cast<float>(std::abs(step_u)) -
+                        static_cast<float>(until_u) * static_cast<float>(std::abs(step_v));
+  return v_later >= kDoubtOfOrder ? First::U : v_later <= -kDoubtOfOrder ? First::V : First::Unsure;
 }
 
 // One ray after the other: the definition of the vectorised walks below, and what runs where there is neither.
-void walk_baseline(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits) {
-  const std::int64_t tie_u = tie(lanes.u, lanes.major);
-  const std::int64_t tie_v = tie(lanes.v, lanes.major);
+void walk_baseline(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits) {
   for (; active != 0; active &= active - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(active));
-    std::int64_t leaves = lanes.next[lanes.major][i];
-    std::int64_t next_u = lanes.next[lanes.u][i];
-    std::int64_t next_v = lanes.next[lanes.v][i];
-    std::int64_t within = lanes.at[i] - windows.origin;
+    const std::uint64_t ray = std::uint64_t{1} << i;
+    std::int32_t u = lanes.u[i];
+    std::int32_t v = lanes.v[i];
+    Place from(u, v);
+    if (from.near_edge) {
+      hits.doubtful |= ray;
+      continue;
+    }
     for (std::size_t slice = 0; slice < windows.count; ++slice) {
-      bool stopped = stops(windows, slice, within);
-      const bool crosses_u = next_u <= std::min(leaves - tie_u, FaceCrossings::kEnd);
-      const bool crosses_v = next_v <= std::min(leaves - tie_v, FaceCrossings::kEnd);
-      const bool u_first = crosses_u && (!crosses_v || next_u <= next_v);
-      if (!stopped && (crosses_u || crosses_v)) {
-        within += u_first ? lanes.step_u[i] : lanes.step_v[i];
-        stopped = stops(windows, slice, within);
-        if (!stopped && crosses_u && crosses_v) {
-          within += u_first ? lanes.step_v[i] : lanes.step_u[i];
-          stopped = stops(windows, slice, within);
+      const auto stop = [&](std::int32_t column, std::int32_t row) {
+        if ((windows.rows[slice][static_cast<std::size_t>(row)] >> column & 1U) == 0) {
+          return false;
         }
-      }
-      if (stopped || leaves > FaceCrossings::kEnd) {
-        (stopped ? hits.stopped : hits.ended) |= std::uint64_t{1} << i;
-        hits.slice[i] = static_cast<std::int64_t>(slice);
-        hits.within[i] = within;
+        hits.stopped |= ray;
+        hits.where[i] =
+            column + SliceWindows::kWidth * (row + SliceWindows::kHeight * static_cast<std::int32_t>(slice));
+        return true;
+      };
+      const Place to(u + lanes.step_u[i], v + lanes.step_v[i]);
+      if (stop(from.column, from.row)) {
         break;
       }
-      leaves += lanes.delta[lanes.major][i];
-      next_u += crosses_u ? lanes.delta[lanes.u][i] : 0;
-      next_v += crosses_v ? lanes.delta[lanes.v][i] : 0;
+      bool doubtful = to.near_edge;
+      if (!doubtful && from.column != to.column && from.row != to.row) {
+        const First first = first_crossed(from, to, u, v, lanes.step_u[i], lanes.step_v[i]);
+        if (first != First::Unsure) {
+          if (first == First::U ? stop(to.column, from.row) : stop(from.column, to.row)) {
+            break;
+          }
+        } else {
+          const std::uint32_t either = windows.rows[slice][static_cast<std::size_t>(from.row)] >> to.column |
+                                       windows.rows[slice][static_cast<std::size_t>(to.row)] >> from.column;
+          doubtful = (either & 1U) != 0;
+        }
+      }
+      if (doubtful) {
+        hits.doubtful |= ray;
+        break;
+      }
+      if (stop(to.column, to.row)) {
+        break;
+      }
+      from = to;
+      u += lanes.step_u[i];
+      v += lanes.step_v[i];
     }
-    lanes.next[lanes.major][i] = leaves;
-    lanes.next[lanes.u][i] = next_u;
-    lanes.next[lanes.v][i] = next_v;
-    lanes.at[i] = within + windows.origin;
   }
 }
 
 #if defined(__x86_64__)
 
 // All lanes. (Where all are meant, the forms without a mask make g++ 12 warn of values that are never used.)
-constexpr __mmask8 kAll = 0xFF;
+constexpr __mmask16 kAll = 0xFFFF;
 
-// A window is a register of eight words, two rows in each: a position is a word and a bit of it.
-VANTAGE_TARGET_AVX512 inline __mmask8 stops(__m512i window, __m512i within) {
-  const __m512i word = _mm512_maskz_permutexvar_epi64(kAll, _mm512_maskz_srli_epi64(kAll, within, 6), window);
-  return _mm512_test_epi64_mask(_mm512_maskz_rorv_epi64(kAll, word, within), _mm512_set1_epi64(1));
+VANTAGE_TARGET_AVX512 inline __m512i cell_of(__m512i place) { return _mm512_maskz_srai_epi32(kAll, place, kBits); }
+
+VANTAGE_TARGET_AVX512 inline __mmask16 near_edge(__m512i u, __m512i v) {
+  const __m512i doubt = _mm512_set1_epi32(SliceLanes::kDoubt);
+  const __m512i after_point = _mm512_set1_epi32(kAfterPoint);
+  return static_cast<__mmask16>(_mm512_testn_epi32_mask(_mm512_add_epi32(u, doubt), after_point) |
+                                _mm512_testn_epi32_mask(_mm512_add_epi32(v, doubt), after_point));
 }
 
-VANTAGE_TARGET_AVX512 void walk_avx512(SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
-                                       __mmask8 active, SliceHits& hits) {
-  const __m512i end = _mm512_set1_epi64(FaceCrossings::kEnd);
-  const __m512i tie_u = _mm512_set1_epi64(tie(lanes.u, lanes.major));
-  const __m512i tie_v = _mm512_set1_epi64(tie(lanes.v, lanes.major));
-  const __m512i delta_m = _mm512_load_si512(&lanes.delta[lanes.major][first]);
-  const __m512i delta_u = _mm512_load_si512(&lanes.delta[lanes.u][first]);
-  const __m512i delta_v = _mm512_load_si512(&lanes.delta[lanes.v][first]);
+// Whether the bits of these columns are set in these rows. (A rotation: lanes that are not active may be anywhere.)
+VANTAGE_TARGET_AVX512 inline __mmask16 is_set(__m512i rows, __m512i columns) {
+  return _mm512_test_epi32_mask(_mm512_maskz_rorv_epi32(kAll, rows, columns), _mm512_set1_epi32(1));
+}
+
+// How far the face between two cells is from a place in one of them.
+VANTAGE_TARGET_AVX512 inline __m512 until_face(__m512i from, __m512i to, __m512i place) {
+  const __m512i face = _mm512_maskz_slli_epi32(kAll, _mm512_maskz_max_epi32(kAll, from, to), kBits);
+  return _mm512_maskz_cvtepi32_ps(kAll, _mm512_maskz_abs_epi32(kAll, _mm512_sub_epi32(face, place)));
+}
+
+// Of rays on their way to another column and another row: which of them cross the face to which first, for certain.
+struct Order16 {
+  __mmask16 u_first;
+  __mmask16 v_first;
+};
+VANTAGE_TARGET_AVX512 inline Order16 order_of(__m512 until_u, __m512 until_v, __m512i step_u, __m512i step_v) {
+  const __m512 far_u = _mm512_maskz_cvtepi32_ps(kAll, _mm512_maskz_abs_epi32(kAll, step_u));
+  const __m512 far_v = _mm512_maskz_cvtepi32_ps(kAll, _mm512_maskz_abs_epi32(kAll, step_v));
+  const __m512 v_later = _mm512_sub_ps(_mm512_mul_ps(until_v, far_u), _mm512_mul_ps(until_u, far_v));
+  return {_mm512_cmp_ps_mask(v_later, _mm512_set1_ps(kDoubtOfOrder), _CMP_GE_OQ),
+          _mm512_cmp_ps_mask(v_later, _mm512_set1_ps(-kDoubtOfOrder), _CMP_LE_OQ)};
+}
+
+VANTAGE_TARGET_AVX512 inline void stop_at(__m512i row, __m512i column, std::size_t slice, __mmask16 stopped,
+                                          std::int32_t* where) {
+  const __m512i first = _mm512_set1_epi32(static_cast<std::int32_t>(slice) * 512);
+  const __m512i cell =
+      _mm512_maskz_or_epi32(kAll, _mm512_maskz_slli_epi32(kAll, row, 5), _mm512_maskz_or_epi32(kAll, column, first));
+  _mm512_mask_store_epi32(where, stopped, cell);
+}
+
+VANTAGE_TARGET_AVX512 void walk_avx512(const SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
+                                       __mmask16 active, SliceHits& hits) {
   const __m512i step_u = _mm512_load_si512(&lanes.step_u[first]);
   const __m512i step_v = _mm512_load_si512(&lanes.step_v[first]);
-  __m512i leaves = _mm512_load_si512(&lanes.next[lanes.major][first]);
-  __m512i next_u = _mm512_load_si512(&lanes.next[lanes.u][first]);
-  __m512i next_v = _mm512_load_si512(&lanes.next[lanes.v][first]);
-  __m512i at = _mm512_sub_epi64(_mm512_load_si512(&lanes.at[first]), _mm512_set1_epi64(windows.origin));
+  __m512i u = _mm512_load_si512(&lanes.u[first]);
+  __m512i v = _mm512_load_si512(&lanes.v[first]);
+  __m512i column = cell_of(u);
+  __m512i row = cell_of(v);
+  std::int32_t* const where = &hits.where[first];
+  auto doubtful = static_cast<__mmask16>(near_edge(u, v) & active);
+  __mmask16 stopped = 0;
+  active = static_cast<__mmask16>(active & ~doubtful);
   for (std::size_t slice = 0; slice < windows.count && active != 0; ++slice) {
     const __m512i window = _mm512_load_si512(windows.rows[slice].data());
-    const __mmask8 u =
-        _mm512_cmple_epi64_mask(next_u, _mm512_maskz_min_epi64(kAll, _mm512_sub_epi64(leaves, tie_u), end));
-    const __mmask8 v =
-        _mm512_cmple_epi64_mask(next_v, _mm512_maskz_min_epi64(kAll, _mm512_sub_epi64(leaves, tie_v), end));
-    const auto u_first = static_cast<__mmask8>(u & (~v | _mm512_cmple_epi64_mask(next_u, next_v)));
-    const auto v_first = static_cast<__mmask8>(v & ~u_first);
-    const __m512i once = _mm512_mask_add_epi64(_mm512_mask_add_epi64(at, u_first, at, step_u), v_first, at, step_v);
-    const __m512i twice =
-        _mm512_mask_add_epi64(_mm512_mask_add_epi64(once, static_cast<__mmask8>(u & ~u_first), once, step_u),
-                              static_cast<__mmask8>(v & ~v_first), once, step_v);
-    const auto at_once = static_cast<__mmask8>(stops(window, at) & active);
-    const auto after_one = static_cast<__mmask8>(stops(window, once) & active);
-    const auto after_two = static_cast<__mmask8>(stops(window, twice) & active);
-    const auto stopped = static_cast<__mmask8>(at_once | after_one | after_two);
-    const auto ended = static_cast<__mmask8>(_mm512_cmpgt_epi64_mask(leaves, end) & active & ~stopped);
-    if (stopped != 0) {
-      const __m512i where = _mm512_mask_blend_epi64(at_once, _mm512_mask_blend_epi64(after_one, twice, once), at);
-      _mm512_mask_store_epi64(&hits.slice[first], stopped, _mm512_set1_epi64(static_cast<std::int64_t>(slice)));
-      _mm512_mask_store_epi64(&hits.within[first], stopped, where);
+    const __m512i here = _mm512_maskz_permutexvar_epi32(kAll, row, window);
+    const auto at_once = static_cast<__mmask16>(is_set(here, column) & active);
+    stop_at(row, column, slice, at_once, where);
+    active = static_cast<__mmask16>(active & ~at_once);
+    stopped |= at_once;
+    if (active == 0) {
+      break;
     }
-    hits.stopped |= std::uint64_t{stopped} << first;
-    hits.ended |= std::uint64_t{ended} << first;
-    active = static_cast<__mmask8>(active & ~(stopped | ended));
-    at = twice;
-    leaves = _mm512_add_epi64(leaves, delta_m);
-    next_u = _mm512_mask_add_epi64(next_u, u, next_u, delta_u);
-    next_v = _mm512_mask_add_epi64(next_v, v, next_v, delta_v);
+    const __m512i to_u = _mm512_add_epi32(u, step_u);
+    const __m512i to_v = _mm512_add_epi32(v, step_v);
+    const __m512i to_column = cell_of(to_u);
+    const __m512i to_row = cell_of(to_v);
+    const auto unsure = static_cast<__mmask16>(near_edge(to_u, to_v) & active);
+    doubtful |= unsure;
+    active = static_cast<__mmask16>(active & ~unsure);
+    const __m512i there = _mm512_maskz_permutexvar_epi32(kAll, to_row, window);
+    const __mmask16 turns = _mm512_mask_cmpneq_epi32_mask(active, column, to_column);
+    const __mmask16 both = _mm512_mask_cmpneq_epi32_mask(turns, row, to_row);
+    if (both != 0) {
+      const auto by_u = static_cast<__mmask16>(is_set(here, to_column) & both);
+      const auto by_v = static_cast<__mmask16>(is_set(there, column) & both);
+      if ((by_u | by_v) != 0) {
+        const auto [u_first, v_first] =
+            order_of(until_face(column, to_column, u), until_face(row, to_row, v), step_u, step_v);
+        const auto stopped_by_u = static_cast<__mmask16>(by_u & u_first);
+        const auto stopped_by_v = static_cast<__mmask16>(by_v & v_first);
+        const auto not_known = static_cast<__mmask16>((by_u | by_v) & ~(u_first | v_first));
+        stop_at(row, to_column, slice, stopped_by_u, where);
+        stop_at(to_row, column, slice, stopped_by_v, where);
+        stopped |= static_cast<__mmask16>(stopped_by_u | stopped_by_v);
+        doubtful |= not_known;
+        active = static_cast<__mmask16>(active & ~(stopped_by_u | stopped_by_v | not_known));
+      }
+    }
+    const auto at_last = static_cast<__mmask16>(is_set(there, to_column) & active);
+    stop_at(to_row, to_column, slice, at_last, where);
+    stopped |= at_last;
+    active = static_cast<__mmask16>(active & ~at_last);
+    u = to_u;
+    v = to_v;
+    column = to_column;
+    row = to_row;
   }
-  _mm512_store_si512(&lanes.next[lanes.major][first], leaves);
-  _mm512_store_si512(&lanes.next[lanes.u][first], next_u);
-  _mm512_store_si512(&lanes.next[lanes.v][first], next_v);
-  _mm512_store_si512(&lanes.at[first], _mm512_add_epi64(at, _mm512_set1_epi64(windows.origin)));
+  hits.stopped |= std::uint64_t{stopped} << first;
+  hits.doubtful |= std::uint64_t{doubtful} << first;
 }
 
-VANTAGE_TARGET_AVX512 std::uint64_t equal_avx512(const RayBlock::PerRay<std::int64_t>& values, std::int64_t value) {
-  std::uint64_t equal = 0;
-  for (std::size_t first = 0; first < values.size(); first += 8) {
-    const __m512i eight = _mm512_loadu_si512(&values[first]);
-    equal |= std::uint64_t{_mm512_cmpeq_epi64_mask(eight, _mm512_set1_epi64(value))} << first;
-  }
-  return equal;
+// Eight rays at a time; masks are whole lanes.
+VANTAGE_TARGET_AVX2 inline __m256i load(const void* eight) {
+  return _mm256_load_si256(static_cast<const __m256i*>(eight));
 }
 
-VANTAGE_TARGET_AVX512 std::pair<double, double> range_avx512(const RayBlock::PerRay<double>& values,
-                                                             std::uint64_t active) {
-  __m512d least = _mm512_set1_pd(kLarge);
-  __m512d most = _mm512_set1_pd(-kLarge);
-  for (std::size_t first = 0; first < values.size(); first += 8) {
-    const __m512d eight = _mm512_loadu_pd(&values[first]);
-    const auto some = static_cast<__mmask8>(active >> first);
-    least = _mm512_mask_min_pd(least, some, least, eight);
-    most = _mm512_mask_max_pd(most, some, most, eight);
-  }
-  alignas(64) std::array<double, 8> lows;
-  alignas(64) std::array<double, 8> highs;
-  _mm512_store_pd(lows.data(), least);
-  _mm512_store_pd(highs.data(), most);
-  return {*std::min_element(lows.begin(), lows.end()), *std::max_element(highs.begin(), highs.end())};
+VANTAGE_TARGET_AVX2 inline unsigned bits(__m256i lanes) {
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lanes)));
 }
 
-// Four rays at a time; masks are whole lanes.
-VANTAGE_TARGET_AVX2 inline __m256i load(const std::int64_t* four) {
-  return _mm256_load_si256(reinterpret_cast<const __m256i*>(four));
+// Lanes of which bits are set, in full.
+VANTAGE_TARGET_AVX2 inline __m256i lanes_of(unsigned bits) {
+  const __m256i each = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  return _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), each), each);
 }
-VANTAGE_TARGET_AVX2 inline void store(std::int64_t* four, __m256i vector) {
-  _mm256_store_si256(reinterpret_cast<__m256i*>(four), vector);
-}
-VANTAGE_TARGET_AVX2 inline __m256i min(__m256i a, __m256i b) {
-  return _mm256_blendv_epi8(a, b, _mm256_cmpgt_epi64(a, b));
+
+VANTAGE_TARGET_AVX2 inline unsigned near_edge(__m256i u, __m256i v) {
+  const __m256i doubt = _mm256_set1_epi32(SliceLanes::kDoubt);
+  const __m256i after_point = _mm256_set1_epi32(kAfterPoint);
+  const __m256i zero = _mm256_setzero_si256();
+  const __m256i near_u = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_add_epi32(u, doubt), after_point), zero);
+  const __m256i near_v = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_add_epi32(v, doubt), after_point), zero);
+  return bits(_mm256_or_si256(near_u, near_v));
 }
 
 // A window is two registers of eight rows.
-VANTAGE_TARGET_AVX2 inline __m256i stops(const std::uint32_t* rows, __m256i within) {
-  const auto* const halves = reinterpret_cast<const __m256i*>(rows);
-  const __m256i row = _mm256_srli_epi64(within, 5);
-  const __m256i low = _mm256_permutevar8x32_epi32(_mm256_load_si256(halves), row);
-  const __m256i high = _mm256_permutevar8x32_epi32(_mm256_load_si256(halves + 1), row);
-  const __m256i is_high = _mm256_cmpgt_epi64(row, _mm256_set1_epi64x(7));
-  const __m256i bit = _mm256_and_si256(within, _mm256_set1_epi64x(31));
-  const __m256i found = _mm256_srlv_epi64(_mm256_blendv_epi8(low, high, is_high), bit);
-  return _mm256_cmpeq_epi64(_mm256_and_si256(found, _mm256_set1_epi64x(1)), _mm256_set1_epi64x(1));
+VANTAGE_TARGET_AVX2 inline __m256i rows_of(const std::uint32_t* window, __m256i row) {
+  const __m256i low = _mm256_permutevar8x32_epi32(load(window), row);
+  const __m256i high = _mm256_permutevar8x32_epi32(load(window + 8), row);
+  const __m256i is_high = _mm256_slli_epi32(row, 28);
+  return _mm256_castps_si256(
+      _mm256_blendv_ps(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), _mm256_castsi256_ps(is_high)));
 }
 
-VANTAGE_TARGET_AVX2 inline std::uint64_t bits(__m256i lanes) {
-  return static_cast<std::uint64_t>(_mm256_movemask_pd(_mm256_castsi256_pd(lanes)));
+VANTAGE_TARGET_AVX2 inline unsigned is_set(__m256i rows, __m256i columns) {
+  return bits(_mm256_slli_epi32(_mm256_srlv_epi32(rows, columns), 31));
 }
 
-VANTAGE_TARGET_AVX2 void walk_avx2(SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
-                                   std::uint64_t active, SliceHits& hits) {
-  const __m256i end = _mm256_set1_epi64x(FaceCrossings::kEnd);
-  const __m256i tie_u = _mm256_set1_epi64x(tie(lanes.u, lanes.major));
-  const __m256i tie_v = _mm256_set1_epi64x(tie(lanes.v, lanes.major));
+VANTAGE_TARGET_AVX2 inline __m256 until_face(__m256i from, __m256i to, __m256i place) {
+  const __m256i face = _mm256_slli_epi32(_mm256_max_epi32(from, to), kBits);
+  return _mm256_cvtepi32_ps(_mm256_abs_epi32(_mm256_sub_epi32(face, place)));
+}
+
+struct Order8 {
+  unsigned u_first;
+  unsigned v_first;
+};
+VANTAGE_TARGET_AVX2 inline Order8 order_of(__m256 until_u, __m256 until_v, __m256i step_u, __m256i step_v) {
+  const __m256 far_u = _mm256_cvtepi32_ps(_mm256_abs_epi32(step_u));
+  const __m256 far_v = _mm256_cvtepi32_ps(_mm256_abs_epi32(step_v));
+  const __m256 v_later = _mm256_sub_ps(_mm256_mul_ps(until_v, far_u), _mm256_mul_ps(until_u, far_v));
+  const __m256 certain = _mm256_cmp_ps(v_later, _mm256_set1_ps(kDoubtOfOrder), _CMP_GE_OQ);
+  const __m256 against = _mm256_cmp_ps(v_later, _mm256_set1_ps(-kDoubtOfOrder), _CMP_LE_OQ);
+  return {bits(_mm256_castps_si256(certain)), bits(_mm256_castps_si256(against))};
+}
+
+VANTAGE_TARGET_AVX2 inline void stop_at(__m256i row, __m256i column, std::size_t slice, unsigned stopped,
+                                        std::int32_t* where) {
+  const __m256i first = _mm256_set1_epi32(static_cast<std::int32_t>(slice) * 512);
+  const __m256i cell = _mm256_or_si256(_mm256_slli_epi32(row, 5), _mm256_or_si256(column, first));
+  _mm256_maskstore_epi32(where, lanes_of(stopped), cell);
+}
+
+VANTAGE_TARGET_AVX2 void walk_avx2(const SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
+                                   unsigned active, SliceHits& hits) {
   const __m256i step_u = load(&lanes.step_u[first]);
   const __m256i step_v = load(&lanes.step_v[first]);
-  __m256i leaves = load(&lanes.next[lanes.major][first]);
-  __m256i next_u = load(&lanes.next[lanes.u][first]);
-  __m256i next_v = load(&lanes.next[lanes.v][first]);
-  __m256i at = _mm256_sub_epi64(load(&lanes.at[first]), _mm256_set1_epi64x(windows.origin));
+  __m256i u = load(&lanes.u[first]);
+  __m256i v = load(&lanes.v[first]);
+  __m256i column = _mm256_srai_epi32(u, kBits);
+  __m256i row = _mm256_srai_epi32(v, kBits);
+  std::int32_t* const where = &hits.where[first];
+  unsigned doubtful = near_edge(u, v) & active;
+  unsigned stopped = 0;
+  active &= ~doubtful;
   for (std::size_t slice = 0; slice < windows.count && active != 0; ++slice) {
-    const std::uint32_t* const rows = windows.rows[slice].data();
-    const __m256i not_u = _mm256_cmpgt_epi64(next_u, min(_mm256_sub_epi64(leaves, tie_u), end));
-    const __m256i not_v = _mm256_cmpgt_epi64(next_v, min(_mm256_sub_epi64(leaves, tie_v), end));
-    const __m256i u_later = _mm256_andnot_si256(not_v, _mm256_cmpgt_epi64(next_u, next_v));
-    const __m256i not_u_first = _mm256_or_si256(not_u, u_later);
-    const __m256i u_first = _mm256_andnot_si256(not_u_first, step_u);
-    const __m256i v_first = _mm256_and_si256(not_u_first, _mm256_andnot_si256(not_v, step_v));
-    const __m256i once = _mm256_add_epi64(at, _mm256_add_epi64(u_first, v_first));
-    const __m256i u_and_v = _mm256_add_epi64(_mm256_andnot_si256(not_u, step_u), _mm256_andnot_si256(not_v, step_v));
-    const __m256i twice = _mm256_add_epi64(at, u_and_v);
-    const __m256i at_once = stops(rows, at);
-    const __m256i after_one = stops(rows, once);
-    const std::uint64_t stopped = (bits(at_once) | bits(after_one) | bits(stops(rows, twice))) & active;
-    const std::uint64_t ended = bits(_mm256_cmpgt_epi64(leaves, end)) & active & ~stopped;
-    if (stopped != 0) {
-      alignas(32) std::array<std::int64_t, 4> where;
-      store(where.data(), _mm256_blendv_epi8(_mm256_blendv_epi8(twice, once, after_one), at, at_once));
-      for (std::uint64_t left = stopped; left != 0; left &= left - 1) {
-        const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-        hits.slice[first + lane] = static_cast<std::int64_t>(slice);
-        hits.within[first + lane] = where[lane];
+    const std::uint32_t* const window = windows.rows[slice].data();
+    const __m256i here = rows_of(window, row);
+    const unsigned at_once = is_set(here, column) & active;
+    if (at_once != 0) {
+      stop_at(row, column, slice, at_once, where);
+      stopped |= at_once;
+      active &= ~at_once;
+      if (active == 0) {
+        break;
       }
     }
-    hits.stopped |= stopped << first;
-    hits.ended |= ended << first;
-    active &= ~(stopped | ended);
-    at = twice;
-    leaves = _mm256_add_epi64(leaves, load(&lanes.delta[lanes.major][first]));
-    next_u = _mm256_add_epi64(next_u, _mm256_andnot_si256(not_u, load(&lanes.delta[lanes.u][first])));
-    next_v = _mm256_add_epi64(next_v, _mm256_andnot_si256(not_v, load(&lanes.delta[lanes.v][first])));
+    const __m256i to_u = _mm256_add_epi32(u, step_u);
+    const __m256i to_v = _mm256_add_epi32(v, step_v);
+    const __m256i to_column = _mm256_srai_epi32(to_u, kBits);
+    const __m256i to_row = _mm256_srai_epi32(to_v, kBits);
+    const unsigned unsure = near_edge(to_u, to_v) & active;
+    doubtful |= unsure;
+    active &= ~unsure;
+    const __m256i there = rows_of(window, to_row);
+    const __m256i stays = _mm256_or_si256(_mm256_cmpeq_epi32(column, to_column), _mm256_cmpeq_epi32(row, to_row));
+    if (const unsigned both = active & ~bits(stays); both != 0) {
+      const unsigned by_u = is_set(here, to_column) & both;
+      const unsigned by_v = is_set(there, column) & both;
+      if ((by_u | by_v) != 0) {
+        const auto [u_first, v_first] =
+            order_of(until_face(column, to_column, u), until_face(row, to_row, v), step_u, step_v);
+        const unsigned not_known = (by_u | by_v) & ~(u_first | v_first);
+        stop_at(row, to_column, slice, by_u & u_first, where);
+        stop_at(to_row, column, slice, by_v & v_first, where);
+        stopped |= (by_u & u_first) | (by_v & v_first);
+        doubtful |= not_known;
+        active &= ~((by_u & u_first) | (by_v & v_first) | not_known);
+      }
+    }
+    if (const unsigned at_last = is_set(there, to_column) & active; at_last != 0) {
+      stop_at(to_row, to_column, slice, at_last, where);
+      stopped |= at_last;
+      active &= ~at_last;
+    }
+    u = to_u;
+    v = to_v;
+    column = to_column;
+    row = to_row;
   }
-  store(&lanes.next[lanes.major][first], leaves);
-  store(&lanes.next[lanes.u][first], next_u);
-  store(&lanes.next[lanes.v][first], next_v);
-  store(&lanes.at[first], _mm256_add_epi64(at, _mm256_set1_epi64x(windows.origin)));
+  hits.stopped |= std::uint64_t{stopped} << first;
+  hits.doubtful |= std::uint64_t{doubtful} << first;
 }
 
 #endif
-
-// Faces crossed up to `time`, without a branch: a quotient in floating point is at most one off.
-inline std::int64_t crossed_by(std::int64_t time, std::int64_t next, std::int64_t delta) {
-  const std::int64_t since = time - next;
-  const std::int64_t step = delta + static_cast<std::int64_t>(delta == 0);
-  const auto faces = static_cast<std::int64_t>(static_cast<double>(since) / static_cast<double>(step));
-  const std::int64_t rest = since - faces * step;
-  const std::int64_t exact = faces + static_cast<std::int64_t>(rest >= step) - static_cast<std::int64_t>(rest < 0);
-  return static_cast<std::int64_t>(since >= 0) * static_cast<std::int64_t>(delta > 0) * (exact + 1);
-}
 
 }  // namespace
 
-std::uint64_t equal_to(const RayBlock::PerRay<std::int64_t>& values, std::int64_t value, InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::Avx512) {
-    return equal_avx512(values, value);
-  }
-#endif
-  (void)set;
-  std::uint64_t equal = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    equal |= static_cast<std::uint64_t>(values[i] == value) << i;
-  }
-  return equal;
-}
-
-std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active, InstructionSet set) {
-#if defined(__x86_64__)
-  if (set == InstructionSet::Avx512) {
-    return range_avx512(values, active);
-  }
-#endif
-  (void)set;
-  std::pair<double, double> range{kLarge, -kLarge};
-  for (; active != 0; active &= active - 1) {
-    const double value = values[static_cast<std::size_t>(std::countr_zero(active))];
-    range.first = std::min(range.first, value);
-    range.second = std::max(range.second, value);
-  }
-  return range;
-}
-
-void walk_slices(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
+void walk_slices(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
                  InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    for (std::size_t first = 0; first < RayBlock::kRays; first += 8) {
-      if (const auto some = static_cast<__mmask8>(active >> first); some != 0) {
+    for (std::size_t first = 0; first < RayBlock::kRays; first += 16) {
+      if (const auto some = static_cast<__mmask16>(active >> first); some != 0) {
         walk_avx512(lanes, windows, first, some, hits);
       }
     }
     return;
   }
   if (set == InstructionSet::Avx2) {
-    for (std::size_t first = 0; first < RayBlock::kRays; first += 4) {
-      if (const std::uint64_t some = active >> first & 15U; some != 0) {
+    for (std::size_t first = 0; first < RayBlock::kRays; first += 8) {
+      if (const auto some = static_cast<unsigned>(active >> first & 255U); some != 0) {
         walk_avx2(lanes, windows, first, some, hits);
       }
     }
@@ -291,39 +350,6 @@ void walk_slices(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t a
 #endif
   (void)set;
   walk_baseline(lanes, windows, active, hits);
-}
-
-std::uint64_t skip_slices(SliceLanes& lanes, std::int64_t slices, std::uint64_t active, InstructionSet set) {
-  const std::int64_t tie_u = tie(lanes.u, lanes.major);
-  const std::int64_t tie_v = tie(lanes.v, lanes.major);
-  std::int64_t* const next_m = lanes.next[lanes.major].data();
-  std::int64_t* const next_u = lanes.next[lanes.u].data();
-  std::int64_t* const next_v = lanes.next[lanes.v].data();
-  const std::int64_t* const delta_m = lanes.delta[lanes.major].data();
-  const std::int64_t* const delta_u = lanes.delta[lanes.u].data();
-  const std::int64_t* const delta_v = lanes.delta[lanes.v].data();
-  const std::int64_t* const step_u = lanes.step_u.data();
-  const std::int64_t* const step_v = lanes.step_v.data();
-  std::int64_t* const at = lanes.at.data();
-  RayBlock::PerRay<std::int64_t> ended;
-  compiled_for(set, [=, &ended] {
-    std::int64_t* const ends = ended.data();
-    VANTAGE_INDEPENDENT
-    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      // Where rays are that are not active is undefined: they count as nothing.
-      const std::int64_t mask = -static_cast<std::int64_t>(active >> i & 1U);
-      const std::int64_t forward = slices & mask;
-      const std::int64_t enters = (next_m[i] & mask) + (forward - 1) * (delta_m[i] & mask);
-      const std::int64_t faces_u = crossed_by(enters - tie_u, next_u[i] & mask, delta_u[i] & mask);
-      const std::int64_t faces_v = crossed_by(enters - tie_v, next_v[i] & mask, delta_v[i] & mask);
-      ends[i] = static_cast<std::int64_t>(enters > FaceCrossings::kEnd);
-      next_m[i] += forward * delta_m[i];
-      next_u[i] += faces_u * delta_u[i];
-      next_v[i] += faces_v * delta_v[i];
-      at[i] += faces_u * step_u[i] + faces_v * step_v[i];
-    }
-  });
-  return equal_to(ended, 1, set) & active;
 }
 
 }  // namespace vantage

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map/instruction_set.hpp>
 #include <map/ray_block.hpp>
-#include <utility>
 
 namespace vantage {
 
@@ -19,58 +18,36 @@ struct SliceWindows {
 
   alignas(64) std::array<std::array<std::uint32_t, kHeight>, kMost> rows{};  ///< by slice, then second axis
   std::size_t count = 0;                                                     ///< slices, in the order of the walk
-  std::int64_t origin = 0;  ///< lateral position (SliceLanes::at) of the first cell of the windows
 };
 
-/// 64 rays from one origin that walk through slices of cells together: the traversal of VoxelRay, slice by slice.
+/// 64 rays from one origin that walk through slices of cells together.
 ///
 /// A ray advances fastest along the major axis, so it crosses at most one face across each of the two lateral axes
-/// while it is in one slice: there are at most three cells to look at, and no branches.
+/// while it is in one slice: there are at most three cells to look at, and no branches. Places are fixed-point
+/// numbers in the window, so that 16 rays fit a register; where a ray passes too near an edge between cells for them
+/// to say which cells it passes, it is said to be doubtful, and VoxelRay is to decide.
 struct SliceLanes {
-  template <class T>
-  using PerRay = RayBlock::PerRay<T>;
+  static constexpr unsigned kBits = 25;                       ///< after the point
+  static constexpr std::int32_t kCell = 1 << kBits;           ///< the width of a cell
+  static constexpr std::int32_t kDoubt = 1 << (kBits - 19U);  ///< places may be as wrong as this: 2e-6 cells
 
-  alignas(64) std::array<PerRay<std::int64_t>, 3> next{};   ///< time of the next face crossed, per axis of the world
-  alignas(64) std::array<PerRay<std::int64_t>, 3> delta{};  ///< time from face to face, 0: none is crossed
-  alignas(64) PerRay<std::int64_t> at{};      ///< lateral cells from the origin's: first + 32 * second axis
-  alignas(64) PerRay<std::int64_t> step_u{};  ///< what a face across the first lateral axis adds to it, +-1
-  alignas(64) PerRay<std::int64_t> step_v{};  ///< what one across the second adds, +-32
-  std::size_t major = 0;                      ///< axis across which slices lie
-  std::size_t u = 1;                          ///< first lateral axis
-  std::size_t v = 2;                          ///< second lateral axis, > u
-
-  /// Chooses the axis of slices.
-  void set_major(std::size_t axis) {
-    major = axis;
-    u = axis == 0 ? 1 : 0;
-    v = axis == 2 ? 1 : 2;
-  }
+  alignas(64) RayBlock::PerRay<std::int32_t> u{};       ///< where rays enter the first slice, first lateral axis
+  alignas(64) RayBlock::PerRay<std::int32_t> v{};       ///< and second
+  alignas(64) RayBlock::PerRay<std::int32_t> step_u{};  ///< how far they go on their way through a slice,
+  alignas(64) RayBlock::PerRay<std::int32_t> step_v{};  ///< at most a cell
 };
 
 /// What became of rays in a few slices.
 struct SliceHits {
-  std::uint64_t stopped = 0;                            ///< a bit for each ray that met a cell that stops it
-  std::uint64_t ended = 0;                              ///< a bit for each ray that came to its end before
-  alignas(64) RayBlock::PerRay<std::int64_t> slice{};   ///< of a stopped ray: number of the slice
-  alignas(64) RayBlock::PerRay<std::int64_t> within{};  ///< and the position in its window
+  std::uint64_t stopped = 0;   ///< a bit for each ray that met a cell that stops it
+  std::uint64_t doubtful = 0;  ///< a bit for each of which that is not certain
+  /// Of a stopped ray: column in the window of the cell that stops it + 32 * row + 512 * number of the slice.
+  alignas(64) RayBlock::PerRay<std::int32_t> where{};
 };
 
-/// The rays with this value, a bit for each.
-[[nodiscard]] std::uint64_t equal_to(const RayBlock::PerRay<std::int64_t>& values, std::int64_t value,
-                                     InstructionSet set);
-
-/// The least and the largest of the values of the `active` rays.
-[[nodiscard]] std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active,
-                                                 InstructionSet set);
-
-/// Walks the `active` rays, all at the beginning of the first slice, through the slices. While they are in a slice
-/// they must be in its window. Where rays are that are not active is undefined afterwards.
-void walk_slices(SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
+/// Walks the `active` rays through the slices, wherever they end. While they are in a slice they must be in its
+/// window.
+void walk_slices(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
                  InstructionSet set);
-
-/// Moves the `active` rays from the beginning of a slice to that of the `slices`-th after it, all at once, whatever
-/// is in the cells between. Returns the rays that came to their end before.
-[[nodiscard]] std::uint64_t skip_slices(SliceLanes& lanes, std::int64_t slices, std::uint64_t active,
-                                        InstructionSet set);
 
 }  // namespace vantage

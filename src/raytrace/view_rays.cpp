@@ -15,7 +15,7 @@ constexpr std::size_t kSide = 8;
 // Column and row in a tile of the place `place`: its even and its odd bits.
 std::size_t column_of(std::size_t place) { return (place & 1U) | (place >> 1U & 2U) | (place >> 2U & 4U); }
 
-void enclose(RayTile& tile) {
+RayCone cone_around(const RayTile& tile) {
   const auto direction = [&](std::size_t place) {
     return Eigen::Vector3d(tile.directions[3 * place], tile.directions[3 * place + 1], tile.directions[3 * place + 2])
         .normalized();
@@ -26,14 +26,16 @@ void enclose(RayTile& tile) {
   }
   // Directions all around have no mean: their cone is all of space, whatever its axis.
   constexpr double kLeastMean = 1e-6;
-  tile.axis = sum.norm() < kLeastMean ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(sum.normalized());
+  RayCone cone;
+  cone.axis = sum.norm() < kLeastMean ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(sum.normalized());
   double least = 1.0;
   for (std::size_t place = 0; place < RayTile::kRays; ++place) {
-    least = std::min(least, tile.axis.dot(direction(place)));
+    least = std::min(least, cone.axis.dot(direction(place)));
   }
   constexpr double kRounding = 1e-7;  // of directions in single precision
-  tile.cos_half_angle = std::max(least - kRounding, -1.0);
-  tile.sin_half_angle = std::sqrt(1.0 - tile.cos_half_angle * tile.cos_half_angle);
+  cone.cos_half_angle = std::max(least - kRounding, -1.0);
+  cone.sin_half_angle = std::sqrt(1.0 - cone.cos_half_angle * cone.cos_half_angle);
+  return cone;
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ ViewRays::ViewRays(const std::vector<Eigen::Vector3f>& directions, std::size_t w
         tile.rays |= std::uint64_t{holds} << place;
         std::copy_n(directions[ray].data(), 3, &tile.directions[3 * place]);
       }
-      enclose(tile);
+      cones_.push_back(cone_around(tile));
     }
   }
 }

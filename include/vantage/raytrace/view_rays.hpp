@@ -17,11 +17,15 @@ struct RayTile {
   /// Directions in the sensor frame, x y z of one ray after the other; neighbours are close in the list too (the bits
   /// of column and row alternate). A place without a ray repeats the first.
   std::array<float, 3 * kRays> directions{};
-  std::array<std::uint32_t, kRays> ray{};           ///< number of each ray in the image, row by row
-  std::uint64_t rays = 0;                           ///< a bit for each place that holds a ray
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< all directions lie in a cone around this one,
-  double cos_half_angle = 1.0;                      ///< whose half angle has this cosine
-  double sin_half_angle = 0.0;                      ///< and this sine
+  std::array<std::uint32_t, kRays> ray{};  ///< number of each ray in the image, row by row
+  std::uint64_t rays = 0;                  ///< a bit for each place that holds a ray
+};
+
+/// A cone around directions in the sensor frame.
+struct RayCone {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< a unit vector
+  double cos_half_angle = 1.0;                      ///< cosine of the angle between it and the directions, at most
+  double sin_half_angle = 0.0;                      ///< sine of that angle
 };
 
 /// The rays of a view in the sensor frame: an image of directions that all reach equally far, arranged for being
@@ -43,12 +47,15 @@ class ViewRays {
   [[nodiscard]] double min_range_m() const { return min_range_m_; }
   /// All rays, in tiles.
   [[nodiscard]] const std::vector<RayTile>& tiles() const { return tiles_; }
+  /// A cone around the rays of each tile.
+  [[nodiscard]] const std::vector<RayCone>& cones() const { return cones_; }
 
  private:
   std::size_t size_ = 0;
   double max_range_m_ = 0.0;
   double min_range_m_ = 0.0;
   std::vector<RayTile> tiles_;
+  std::vector<RayCone> cones_;  // apart: a view looks at all of them, but at few of the tiles
 };
 
 }  // namespace vantage

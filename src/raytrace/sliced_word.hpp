@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vantage {
+
+/// Swaps two bits of the number of every bit of a word: a transposition.
+template <unsigned kLow, unsigned kHigh>
+inline std::uint64_t swap_index_bits(std::uint64_t word) {
+  constexpr std::uint64_t kMoving = [] {
+    std::uint64_t moving = 0;
+    for (unsigned bit = 0; bit < 64; ++bit) {
+      moving |= (bit >> kLow & 1U) == 1 && (bit >> kHigh & 1U) == 0 ? std::uint64_t{1} << bit : 0;
+    }
+    return moving;
+  }();
+  constexpr unsigned kShift = (1U << kHigh) - (1U << kLow);
+  const std::uint64_t differing = (word ^ word >> kShift) & kMoving;
+  return word ^ differing ^ differing << kShift;
+}
+
+/// The cells of a word (of 4 x 4 x 4 cells, x running fastest) with those of one slice side by side: u runs fastest,
+/// then v, then the major axis.
+[[nodiscard]] inline std::uint64_t in_slices(std::uint64_t word, std::size_t major) {
+  if (major == 0) {
+    word = swap_index_bits<0, 2>(swap_index_bits<1, 3>(word));
+  }
+  return major == 2 ? word : swap_index_bits<2, 4>(swap_index_bits<3, 5>(word));
+}
+
+}  // namespace vantage
