@@ -41,17 +41,17 @@ Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t 
 constexpr std::size_t kRows = 24;
 using Rows = std::array<std::uint32_t, kRows * kRows>;
 
-// Leaves the bits all of whose 26 neighbours are set; bits at the rim lose their meaning.
-inline void erode(Rows& rows) {
+// Leaves the bits all of whose 26 neighbours are set, in the planes [from, to); bits at the rim lose their meaning.
+inline void erode(Rows& rows, std::size_t from, std::size_t to) {
   Rows along_x;
   Rows along_y{};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = (from - 1) * kRows; i < (to + 1) * kRows; ++i) {
     along_x[i] = rows[i] & rows[i] << 1U & rows[i] >> 1U;
   }
-  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+  for (std::size_t i = (from - 1) * kRows + 1; i + 1 < (to + 1) * kRows; ++i) {
     along_y[i] = along_x[i - 1] & along_x[i] & along_x[i + 1];
   }
-  for (std::size_t i = kRows; i + kRows < rows.size(); ++i) {
+  for (std::size_t i = from * kRows; i < to * kRows; ++i) {
     rows[i] = along_y[i - kRows] & along_y[i] & along_y[i + kRows];
   }
 }
@@ -118,14 +118,11 @@ BlockingGrid::Page& BlockingGrid::writable_page(const VoxelIndex& page) {
   return *place;
 }
 
-void BlockingGrid::write(const VoxelIndex& word, std::uint64_t cells, std::uint64_t blocking,
-                         std::uint64_t occupied) {
-  Page& page = writable_page(page_address(word));
-  const std::size_t offset = offset_in_page(word);
+void BlockingGrid::write(Page& page, std::size_t offset, std::uint64_t blocking, std::uint64_t occupied) {
   const bool was_free = page.blocking[offset] == 0;
-  page.blocking[offset] = (page.blocking[offset] & ~cells) | (blocking & cells);
-  page.occupied[offset] = (page.occupied[offset] & ~cells) | (occupied & cells);
-  if ((page.blocking[offset] == 0) != was_free) {
+  page.blocking[offset] = blocking;
+  page.occupied[offset] = occupied;
+  if ((blocking == 0) != was_free) {
     page.free_words[offset >> 3U] ^= static_cast<std::uint8_t>(1U << (offset & 7U));
     if (!page.stale) {
       page.stale = true;
@@ -134,18 +131,27 @@ void BlockingGrid::write(const VoxelIndex& word, std::uint64_t cells, std::uint6
   }
 }
 
+// The words of a brick lie in one page.
 void BlockingGrid::take_brick(const VoxelIndex& address, const Brick& brick) {
   const VoxelIndex first = words_of_brick(address).lo;
+  Page& page = writable_page(page_address(first));
+  const std::size_t offset = offset_in_page(first);
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const auto w = static_cast<std::int32_t>(word);
-    write(first + VoxelIndex{w & 1, w >> 1 & 1, w >> 2}, ~std::uint64_t{0}, ~brick.free(word), brick.occupied[word]);
+    const std::size_t at = offset + (word & 1U) + (word >> 1U & 1U) * 8 + (word >> 2U) * 64;
+    const std::uint64_t blocking = ~brick.free(word);
+    if (page.blocking[at] != blocking || page.occupied[at] != brick.occupied[word]) {
+      write(page, at, blocking, brick.occupied[word]);
+    }
   }
 }
 
 void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick) {
   const auto take = [&](const VoxelIndex& coarse, Occupancy state) {
     const std::uint64_t bit = bit_of(coarse);
-    write(word_of(coarse), bit, state == Occupancy::Free ? 0 : bit, state == Occupancy::Occupied ? bit : 0);
+    Page& page = writable_page(page_address(word_of(coarse)));
+    const std::size_t at = offset_in_page(word_of(coarse));
+    write(page, at, (page.blocking[at] & ~bit) | (state == Occupancy::Free ? 0 : bit),
+          (page.occupied[at] & ~bit) | (state == Occupancy::Occupied ? bit : 0));
   };
   const VoxelIndex cell = Brick::first_cell(address);
   const VoxelIndex first{cell.x >> level_, cell.y >> level_, cell.z >> level_};
@@ -204,7 +210,7 @@ void BlockingGrid::find_distances(Page& page) {
         }
       }
       if (k < kFurthest) {
-        erode(rows);
+        erode(rows, 1U + k, kRows - 1U - k);  // what lies further out does not reach the page any more
       }
     }
   });

@@ -96,7 +96,7 @@ class BlockingGrid {
 
   void reach(const VoxelBox& pages);
   Page& writable_page(const VoxelIndex& page);
-  void write(const VoxelIndex& word, std::uint64_t cells, std::uint64_t blocking, std::uint64_t occupied);
+  void write(Page& page, std::size_t offset, std::uint64_t blocking, std::uint64_t occupied);
   void take_brick(const VoxelIndex& address, const Brick& brick);
   void take_coarse(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick);
   [[nodiscard]] VoxelBox words_of_brick(const VoxelIndex& address) const;

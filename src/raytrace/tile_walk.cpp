@@ -22,8 +22,8 @@ std::int32_t round_down(double value) {
 
 // Lateral places of rays differ from those of a walk by less than this, in cells: far more than its clock and sums of
 // doubles can.
-constexpr double kRounding = 1e-6;
-static_assert(kRounding * SliceLanes::kCell + 10 < SliceLanes::kDoubt);
+constexpr double kRoundingCells = 1e-6;
+static_assert(kRoundingCells * SliceLanes::kCell + 10 < SliceLanes::kDoubt);
 
 struct Limits {
   double least;
@@ -143,7 +143,7 @@ void TileWalk::walk_class(std::uint64_t rays, TileHits& hits) {
   });
   const auto [least, most] = range_of(extent_[major_], rays, set_);
   nearest_end_ = up_ ? least : -most;
-  if (!(nearest_end_ > kRounding)) {
+  if (!(nearest_end_ > kRoundingCells)) {
     singly_ |= rays;
     return;
   }
@@ -191,9 +191,9 @@ bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, TileHits& hits) 
   const double leaves = entered_at(slice + static_cast<std::int64_t>(windows_.count));
   const std::uint64_t before = active;
   std::uint64_t ending = 0;
-  if (nearest_end_ <= leaves + kRounding) {
-    active &= ~ending_by(enters - kRounding);
-    ending = active & ending_by(leaves + kRounding);
+  if (nearest_end_ <= leaves + kRoundingCells) {
+    active &= ~ending_by(enters - kRoundingCells);
+    ending = active & ending_by(leaves + kRoundingCells);
   }
   place_lanes(enters, slice == 0 ? leaves : 1.0);
   SliceHits of_slices;
@@ -214,9 +214,9 @@ void TileWalk::end_rays(std::uint64_t ending, std::int64_t slice, SliceHits& of_
     const std::uint64_t ray = std::uint64_t{1} << i;
     const double end = std::abs(extent_[major_][i]) + from_entry_ - static_cast<double>(slice);
     const std::int32_t met = of_slices.where[i] >> 9;
-    if (static_cast<double>(met + 1) > end - kRounding) {
+    if (static_cast<double>(met + 1) > end - kRoundingCells) {
       of_slices.stopped &= ~ray;
-      of_slices.doubtful |= static_cast<double>(met) < end + kRounding ? ray : 0;
+      of_slices.doubtful |= static_cast<double>(met) < end + kRoundingCells ? ray : 0;
     }
   }
 }
@@ -242,7 +242,7 @@ std::int64_t TileWalk::last_slice() const {
   const std::array<std::int32_t, 3> lo{within_.lo.x, within_.lo.y, within_.lo.z};
   const std::array<std::int32_t, 3> hi{within_.hi.x, within_.hi.y, within_.hi.z};
   const std::int64_t of_box = up_ ? std::int64_t{hi[major_]} - 1 - first : std::int64_t{first} - lo[major_];
-  return std::min(of_box, static_cast<std::int64_t>(furthest_end_ + from_entry_ + kRounding));
+  return std::min(of_box, static_cast<std::int64_t>(furthest_end_ + from_entry_ + kRoundingCells));
 }
 
 // The rays that end within this many cells along the major axis.
@@ -304,8 +304,8 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
     const double least = spread.least[lateral];
     const double most = spread.most[lateral];
     const double from = within_first_[axes[lateral]];
-    const double lo = from + least * (least < 0.0 ? leaves : enters) - kRounding;
-    const double hi = from + most * (most > 0.0 ? leaves : enters) + kRounding;
+    const double lo = from + least * (least < 0.0 ? leaves : enters) - kRoundingCells;
+    const double hi = from + most * (most > 0.0 ? leaves : enters) + kRoundingCells;
     window.lo[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(lo, -kFurthest, kFurthest));
     window.hi[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(hi, -kFurthest, kFurthest));
   }
