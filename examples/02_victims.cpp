@@ -2,7 +2,9 @@
 // Which planner finds most victims per metre? They lie in boxes behind walls with holes, in an arena of the RoboCup
 // Rescue league: a mesh file, and beside it NAME.victims.csv with a line "name,x,y,z,yaw" for each of them.
 //
-//     victims ARENA.ply [MOST_VIEWS [STARTS [PLANNER[,KEY=VALUE]...]...]]
+//     victims ARENA.ply [MOST_VIEWS [SEED[,SEED]... [PLANNER[,KEY=VALUE]...]...]]
+//
+// A seed stands for a start, the same for every planner.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -182,13 +184,24 @@ Score search(const Setup& setup, const std::string& name, std::uint64_t seed) {
   return score;
 }
 
-template <class Value>
-Value median(std::vector<Value> values) {
+double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-void compare(const Setup& setup, const std::vector<std::string>& planners, std::uint64_t starts) {
+std::vector<std::uint64_t> seeds_of(const std::string& text) {
+  std::vector<std::uint64_t> seeds;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    seeds.push_back(std::stoull(part));
+  }
+  if (seeds.empty()) {
+    throw std::invalid_argument("there is no seed to start from");
+  }
+  return seeds;
+}
+
+void compare(const Setup& setup, const std::vector<std::string>& planners, const std::vector<std::uint64_t>& seeds) {
   std::printf("%zu victims; found after each quarter of at most %zu views\n\n", setup.victims.size(),
               setup.most_views);
   std::printf("| planner | start | 1/4 | 1/2 | 3/4 | all views | per 10 m | collisions | views | within reach |\n");
@@ -196,12 +209,12 @@ void compare(const Setup& setup, const std::vector<std::string>& planners, std::
   std::vector<std::string> medians;
   for (const std::string& planner : planners) {
     std::vector<double> per_10_m;
-    for (std::uint64_t seed = 1; seed <= starts; ++seed) {
+    for (const std::uint64_t seed : seeds) {
       per_10_m.push_back(search(setup, planner, seed).per_10_m());
     }
     std::ostringstream text;
     text.precision(3);
-    text << planner << ": " << median(per_10_m) << " victims per 10 m in the median of " << starts << " starts\n";
+    text << planner << ": " << median(per_10_m) << " victims per 10 m, the median of the starts\n";
     medians.push_back(text.str());
   }
   std::printf("\n");
@@ -215,7 +228,7 @@ void compare(const Setup& setup, const std::vector<std::string>& planners, std::
 int main(int argc, char** argv) {
   try {
     if (argc < 2) {
-      throw std::invalid_argument("victims ARENA.ply [MOST_VIEWS [STARTS [PLANNER[,KEY=VALUE]...]...]]");
+      throw std::invalid_argument("victims ARENA.ply [MOST_VIEWS [SEED[,SEED]... [PLANNER[,KEY=VALUE]...]...]]");
     }
     const std::filesystem::path mesh = argv[1];
     const Setup setup{.world = arena_of(mesh),
@@ -223,9 +236,10 @@ int main(int argc, char** argv) {
                       .most_views = argc > 2 ? std::stoul(argv[2]) : 120};
     std::vector<std::string> planners(argv + std::min(argc, 4), argv + argc);
     if (planners.empty()) {
-      planners = {"frontier-void", "frontier-gain", "nearest-frontier", "harmonic"};
+      planners = {"frontier-void,cost_per_m=100,along_way=true,near_views=20", "frontier-gain", "nearest-frontier",
+                  "harmonic"};
     }
-    compare(setup, planners, argc > 3 ? std::stoul(argv[3]) : 3);
+    compare(setup, planners, seeds_of(argc > 3 ? argv[3] : "1,2,3"));
     return 0;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
