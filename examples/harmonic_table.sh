@@ -3,7 +3,8 @@
 # The table of Shade & Newman 2011 again: explores `rooms` at 0.2 m from SEEDS (default: 1 to 20) drawn starts and prints
 # one row per planner and setting, medians with quartiles. harmonic_table.sh [PART...], where PART is among paper
 # baselines ablation kinect stereo (default: paper baselines ablation). Needs a built program (VANTAGE=path names
-# another). Reports that lie in the folder RESULTS (default: build/harmonic-table) already are not made again.
+# another). MAX_VIEWS is the budget of a run, SHARES="0.95 0.99" the coverage at which its path is given, JOBS how many
+# runs go on at a time. Reports that lie in the folder RESULTS (default: build/harmonic-table) already are not made again.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 vantage=${VANTAGE:-$here/build/release/bin/vantage}
@@ -11,6 +12,7 @@ results=${RESULTS:-$here/build/harmonic-table}
 seeds=${SEEDS:-$(seq 1 20)}
 jobs=${JOBS:-2}
 max_views=${MAX_VIEWS:-1000}
+read -r share_1 share_2 <<< "${SHARES:-0.95 0.99}"
 mkdir -p "$results"
 
 # field REPORT KEY: the value of a key that stands once in a report.
@@ -64,16 +66,17 @@ row() {
     "$vantage" --max-views "$max_views" --json "$results/$name-{}.json" "$@" < "$results/$name.todo"
   rm "$results/$name.todo"
   local explored
-  explored=$(grep -l '"outcome": "explored",$' "${reports[@]}" | wc -l)
+  explored=$({ grep -l '"outcome": "explored",$' "${reports[@]}" || true; } | wc -l)
   printf '| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s of %s |\n' "$title" \
-    "$(column 1 value_of path_length_m)" "$(column 0 value_of views)" "$(column 1 path_at_share 0.95)" \
-    "$(column 1 path_at_share 0.99)" "$(column 4 value_of coverage)" "$(column 2 millions_of integration)" \
+    "$(column 1 value_of path_length_m)" "$(column 0 value_of views)" "$(column 1 path_at_share "$share_1")" \
+    "$(column 1 path_at_share "$share_2")" "$(column 4 value_of coverage)" "$(column 2 millions_of integration)" \
     "$(column 1 millions_of planning)" "$(column 0 plan_median)" "$explored" "${#reports[@]}"
 }
 plan_median() { sed -n '/"plan": {/,/}/s/.*"median": \([^,]*\).*/\1/p' "$1" | head -1; }
 
 head_of_table() {
-  printf '\n| %s | path, m | scans | path at 95 %%, m | path at 99 %%, m | coverage | integration, 1e6 cells | planning, 1e6 cells | plan, ms | explored |\n' "$1"
+  printf '\n| %s | path, m | scans | path at %s, m | path at %s, m | coverage | integration, 1e6 cells | planning, 1e6 cells | plan, ms | explored |\n' \
+    "$1" "$share_1" "$share_2"
   echo '|---|---|---|---|---|---|---|---|---|---|'
 }
 
@@ -81,9 +84,9 @@ head_of_table() {
 sensor_rows() {
   head_of_table "$1"
   row 'harmonic' "$1-harmonic" --planner harmonic --sensor "$1"
-  row 'harmonic, faithful' "$1-faithful" --planner harmonic --set faithful=true --sensor "$1"
-  row 'frontier-gain, 100' "$1-gain-100" --planner frontier-gain --sensor "$1"
+  row 'frontier-gain, 200 hypotheses' "$1-gain-200" --planner frontier-gain --set hypotheses=200 --sensor "$1"
   row 'nearest-frontier' "$1-nearest" --planner nearest-frontier --sensor "$1"
+  row 'harmonic, looks once from a place' "$1-once" --planner harmonic --set look_again_dm3=inf --sensor "$1"
 }
 
 for part in "${@:-paper baselines ablation}"; do

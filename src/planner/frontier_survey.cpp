@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,24 +13,11 @@
 
 #include "geometry/block_counts.hpp"
 #include "geometry/cell_rows.hpp"
+#include "geometry/spread_directions.hpp"
 #include "planner/sight_tree.hpp"
 
 namespace vantage {
 namespace {
-
-// Evenly spread unit vectors (a Fibonacci lattice on the sphere).
-std::vector<Eigen::Vector3d> spread_directions(std::size_t count) {
-  std::vector<Eigen::Vector3d> directions;
-  directions.reserve(count);
-  constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896964);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
-    const double angle = kGoldenAngle * static_cast<double>(i);
-    const double radius = std::sqrt(1.0 - z * z);
-    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-  }
-  return directions;
-}
 
 // The cells that sight passes: a survey asks for them millions of times.
 detail::CellRows clear_cells(const OccupancyMap& map) {
@@ -68,7 +54,7 @@ class ViewpointSearch {
         clear_(clear_cells(map)),
         places_(clear_.box(), reachable.cells()),
         furthest_m_(furthest_m(map, clear_.box(), sensor)),
-        tree_(frame_, spread_directions(direction_count), furthest_m_) {}
+        tree_(frame_, detail::spread_directions(direction_count), furthest_m_) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {

@@ -10,11 +10,11 @@
 #include <vantage/field/streamline.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
-#include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 #include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
+#include "planner/look_directions.hpp"
 
 namespace vantage {
 namespace {
@@ -95,6 +95,8 @@ HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOption
                          ">= 0");
   detail::require_option(options.strategy.look_spacing_m >= 0.0, "HarmonicStrategy::look_spacing_m",
                          options.strategy.look_spacing_m, ">= 0");
+  detail::require_option(options.strategy.look_again_dm3 >= 0.0, "HarmonicStrategy::look_again_dm3",
+                         options.strategy.look_again_dm3, ">= 0");
   failed_ = FailedViews(options.survey.patience);
 }
 
@@ -107,6 +109,9 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   const FrontierSurvey& survey = cycle.survey();
   const HarmonicStrategy& strategy = options_.strategy;
   PlanStatistics& statistics = cycle.plan().statistics;
+  if (std::optional<TargetView> look = look_again(map, current, survey, statistics.ray_operations)) {
+    return cycle.go(std::move(*look), std::vector<VoxelIndex>{*survey.reachable.start()});
+  }
   detail::Stopwatch watch;
   std::vector<VoxelIndex> way{*survey.reachable.start()};
   std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
@@ -119,8 +124,7 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
     wanted = strategy.look_early ? first_look(map, survey, way, statistics.ray_operations)
                                  : target_seen_from(survey, way.back());
   }
-  const TargetView chosen =
-      view_of_target(map, *setup_.platform, setup_.sensor, survey, *wanted, statistics.ray_operations);
+  const TargetView chosen = look_at(map, survey, *wanted, statistics.ray_operations);
   const double choose_ms = watch.lap_ms();
   std::optional<std::vector<Pose>> path;
   if (field_ && field_->followed && !strategy.shortest_way) {
@@ -133,6 +137,38 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   plan.statistics.choose_ms = choose_ms;
   plan.statistics.path_ms = watch.lap_ms();
   return plan;
+}
+
+bool HarmonicPlanner::chooses_directions(const OccupancyMap& map) const {
+  return !std::isinf(options_.strategy.look_again_dm3) && detail::LookDirections::choosable(map, setup_.sensor);
+}
+
+// A view from where the sensor is, if one is worth taking before it moves on.
+std::optional<TargetView> HarmonicPlanner::look_again(const OccupancyMap& map, const Pose& current,
+                                                      const FrontierSurvey& survey, std::uint64_t& operations) const {
+  const Eigen::Vector3d position = current.translation();
+  if (!chooses_directions(map) || map.frame().cell_of(position) != *survey.reachable.start()) {
+    return std::nullopt;
+  }
+  std::optional<detail::Look> look =
+      detail::LookDirections(map, setup_, survey, failed_, position, operations).best();
+  const double cell_dm3 = 1e3 * std::pow(map.resolution_m(), 3);
+  return look && look->cells * cell_dm3 >= options_.strategy.look_again_dm3
+             ? std::optional<TargetView>(std::move(look->seen))
+             : std::nullopt;
+}
+
+// The view at the end of the way.
+TargetView HarmonicPlanner::look_at(const OccupancyMap& map, const FrontierSurvey& survey,
+                                    const FrontierTarget& wanted, std::uint64_t& operations) const {
+  if (chooses_directions(map)) {
+    const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
+    if (std::optional<detail::Look> look =
+            detail::LookDirections(map, setup_, survey, failed_, position, operations).best(wanted.unknown)) {
+      return std::move(look->seen);
+    }
+  }
+  return view_of_target(map, *setup_.platform, setup_.sensor, survey, wanted, operations);
 }
 
 // Whether `target` can be looked at from the centre of a cell: the same rule as FrontierSurvey's, and near enough to

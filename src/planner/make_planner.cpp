@@ -213,6 +213,7 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
       .number("detour_m", options.strategy.detour_m)
       .flag("look_early", options.strategy.look_early)
       .number("look_spacing_m", options.strategy.look_spacing_m)
+      .number("look_again_dm3", options.strategy.look_again_dm3)
       .flag("shortest_way", options.strategy.shortest_way)
       .flag("spare_scans", options.strategy.spare_scans)
       .done();

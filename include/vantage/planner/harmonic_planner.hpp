@@ -13,6 +13,7 @@
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/target_view.hpp>
 #include <vector>
 
 namespace vantage {
@@ -34,6 +35,10 @@ struct HarmonicStrategy {
   /// With look_early: once it has gone so far, metres, >= 0, any other boundary that comes into sight is looked at,
   /// too.
   double look_spacing_m = 0.5;
+  /// Of a sensor that does not see all around: before it moves on it looks from where it is, in the direction that is
+  /// expected to teach most, as long as that is at least so much unknown space, dm^3, >= 0; and at its goal it takes
+  /// such a direction, too. Infinity: it looks once, at most of the boundary. Not in a plane.
+  double look_again_dm3 = 100.0;
   /// Takes the shortest way to the place it looks from, not the streamline.
   bool shortest_way = true;
   /// With look_early: spares the scans on the way, where nothing that is sought is in sight yet. The path gets
@@ -43,7 +48,10 @@ struct HarmonicStrategy {
 
   /// The paper's plain method.
   [[nodiscard]] static HarmonicStrategy faithful() {
-    return {.detour_m = std::numeric_limits<double>::infinity(), .look_early = false, .shortest_way = false};
+    return {.detour_m = std::numeric_limits<double>::infinity(),
+            .look_early = false,
+            .look_again_dm3 = std::numeric_limits<double>::infinity(),
+            .shortest_way = false};
   }
 };
 
@@ -103,6 +111,11 @@ class HarmonicPlanner final : public ExplorationPlanner {
                               std::uint64_t& operations) const;
   [[nodiscard]] FrontierTarget first_look(const OccupancyMap& map, const FrontierSurvey& survey,
                                           const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
+  [[nodiscard]] std::optional<TargetView> look_again(const OccupancyMap& map, const Pose& current,
+                                                     const FrontierSurvey& survey, std::uint64_t& operations) const;
+  [[nodiscard]] TargetView look_at(const OccupancyMap& map, const FrontierSurvey& survey,
+                                   const FrontierTarget& wanted, std::uint64_t& operations) const;
+  [[nodiscard]] bool chooses_directions(const OccupancyMap& map) const;
 
   PlannerSetup setup_;
   HarmonicOptions options_;

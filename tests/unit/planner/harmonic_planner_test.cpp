@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -239,6 +240,49 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   Pose bent = Pose::Identity();
   bent.linear() *= 2.0;
   EXPECT_THROW((void)planner.plan(box_with_opening(), bent), std::invalid_argument);
+}
+
+struct Travelled {
+  Outcome outcome = Outcome::Move;
+  double path_m = 0.0;
+  std::size_t looks = 0;  // from where it was
+  std::size_t plans = 0;
+  std::size_t free_cells = 0;
+};
+
+// A camera in the middle of a closed, empty room, followed to the end of its run.
+Travelled explore_room(const HarmonicStrategy& strategy) {
+  constexpr VoxelBox kRoom{{0, 0, 0}, {20, 20, 12}};
+  GridWorld world{VoxelFrame{0.2}, VoxelGrid<std::uint8_t>(kRoom)};
+  const PlannerSetup setup = setup_with(RangeSensor::pinhole(64, 48, 1.0, 0.75, 0.4, 4.0));
+  OccupancyMap map({.resolution_m = 0.2, .region = Box{{-0.2, -0.2, -0.2}, {4.2, 4.2, 2.6}}});
+  Pose pose = pose_looking({2.1, 2.1, 1.3}, 0.0);
+  map.assume_free(Box{{1.75, 1.75, 0.95}, {2.45, 2.45, 1.65}});
+  HarmonicPlanner planner(setup, {.strategy = strategy});
+  Travelled run;
+  for (int view = 0; view < 400 && run.outcome == Outcome::Move; ++view) {
+    map.insert(world.scan(setup.sensor, pose));
+    const Plan plan = planner.plan(map, pose);
+    run.outcome = plan.outcome;
+    if (plan.outcome == Outcome::Move) {
+      expect_admitted(map, *setup.platform, pose, plan);
+      run.path_m += length_m(plan);
+      run.looks += length_m(plan) < 1e-9 ? 1U : 0U;
+      ++run.plans;
+      pose = plan.goal.pose;
+    }
+  }
+  run.free_cells = map.counts().free;
+  return run;
+}
+
+TEST(HarmonicPlanner, ANarrowSensorLooksAllAroundBeforeItMovesOn) {
+  const Travelled turning = explore_room({});
+  const Travelled moving = explore_room({.look_again_dm3 = std::numeric_limits<double>::infinity()});
+  EXPECT_EQ(turning.outcome, Outcome::Explored);
+  EXPECT_GT(2 * turning.looks, turning.plans);
+  EXPECT_LT(turning.path_m, 0.6 * moving.path_m);
+  EXPECT_GE(turning.free_cells, 4700U) << "of 4800";
 }
 
 }  // namespace

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "planner/look_directions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "geometry/spread_directions.hpp"
+#include "raytrace/shared_work.hpp"
+
+namespace vantage::detail {
+namespace {
+
+// Neighbours are about 20 degrees apart, less than half of a camera's view.
+constexpr std::size_t kDirections = 128;
+// How far sight goes on the average in space of which nothing is known but that a surface ends it.
+constexpr double kSightM = 4.0;
+// Beside a surface the next cell most likely belongs to it.
+constexpr double kOpaqueBesideSurface = 0.5;
+
+// The unknown cells no further from here than the sensor sees.
+std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eigen::Vector3d& position,
+                                             double range_m) {
+  const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
+  const VoxelBox near{map.frame().cell_of(position - range), map.frame().cell_of(position + range)};
+  const VoxelBox known = map.bounds();
+  VoxelBox box{{std::max(near.lo.x, known.lo.x), std::max(near.lo.y, known.lo.y), std::max(near.lo.z, known.lo.z)},
+               {std::min(near.hi.x + 1, known.hi.x), std::min(near.hi.y + 1, known.hi.y),
+                std::min(near.hi.z + 1, known.hi.z)}};
+  std::vector<VoxelIndex> cells;
+  for_each_cell(box, [&](const VoxelIndex& cell) {
+    if (map.at(cell) == Occupancy::Unknown && map.in_region(cell)) {
+      cells.push_back(cell);
+    }
+  });
+  return cells;
+}
+
+}  // namespace
+
+LookDirections::LookDirections(const OccupancyMap& map, const PlannerSetup& setup, const FrontierSurvey& survey,
+                               const FailedViews& failed, const Eigen::Vector3d& position, std::uint64_t& operations)
+    : setup_(setup),
+      failed_(failed),
+      position_(position),
+      place_(map.frame().cell_of(position)),
+      frame_(map.frame()),
+      caster_(map),
+      rays_(setup.sensor.rays_for(map.resolution_m())) {
+  const RangeSensor& sensor = setup.sensor;
+  const double furthest_m = std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
+  for (const FrontierTarget& target : survey.targets) {
+    const Eigen::Vector3d line = frame_.centre_of(target.unknown) - position;
+    const double range_m = line.norm();
+    if (range_m >= sensor.min_range_m && range_m <= furthest_m && !failed.failed_from(target.unknown, place_) &&
+        in_plain_sight(map, position, target.unknown, operations)) {
+      sightings_.push_back({target.unknown, line});
+    }
+  }
+  if (!sightings_.empty()) {
+    sight_.emplace(map, unknown_cells_around(map, position, sensor.max_range_m),
+                   UnknownSightOptions{.opaque_share = 1.0 - std::exp(-map.resolution_m() / kSightM),
+                                       .opaque_beside_surface = kOpaqueBesideSurface,
+                                       .reports_no_return = sensor.reports_no_return});
+  }
+}
+
+bool LookDirections::choosable(const OccupancyMap& map, const RangeSensor& sensor) {
+  constexpr double kAllAround = 2.0 * std::numbers::pi - 1e-3;
+  const bool sees_all =
+      sensor.horizontal_angle_rad() >= kAllAround && sensor.vertical_angle_rad() >= 0.5 * kAllAround;
+  return !sees_all && map.bounds().hi.z - map.bounds().lo.z > 1;
+}
+
+std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {
+  std::vector<Look> looks;
+  for (const Eigen::Vector3d& direction : spread_directions(kDirections)) {
+    const Pose pose = setup_.platform->facing(position_, direction);
+    TargetView seen = targets_in_view(pose);
+    const bool serves = wanted ? std::find(seen.unknown.begin(), seen.unknown.end(), *wanted) != seen.unknown.end()
+                               : !seen.unknown.empty();
+    if (serves) {
+      looks.push_back({std::move(seen)});
+    }
+  }
+  share_work(looks.size(), static_cast<std::size_t>(setup_.threads),
+             [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
+  const auto best =
+      std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.cells < b.cells; });
+  return best == looks.end() ? std::nullopt : std::optional<Look>(std::move(*best));
+}
+
+TargetView LookDirections::targets_in_view(const Pose& pose) const {
+  TargetView seen{.view = {.pose = pose}};
+  for (const Sighting& sighting : sightings_) {
+    if (setup_.sensor.in_view(pose.linear().transpose() * sighting.line)) {
+      seen.unknown.push_back(sighting.unknown);
+    }
+  }
+  seen.view.utility = static_cast<double>(seen.unknown.size());
+  return seen;
+}
+
+double LookDirections::expected_cells(const Pose& pose) const {
+  double cells = 0.0;
+  for (const SightedCell& seen : sight_->look(caster_, pose, rays_)) {
+    if (!failed_.failed_from(seen.cell, place_) && !failed_.gave_up(seen.cell)) {
+      cells += seen.chance;
+    }
+  }
+  return cells;
+}
+
+}  // namespace vantage::detail
