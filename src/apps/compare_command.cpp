@@ -225,7 +225,7 @@ void add_compare_command(CLI::App& app) {
       ->required()
       ->type_name("DIR");
   command->add_flag("--by-folder", request->by_folder,
-                    "Call every run by its folder: where runs differ by settings, not by planner, world and seed");
+                    "Call runs by their folders: where settings differ, not planner, world and seed");
   command->footer(
       "Examples:\n"
       "  vantage compare harmonic/report.json gain/report.json --out both\n"

@@ -281,8 +281,7 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
       ->check(a_whole_number());
   option("--radius", request.radii, "M[,M...]",
          "Their distance from the middle of the box, metres; of several, as many views at each");
-  option("--aimed", request.aimed, "N",
-         "So many more, drawn anew after every scan: aimed at cells still unknown, from where these are in sight")
+  option("--aimed", request.aimed, "N", "So many more, drawn after every scan, aimed at cells that are still unknown")
       ->check(a_whole_number());
   option("--start", run.start, "x,y,z[,yaw[,pitch]]",
          "First pose of the sensor, metres and degrees; beside the object unless given");
