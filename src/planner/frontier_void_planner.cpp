@@ -3,17 +3,13 @@
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
-#include "geometry/dice.hpp"
 #include "map/option_rule.hpp"
 #include "planner/frontier_cycle.hpp"
 #include "raytrace/shared_work.hpp"
@@ -21,9 +17,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kProofViews = 50;  // tried before it is said that no view sees a void
-constexpr double kSparse = 4.0;          // times the distance between rays, where many views are told apart
-constexpr double kNearM = 1.0;           // so much further than the nearest is near
+constexpr double kSparse = 4.0;  // times the distance between rays, where many views are told apart
 
 void validate(const FrontierVoidOptions& options) {
   const FrontierVoidStrategy& strategy = options.strategy;
@@ -47,12 +41,6 @@ void validate(const FrontierVoidOptions& options) {
                          "FrontierVoidStrategy::least_view_dm3", strategy.least_view_dm3, ">= 0");
   detail::require_option(strategy.finalists >= 1, "FrontierVoidStrategy::finalists", strategy.finalists, ">= 1");
   detail::validate(options.survey);
-}
-
-bool sees_all_around(const RangeSensor& sensor) {
-  constexpr double kRounding = 1e-6;
-  return sensor.horizontal_angle_rad() >= 2.0 * std::numbers::pi - kRounding &&
-         sensor.vertical_angle_rad() >= std::numbers::pi - kRounding;
 }
 
 std::string volume(std::size_t cells, double cell_m) {
@@ -82,71 +70,6 @@ double length_m(const std::vector<Pose>& path) {
 std::size_t least_cells(double volume_dm3, double cell_m) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(volume_dm3 / std::pow(10.0 * cell_m, 3))));
 }
-
-// Gives the places of most value first, as long as they are asked for; ties by number.
-class BestPlaces {
- public:
-  explicit BestPlaces(std::vector<double> values) : before_{std::move(values)}, heap_(before_.values.size()) {
-    std::iota(heap_.begin(), heap_.end(), std::size_t{0});
-    std::make_heap(heap_.begin(), heap_.end(), std::cref(before_));
-  }
-  [[nodiscard]] bool empty() const { return heap_.empty(); }
-  std::size_t next() {
-    std::pop_heap(heap_.begin(), heap_.end(), std::cref(before_));
-    const std::size_t best = heap_.back();
-    heap_.pop_back();
-    return best;
-  }
-
- private:
-  struct Before {
-    std::vector<double> values;
-    bool operator()(std::size_t a, std::size_t b) const {
-      return values[a] != values[b] ? values[a] < values[b] : a > b;
-    }
-  };
-  Before before_;
-  std::vector<std::size_t> heap_;
-};
-
-// Draws directions to look in from a place.
-class DirectionDraw {
- public:
-  DirectionDraw(const OccupancyMap& map, const RangeSensor& sensor, const std::vector<FrontierVoid>& voids,
-                Dice& dice)
-      : map_(map), sensor_(sensor), voids_(voids), dice_(dice) {
-    for (const FrontierVoid& one : voids) {
-      total_ += one.utility;
-      up_to_.push_back(total_);
-    }
-  }
-
-  // Anywhere.
-  Eigen::Vector3d anywhere() { return dice_.direction(); }
-  // To a frontier cell in plain sight and range, of a void drawn by its utility; anywhere if none is found.
-  Eigen::Vector3d at_a_void(const Eigen::Vector3d& place, std::uint64_t& operations) {
-    constexpr int kDraws = 8;
-    for (int i = 0; i < kDraws; ++i) {
-      const auto drawn = std::upper_bound(up_to_.begin(), up_to_.end(), dice_.below(total_));
-      const std::vector<VoxelIndex>& frontier = voids_[static_cast<std::size_t>(drawn - up_to_.begin())].frontier;
-      const VoxelIndex cell = frontier[dice_.below(frontier.size())];
-      Eigen::Vector3d line = map_.frame().centre_of(cell) - place;
-      if (line.norm() >= sensor_.min_range_m && line.norm() <= sensor_.max_range_m && line.norm() > 0.0 &&
-          in_plain_sight(map_, place, cell, operations)) {
-        return line;
-      }
-    }
-    return anywhere();
-  }
-
- private:
-  const OccupancyMap& map_;
-  const RangeSensor& sensor_;
-  const std::vector<FrontierVoid>& voids_;
-  Dice& dice_;
-  std::vector<std::size_t> up_to_;
-  std::size_t total_ = 0;
-};
 
 }  // namespace
 
@@ -249,89 +172,6 @@ void FrontierVoidPlanner::accumulate(const OccupancyMap& map, const FrontierSurv
 
 double FrontierVoidPlanner::discounted(double utility, double way_m) const {
   return utility / (1.0 + options_.strategy.cost_per_m * way_m);
-}
-
-// IV-C: orientations sampled at the places in the order of their utility, until there are N valid views.
-std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, const Pose& current,
-                                                    PlanStatistics& statistics) const {
-  const FrontierVoidStrategy& strategy = options_.strategy;
-  Dice dice(setup_.seed, map.revision());
-  DirectionDraw draw(map, setup_.sensor, search_.frontier_voids, dice);
-  std::vector<double> values(search_.places.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Eigen::Vector3d line = map.frame().centre_of(search_.places[i]) - current.translation();
-    values[i] = discounted(static_cast<double>(search_.utility[i]), line.norm());
-  }
-  const std::size_t orientations = sees_all_around(setup_.sensor) ? 1 : strategy.orientations_per_place;
-  std::vector<Pose> views;
-  std::vector<Eigen::Vector3d> taken;
-  for (BestPlaces best(std::move(values)); !best.empty() && views.size() < options_.views;) {
-    const Eigen::Vector3d place = map.frame().centre_of(search_.places[best.next()]);
-    if (std::any_of(taken.begin(), taken.end(),
-                    [&](const auto& other) { return (place - other).norm() < strategy.place_spacing_m; })) {
-      continue;
-    }
-    taken.push_back(place);
-    for (std::size_t i = 0; i < orientations && views.size() < options_.views; ++i) {
-      const Eigen::Vector3d direction =
-          strategy.aimed ? draw.at_a_void(place, statistics.ray_operations) : draw.anywhere();
-      const Pose view = setup_.platform->facing(place, direction);
-      if (setup_.platform->admits(map, view)) {
-        views.push_back(view);
-      }
-    }
-  }
-  return views;
-}
-
-// Views of what the survey knows to be observable: where sampling finds no view of a void, these tell whether there
-// is one.
-std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
-                                                      PlanStatistics& statistics) const {
-  std::vector<const FrontierTarget*> targets;
-  for (const FrontierTarget& target : survey.targets) {
-    if (search_.voids.number_at(target.unknown) != VoidClusters::kNone) {
-      targets.push_back(&target);
-    }
-  }
-  std::vector<Pose> views;
-  const std::size_t stride = targets.size() / std::min(options_.views, kProofViews) + 1;
-  for (std::size_t i = 0; i < targets.size(); i += stride) {
-    const TargetView view =
-        view_of_target(map, *setup_.platform, setup_.sensor, survey, *targets[i], statistics.ray_operations);
-    if (setup_.platform->admits(map, view.view.pose)) {
-      views.push_back(view.view.pose);
-    }
-  }
-  return views;
-}
-
-// Views from the nearest places that see a void through its frontier.
-std::vector<Pose> FrontierVoidPlanner::near_views(const OccupancyMap& map, const FrontierSurvey& survey,
-                                                  PlanStatistics& statistics) const {
-  std::vector<Pose> views;
-  if (options_.strategy.near_views == 0) {
-    return views;
-  }
-  std::vector<VoxelIndex> viewpoints;
-  for (const FrontierTarget& target : survey.targets) {
-    if (search_.voids.number_at(target.unknown) != VoidClusters::kNone) {
-      viewpoints.push_back(target.viewpoint);
-    }
-  }
-  const auto near = GridPaths(survey.reachable).nearest_within(viewpoints, kNearM, map.resolution_m());
-  const std::size_t stride = near.size() / options_.strategy.near_views + 1;
-  for (std::size_t i = 0; i < near.size(); i += stride) {
-    const auto target = std::find_if(survey.targets.begin(), survey.targets.end(), [&](const FrontierTarget& one) {
-      return one.viewpoint == near[i] && search_.voids.number_at(one.unknown) != VoidClusters::kNone;
-    });
-    const TargetView view =
-        view_of_target(map, *setup_.platform, setup_.sensor, survey, *target, statistics.ray_operations);
-    if (setup_.platform->admits(map, view.view.pose)) {
-      views.push_back(view.view.pose);
-    }
-  }
-  return views;
 }
 
 // What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere

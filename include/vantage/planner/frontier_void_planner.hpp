@@ -129,6 +129,9 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   void accumulate(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
   [[nodiscard]] std::vector<Pose> sample_views(const OccupancyMap& map, const Pose& current,
                                                PlanStatistics& statistics) const;
+  [[nodiscard]] std::vector<Pose> views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
+                                           const OccupancyMap& map, const FrontierSurvey& survey,
+                                           PlanStatistics& statistics) const;
   [[nodiscard]] std::vector<Pose> near_views(const OccupancyMap& map, const FrontierSurvey& survey,
                                              PlanStatistics& statistics) const;
   [[nodiscard]] double discounted(double utility, double way_m) const;

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// The views among which FrontierVoidPlanner chooses (Dornhege & Kleiner 2011, IV-C).
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vantage/planner/frontier_void_planner.hpp>
+#include <vantage/robot/grid_path.hpp>
+
+#include "geometry/dice.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kProofViews = 50;  // tried before it is said that no view sees a void
+constexpr double kNearM = 1.0;           // so much further than the nearest is near
+
+bool sees_all_around(const RangeSensor& sensor) {
+  constexpr double kRounding = 1e-6;
+  return sensor.horizontal_angle_rad() >= 2.0 * std::numbers::pi - kRounding &&
+         sensor.vertical_angle_rad() >= std::numbers::pi - kRounding;
+}
+
+// Gives the places of most value first, as long as they are asked for; ties by number.
+class BestPlaces {
+ public:
+  explicit BestPlaces(std::vector<double> values) : before_{std::move(values)}, heap_(before_.values.size()) {
+    std::iota(heap_.begin(), heap_.end(), std::size_t{0});
+    std::make_heap(heap_.begin(), heap_.end(), std::cref(before_));
+  }
+  [[nodiscard]] bool empty() const { return heap_.empty(); }
+  std::size_t next() {
+    std::pop_heap(heap_.begin(), heap_.end(), std::cref(before_));
+    const std::size_t best = heap_.back();
+    heap_.pop_back();
+    return best;
+  }
+
+ private:
+  struct Before {
+    std::vector<double> values;
+    bool operator()(std::size_t a, std::size_t b) const {
+      return values[a] != values[b] ? values[a] < values[b] : a > b;
+    }
+  };
+  Before before_;
+  std::vector<std::size_t> heap_;
+};
+
+// Draws directions to look in from a place.
+class DirectionDraw {
+ public:
+  DirectionDraw(const OccupancyMap& map, const RangeSensor& sensor, const std::vector<FrontierVoid>& voids,
+                Dice& dice)
+      : map_(map), sensor_(sensor), voids_(voids), dice_(dice) {
+    for (const FrontierVoid& one : voids) {
+      total_ += one.utility;
+      up_to_.push_back(total_);
+    }
+  }
+
+  // Anywhere.
+  Eigen::Vector3d anywhere() { return dice_.direction(); }
+  // To a frontier cell in plain sight and range, of a void drawn by its utility; anywhere if none is found.
+  Eigen::Vector3d at_a_void(const Eigen::Vector3d& place, std::uint64_t& operations) {
+    constexpr int kDraws = 8;
+    for (int i = 0; i < kDraws; ++i) {
+      const auto drawn = std::upper_bound(up_to_.begin(), up_to_.end(), dice_.below(total_));
+      const std::vector<VoxelIndex>& frontier = voids_[static_cast<std::size_t>(drawn - up_to_.begin())].frontier;
+      const VoxelIndex cell = frontier[dice_.below(frontier.size())];
+      Eigen::Vector3d line = map_.frame().centre_of(cell) - place;
+      if (line.norm() >= sensor_.min_range_m && line.norm() <= sensor_.max_range_m && line.norm() > 0.0 &&
+          in_plain_sight(map_, place, cell, operations)) {
+        return line;
+      }
+    }
+    return anywhere();
+  }
+
+ private:
+  const OccupancyMap& map_;
+  const RangeSensor& sensor_;
+  const std::vector<FrontierVoid>& voids_;
+  Dice& dice_;
+  std::vector<std::size_t> up_to_;
+  std::size_t total_ = 0;
+};
+
+// Those through which a void can be seen.
+std::vector<const FrontierTarget*> targets_of_voids(const FrontierSurvey& survey, const VoidClusters& voids) {
+  std::vector<const FrontierTarget*> targets;
+  for (const FrontierTarget& target : survey.targets) {
+    if (voids.number_at(target.unknown) != VoidClusters::kNone) {
+      targets.push_back(&target);
+    }
+  }
+  return targets;
+}
+
+}  // namespace
+
+// IV-C: orientations sampled at the places in the order of their utility, until there are N valid views.
+std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, const Pose& current,
+                                                    PlanStatistics& statistics) const {
+  const FrontierVoidStrategy& strategy = options_.strategy;
+  Dice dice(setup_.seed, map.revision());
+  DirectionDraw draw(map, setup_.sensor, search_.frontier_voids, dice);
+  std::vector<double> values(search_.places.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Eigen::Vector3d line = map.frame().centre_of(search_.places[i]) - current.translation();
+    values[i] = discounted(static_cast<double>(search_.utility[i]), line.norm());
+  }
+  const std::size_t orientations = sees_all_around(setup_.sensor) ? 1 : strategy.orientations_per_place;
+  std::vector<Pose> views;
+  std::vector<Eigen::Vector3d> taken;
+  for (BestPlaces best(std::move(values)); !best.empty() && views.size() < options_.views;) {
+    const Eigen::Vector3d place = map.frame().centre_of(search_.places[best.next()]);
+    if (std::any_of(taken.begin(), taken.end(),
+                    [&](const auto& other) { return (place - other).norm() < strategy.place_spacing_m; })) {
+      continue;
+    }
+    taken.push_back(place);
+    for (std::size_t i = 0; i < orientations && views.size() < options_.views; ++i) {
+      const Eigen::Vector3d direction =
+          strategy.aimed ? draw.at_a_void(place, statistics.ray_operations) : draw.anywhere();
+      const Pose view = setup_.platform->facing(place, direction);
+      if (setup_.platform->admits(map, view)) {
+        views.push_back(view);
+      }
+    }
+  }
+  return views;
+}
+
+// Views of so many of the targets, spread evenly.
+std::vector<Pose> FrontierVoidPlanner::views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
+                                                const OccupancyMap& map, const FrontierSurvey& survey,
+                                                PlanStatistics& statistics) const {
+  std::vector<Pose> views;
+  const std::size_t stride = targets.size() / most + 1;
+  for (std::size_t i = 0; i < targets.size(); i += stride) {
+    const TargetView view =
+        view_of_target(map, *setup_.platform, setup_.sensor, survey, *targets[i], statistics.ray_operations);
+    if (setup_.platform->admits(map, view.view.pose)) {
+      views.push_back(view.view.pose);
+    }
+  }
+  return views;
+}
+
+// Views of what the survey knows to be observable: where sampling finds no view of a void, these tell whether there
+// is one.
+std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
+                                                      PlanStatistics& statistics) const {
+  return views_of(targets_of_voids(survey, search_.voids), std::min(options_.views, kProofViews), map, survey,
+                  statistics);
+}
+
+// Views from the nearest places that see a void through its frontier.
+std::vector<Pose> FrontierVoidPlanner::near_views(const OccupancyMap& map, const FrontierSurvey& survey,
+                                                  PlanStatistics& statistics) const {
+  if (options_.strategy.near_views == 0) {
+    return {};
+  }
+  const std::vector<const FrontierTarget*> targets = targets_of_voids(survey, search_.voids);
+  std::vector<VoxelIndex> viewpoints(targets.size());
+  std::transform(targets.begin(), targets.end(), viewpoints.begin(),
+                 [](const FrontierTarget* target) { return target->viewpoint; });
+  std::vector<const FrontierTarget*> near;
+  for (const VoxelIndex& viewpoint :
+       GridPaths(survey.reachable).nearest_within(viewpoints, kNearM, map.resolution_m())) {
+    near.push_back(*std::find_if(targets.begin(), targets.end(),
+                                 [&](const FrontierTarget* target) { return target->viewpoint == viewpoint; }));
+  }
+  return views_of(near, options_.strategy.near_views, map, survey, statistics);
+}
+
+}  // namespace vantage
