@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vantage/geometry/lattice_hull.hpp>
 
@@ -15,6 +16,8 @@ namespace {
 using Integers = std::array<std::int64_t, 3>;
 // Distances are products of three differences of coordinates.
 __extension__ typedef __int128 Wide;  // NOLINT(modernize-use-using): only a typedef takes __extension__
+
+bool before(const VoxelIndex& a, const VoxelIndex& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 Integers difference(const VoxelIndex& a, const VoxelIndex& b) {
   return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y, std::int64_t{a.z} - b.z};
@@ -234,9 +237,12 @@ std::vector<LatticeHull::Number> LatticeHull::add_cone(const std::vector<Edge>& 
     const auto at = std::find(behind.corners.begin(), behind.corners.end(), edge.to) - behind.corners.begin();
     behind.beside[static_cast<std::size_t>(at)] = cone.back();
   }
-  std::sort(by_start.begin(), by_start.end());
+  std::sort(by_start.begin(), by_start.end(), [](const auto& a, const auto& b) { return before(a.first, b.first); });
   for (std::size_t i = 0; i < rim.size(); ++i) {
-    const Number after = std::lower_bound(by_start.begin(), by_start.end(), std::pair(rim[i].to, Number{0}))->second;
+    const Number after =
+        std::lower_bound(by_start.begin(), by_start.end(), rim[i].to, [](const auto& a, const VoxelIndex& to) {
+          return before(a.first, to);
+        })->second;
     facets_[cone[i]].beside[0] = rim[i].behind;
     facets_[cone[i]].beside[1] = after;
     facets_[after].beside[2] = cone[i];
@@ -286,7 +292,9 @@ std::vector<VoxelIndex> LatticeHull::corners() const {
       }
     }
   }
-  std::sort(planes_at.begin(), planes_at.end());
+  std::sort(planes_at.begin(), planes_at.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? before(a.first, b.first) : a.second < b.second;
+  });
   planes_at.erase(std::unique(planes_at.begin(), planes_at.end()), planes_at.end());
   std::vector<VoxelIndex> corners;
   for (auto at = planes_at.begin(); at != planes_at.end();) {
