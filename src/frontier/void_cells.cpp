@@ -7,6 +7,7 @@
 
 #include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
+#include "geometry/box_overlap.hpp"
 
 namespace vantage {
 namespace {
@@ -38,12 +39,7 @@ VoxelBox box_around(const ConvexHull& hull, const OccupancyMap& map) {
   if (hull.empty()) {
     return {};
   }
-  if (map.region()) {
-    const VoxelBox& region = *map.region();
-    box.lo = {std::max(box.lo.x, region.lo.x), std::max(box.lo.y, region.lo.y), std::max(box.lo.z, region.lo.z)};
-    box.hi = {std::min(box.hi.x, region.hi.x), std::min(box.hi.y, region.hi.y), std::min(box.hi.z, region.hi.z)};
-  }
-  return box;
+  return map.region() ? detail::box_overlap(box, *map.region()) : box;
 }
 
 template <class Visit>

@@ -20,4 +20,13 @@ namespace vantage::detail {
   return box;
 }
 
+/// The smallest box that holds both; an empty one counts for nothing.
+[[nodiscard]] inline VoxelBox box_around(const VoxelBox& a, const VoxelBox& b) {
+  if (a.empty() || b.empty()) {
+    return a.empty() ? b : a;
+  }
+  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
+          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
+}
+
 }  // namespace vantage::detail

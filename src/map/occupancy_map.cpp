@@ -5,6 +5,7 @@
 #include <string>
 #include <vantage/map/occupancy_map.hpp>
 
+#include "geometry/box_overlap.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage {
@@ -198,13 +199,7 @@ void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
   if (std::isnan(log_odds)) {
     throw std::invalid_argument("set_log_odds: the log-odds must be a number");
   }
-  VoxelBox inside = cells;
-  if (region_) {
-    inside.lo = {std::max(cells.lo.x, region_->lo.x), std::max(cells.lo.y, region_->lo.y),
-                 std::max(cells.lo.z, region_->lo.z)};
-    inside.hi = {std::min(cells.hi.x, region_->hi.x), std::min(cells.hi.y, region_->hi.y),
-                 std::min(cells.hi.z, region_->hi.z)};
-  }
+  const VoxelBox inside = region_ ? detail::box_overlap(cells, *region_) : cells;
   if (inside.empty()) {
     return;
   }

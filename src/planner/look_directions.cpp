@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/box_overlap.hpp"
 #include "geometry/spread_directions.hpp"
 #include "raytrace/shared_work.hpp"
 
@@ -23,13 +24,10 @@ constexpr double kOpaqueBesideSurface = 0.5;
 std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eigen::Vector3d& position,
                                              double range_m) {
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
-  const VoxelBox near{map.frame().cell_of(position - range), map.frame().cell_of(position + range)};
-  const VoxelBox known = map.bounds();
-  VoxelBox box{{std::max(near.lo.x, known.lo.x), std::max(near.lo.y, known.lo.y), std::max(near.lo.z, known.lo.z)},
-               {std::min(near.hi.x + 1, known.hi.x), std::min(near.hi.y + 1, known.hi.y),
-                std::min(near.hi.z + 1, known.hi.z)}};
+  const VoxelBox near{map.frame().cell_of(position - range),
+                      map.frame().cell_of(position + range) + VoxelIndex{1, 1, 1}};
   std::vector<VoxelIndex> cells;
-  for_each_cell(box, [&](const VoxelIndex& cell) {
+  for_each_cell(box_overlap(near, map.bounds()), [&](const VoxelIndex& cell) {
     if (map.at(cell) == Occupancy::Unknown && map.in_region(cell)) {
       cells.push_back(cell);
     }

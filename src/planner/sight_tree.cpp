@@ -9,18 +9,6 @@
 #include "geometry/box_around.hpp"
 
 namespace vantage::detail {
-namespace {
-
-VoxelBox joined(const VoxelBox& a, const VoxelBox& b) {
-  if (a.empty() || b.empty()) {
-    return a.empty() ? b : a;
-  }
-  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
-          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
-}
-
-}  // namespace
-
 SightTree::SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m) {
   const VoxelIndex home{0, 0, 0};
   const Eigen::Vector3d centre = frame.centre_of(home);
@@ -67,7 +55,7 @@ std::size_t SightTree::grow(const std::vector<std::vector<VoxelIndex>>& rays,
   for (const auto& [cell, part] : parts) {
     const std::size_t further = grow(rays, part, depth);
     branches_[number].further.push_back(further);
-    reach = joined(reach, branches_[further].reach);
+    reach = box_around(reach, branches_[further].reach);
   }
   branches_[number].reach = reach;
   return number;

@@ -4,19 +4,13 @@
 #include <raytrace/blocking_grid.hpp>
 #include <stdexcept>
 
+#include "geometry/box_around.hpp"
+
 namespace vantage {
 namespace {
 
 // A table of this many pages takes 1 GiB; it is for 2^42 cells.
 constexpr std::size_t kMaxTable = std::size_t{1} << 27U;
-
-VoxelBox box_around(const VoxelBox& a, const VoxelBox& b) {
-  if (a.empty()) {
-    return b;
-  }
-  return {{std::min(a.lo.x, b.lo.x), std::min(a.lo.y, b.lo.y), std::min(a.lo.z, b.lo.z)},
-          {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
-}
 
 // State of the cube of `edge` cells at `from` in a brick, as OccupancyMap::at gives it for a coarser level.
 Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t edge, CoarseningPolicy policy) {
@@ -66,7 +60,7 @@ std::size_t BlockingGrid::update(const OccupancyMap& map) {
   for (const VoxelIndex& brick : changed) {
     const VoxelBox words = words_of_brick(brick);
     const VoxelIndex page = page_address(words.lo);
-    pages = box_around(pages, {page, page + VoxelIndex{1, 1, 1}});
+    pages = detail::box_around(pages, {page, page + VoxelIndex{1, 1, 1}});
   }
   reach(pages);
   for (const VoxelIndex& address : changed) {
@@ -91,7 +85,7 @@ VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) const {
 
 // Lets the table hold these pages.
 void BlockingGrid::reach(const VoxelBox& pages) {
-  const VoxelBox larger = pages.empty() ? pages_box_ : box_around(pages_box_, pages);
+  const VoxelBox larger = pages.empty() ? pages_box_ : detail::box_around(pages_box_, pages);
   if (larger == pages_box_) {
     return;
   }

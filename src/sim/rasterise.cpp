@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/box_overlap.hpp"
+
 namespace vantage {
 namespace {
 
@@ -69,11 +71,8 @@ void rasterise(const TriangleMesh& mesh, const VoxelFrame& frame, double grazed_
     if ((bounds.min.array() > bounds.max.array()).any()) {
       continue;
     }
-    const VoxelIndex last = frame.cell_of(bounds.max);
-    const VoxelIndex lo = frame.cell_of(bounds.min);
-    const VoxelBox box{
-        {std::max(lo.x, limits.lo.x), std::max(lo.y, limits.lo.y), std::max(lo.z, limits.lo.z)},
-        {std::min(last.x + 1, limits.hi.x), std::min(last.y + 1, limits.hi.y), std::min(last.z + 1, limits.hi.z)}};
+    const VoxelBox box =
+        detail::box_overlap({frame.cell_of(bounds.min), frame.cell_of(bounds.max) + VoxelIndex{1, 1, 1}}, limits);
     const TriangleCellTest test(corners);
     for_each_cell(box, [&](const VoxelIndex& cell) {
       CellTruth& truth = cells[cell];

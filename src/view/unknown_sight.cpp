@@ -5,6 +5,7 @@
 #include <vantage/view/unknown_sight.hpp>
 
 #include "geometry/box_around.hpp"
+#include "geometry/box_overlap.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage {
@@ -12,11 +13,6 @@ namespace {
 
 // Chances below this are as good as none.
 constexpr double kLeastChance = 0.01;
-
-VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
-  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
-          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
-}
 
 }  // namespace
 
@@ -102,7 +98,7 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
   const Eigen::Vector3d sensor = world_from_sensor.translation();
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m());
   const VoxelBox near{frame_.cell_of(sensor - range), frame_.cell_of(sensor + range) + VoxelIndex{1, 1, 1}};
-  const VoxelBox box = common(wanted_box_, near);
+  const VoxelBox box = detail::box_overlap(wanted_box_, near);
   if (box.empty()) {
     return {};
   }
