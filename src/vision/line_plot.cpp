@@ -3,8 +3,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vantage/vision/line_plot.hpp>
+#include <vector>
 
 #include "vision/axis_ticks.hpp"
 #include "vision/canvas.hpp"
@@ -19,10 +23,11 @@ using drawing::Colour;
 constexpr double kPanelWidth = 640.0;
 constexpr double kPanelHeight = 460.0;
 constexpr double kLeft = 82.0;
-constexpr double kRight = 78.0;  // holds the value at the end of a curve
+constexpr double kRight = 78.0;  // holds the values at the ends of the curves
 constexpr double kTop = 88.0;
 constexpr double kBottom = 66.0;
 constexpr double kText = 10.0;
+constexpr double kTextLine = 17.0;
 constexpr std::array<Colour, 8> kCurves{{{35, 84, 173},
                                          {214, 90, 29},
                                          {22, 145, 84},
@@ -104,7 +109,14 @@ void draw_axes(Canvas& canvas, const LinePlot& plot, const Frame& frame) {
   canvas.text({0.5 * (frame.area.x + right), below + 50.0}, plot.x_label, kText + 0.5, drawing::kInk, Align::Centre);
 }
 
-void draw_series(Canvas& canvas, const LinePlot& plot, const Frame& frame, std::size_t index) {
+// What is written of the end of a curve, and at which height.
+struct EndValue {
+  double y;
+  std::string text;
+  Colour colour;
+};
+
+std::optional<EndValue> draw_series(Canvas& canvas, const LinePlot& plot, const Frame& frame, std::size_t index) {
   const LineSeries& series = plot.series[index];
   const Colour colour = kCurves[index % kCurves.size()];
   std::vector<cv::Point2d> run;
@@ -126,11 +138,29 @@ void draw_series(Canvas& canvas, const LinePlot& plot, const Frame& frame, std::
       }
     }
   }
-  if (last) {
-    const cv::Point2d end = frame.at(series.x[*last], std::clamp(series.y[*last], frame.y.low, frame.y.high));
-    canvas.disc(end, 5.0, colour);
-    canvas.label({end.x + 10.0, end.y + 0.5 * kText}, drawing::write_number(series.y[*last], 0.1) + plot.value_unit,
-                 kText, colour, Align::Left);
+  if (!last) {
+    return std::nullopt;
+  }
+  const cv::Point2d end = frame.at(series.x[*last], std::clamp(series.y[*last], frame.y.low, frame.y.high));
+  canvas.disc(end, 5.0, colour);
+  return EndValue{end.y, drawing::write_number(series.y[*last], 0.1) + plot.value_unit, colour};
+}
+
+// In one column to the right of the plot, each at the height of its curve's end or as near to it as the others let
+// it.
+void draw_end_values(Canvas& canvas, const Frame& frame, std::vector<EndValue> values) {
+  std::stable_sort(values.begin(), values.end(), [](const EndValue& a, const EndValue& b) { return a.y < b.y; });
+  double room_below = frame.area.y + frame.area.height;
+  for (auto value = values.rbegin(); value != values.rend(); ++value) {
+    value->y = std::min(value->y, room_below);
+    room_below = value->y - kTextLine;
+  }
+  double room_above = frame.area.y;
+  for (EndValue& value : values) {
+    value.y = std::max(value.y, room_above);
+    room_above = value.y + kTextLine;
+    canvas.label({frame.area.x + frame.area.width + 12.0, value.y + 0.5 * kText}, value.text, kText, value.colour,
+                 Align::Left);
   }
 }
 
@@ -154,9 +184,13 @@ Picture draw_line_plots(std::span<const LinePlot> plots) {
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const Frame frame = frame_of(plots[i], kPanelWidth * static_cast<double>(i));
     draw_axes(canvas, plots[i], frame);
+    std::vector<EndValue> ends;
     for (std::size_t series = 0; series < plots[i].series.size(); ++series) {
-      draw_series(canvas, plots[i], frame, series);
+      if (std::optional<EndValue> end = draw_series(canvas, plots[i], frame, series)) {
+        ends.push_back(std::move(*end));
+      }
     }
+    draw_end_values(canvas, frame, std::move(ends));
     draw_legend(canvas, plots[i], frame);
   }
   return canvas.finish();

@@ -24,7 +24,7 @@ struct LinePlot {
   std::string y_label = {};                                         ///< with its unit
   std::vector<LineSeries> series = {};                              ///< drawn in this order
   std::optional<std::pair<double, double>> y_range = std::nullopt;  ///< none: as the points ask for
-  std::string value_unit = {};  ///< follows the last value of a curve, which is written beside its end
+  std::string value_unit = {};  ///< follows the last value of a curve, which is written to the right of the plot
 };
 
 /// Draws the plots side by side. Throws std::invalid_argument if there is no plot or x and y of a series differ in

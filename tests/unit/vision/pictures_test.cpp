@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vantage/vision/field_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/line_plot.hpp>
@@ -134,6 +137,31 @@ TEST(FieldPicture, ShowsTheFrontierAndTheStreamline) {
   phi.pop_back();
   content.phi = phi;
   EXPECT_THROW((void)draw_field(map, content), std::invalid_argument);
+}
+
+TEST(LinePlot, ValuesOfCurvesThatEndAtTheSameHeightAreAllLegible) {
+  // Equal curves but for where they end: their ends lie apart, their values would not.
+  const auto legible = [](double height) {
+    LinePlot plot{.series = {}, .y_range = std::pair{0.0, 100.0}};
+    for (int i = 0; i < 5; ++i) {
+      plot.series.push_back({"", {0, 1}, {height, height}});
+    }
+    const Picture picture = draw_line_plots(std::vector<LinePlot>{plot});
+    const auto first = static_cast<std::size_t>(static_cast<double>(picture.width) * (1.0 - 64.0 / 640.0));
+    Picture margin{.width = picture.width - first, .height = picture.height, .rgb = {}};
+    for (std::size_t row = 0; row < picture.height; ++row) {
+      const auto start = picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * (row * picture.width + first));
+      margin.rgb.insert(margin.rgb.end(), start, start + static_cast<std::ptrdiff_t>(3 * margin.width));
+    }
+    return std::array{count(margin, 35, 84, 173), count(margin, 214, 90, 29), count(margin, 22, 145, 84),
+                      count(margin, 132, 56, 163), count(margin, 190, 150, 20)};
+  };
+  for (const double height : {0.0, 50.0, 100.0}) {
+    const auto pixels = legible(height);
+    const auto [least, most] = std::minmax_element(pixels.begin(), pixels.end());
+    EXPECT_GT(*least, 20U) << height;
+    EXPECT_GT(10 * *least, 9 * *most) << height << ": one hides another";
+  }
 }
 
 TEST(LinePlot, DrawsCurvesAndRefusesMismatch) {
