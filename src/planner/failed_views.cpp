@@ -62,6 +62,7 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
     return;
   }
   const VoxelIndex viewpoint = map.frame().cell_of(expected_->goal.translation());
+  taken_[map.frame().cell_of(current.translation())].push_back(current);
   fail(map, viewpoint, expected_->sought);
   const std::vector<VoxelIndex>& hoped = expected_->hoped;
   if (std::all_of(hoped.begin(), hoped.end(),
@@ -75,6 +76,11 @@ bool FailedViews::failed_from(const VoxelIndex& unknown, const VoxelIndex& viewp
   const auto failure = failures_.find(unknown);
   return failure != failures_.end() && std::find(failure->second.viewpoints.begin(), failure->second.viewpoints.end(),
                                                  viewpoint) != failure->second.viewpoints.end();
+}
+
+std::span<const Pose> FailedViews::taken_from(const VoxelIndex& viewpoint) const {
+  const auto taken = taken_.find(viewpoint);
+  return taken == taken_.end() ? std::span<const Pose>() : std::span<const Pose>(taken->second);
 }
 
 bool FailedViews::failed_towards(const VoxelIndex& unknown, const VoxelIndex& viewpoint, double within_rad) const {

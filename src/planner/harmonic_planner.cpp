@@ -7,6 +7,7 @@
 #include <utility>
 #include <vantage/field/laplace_guess.hpp>
 #include <vantage/field/laplace_multigrid.hpp>
+#include <vantage/field/sink_flux.hpp>
 #include <vantage/field/streamline.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
@@ -109,6 +110,9 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   const FrontierSurvey& survey = cycle.survey();
   const HarmonicStrategy& strategy = options_.strategy;
   PlanStatistics& statistics = cycle.plan().statistics;
+  if (chooses_directions(map)) {
+    follow(map);
+  }
   if (std::optional<TargetView> look = look_again(map, current, survey, statistics.ray_operations)) {
     return cycle.go(std::move(*look), std::vector<VoxelIndex>{*survey.reachable.start()});
   }
@@ -143,6 +147,16 @@ bool HarmonicPlanner::chooses_directions(const OccupancyMap& map) const {
   return !std::isinf(options_.strategy.look_again_dm3) && detail::LookDirections::choosable(map, setup_.sensor);
 }
 
+void HarmonicPlanner::follow(const OccupancyMap& map) {
+  if (!followed_.is_in_place(map)) {
+    caster_.emplace(map);
+    rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
+    followed_ = KnownMap(map);
+  } else {
+    caster_->update();
+  }
+}
+
 // A view from where the sensor is, if one is worth taking before it moves on.
 std::optional<TargetView> HarmonicPlanner::look_again(const OccupancyMap& map, const Pose& current,
                                                       const FrontierSurvey& survey, std::uint64_t& operations) const {
@@ -151,7 +165,7 @@ std::optional<TargetView> HarmonicPlanner::look_again(const OccupancyMap& map, c
     return std::nullopt;
   }
   std::optional<detail::Look> look =
-      detail::LookDirections(map, setup_, survey, failed_, position, operations).best();
+      detail::LookDirections({map, *caster_, *rays_, setup_, failed_}, survey, position, operations).best();
   const double cell_dm3 = 1e3 * std::pow(map.resolution_m(), 3);
   return look && look->cells * cell_dm3 >= options_.strategy.look_again_dm3
              ? std::optional<TargetView>(std::move(look->seen))
@@ -164,7 +178,8 @@ TargetView HarmonicPlanner::look_at(const OccupancyMap& map, const FrontierSurve
   if (chooses_directions(map)) {
     const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
     if (std::optional<detail::Look> look =
-            detail::LookDirections(map, setup_, survey, failed_, position, operations).best(wanted.unknown)) {
+            detail::LookDirections({map, *caster_, *rays_, setup_, failed_}, survey, position, operations)
+                .best(wanted.unknown)) {
       return std::move(look->seen);
     }
   }
@@ -219,14 +234,28 @@ std::vector<VoxelIndex> HarmonicPlanner::sinks(const OccupancyMap& map, const Fr
 }
 
 void HarmonicPlanner::solve(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics) {
-  field_.emplace(HarmonicField{
-      LaplaceProblem(survey.reachable.cells(), sinks(map, survey), *survey.reachable.start()), {}, {}, {}, 0, true});
+  solve(survey, sinks(map, survey), statistics);
+  if (options_.strategy.sink_choice == SinkChoice::LargestFlux && field_->followed) {
+    const std::vector<SinkCluster> clusters = sink_clusters(field_->problem, field_->phi);
+    if (clusters.size() > 1) {  // the way to the largest is that of a field of its own
+      const auto largest =
+          std::max_element(clusters.begin(), clusters.end(),
+                           [](const SinkCluster& a, const SinkCluster& b) { return a.flux < b.flux; });
+      solve(survey, largest->sinks, statistics);
+    }
+  }
+}
+
+void HarmonicPlanner::solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks,
+                            PlanStatistics& statistics) {
+  field_.emplace(
+      HarmonicField{LaplaceProblem(survey.reachable.cells(), sinks, *survey.reachable.start()), {}, {}, {}, 0, true});
   if (options_.solver == FieldSolver::Multigrid) {
     solve_by_multigrid();
   } else {
     relax();
   }
-  statistics.solver_sweeps = field_->report.sweeps;
+  statistics.solver_sweeps += field_->report.sweeps;
   statistics.ray_operations += field_->report.cell_updates;
 }
 

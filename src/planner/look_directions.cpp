@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "geometry/box_overlap.hpp"
@@ -37,21 +38,16 @@ std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eige
 
 }  // namespace
 
-LookDirections::LookDirections(const OccupancyMap& map, const PlannerSetup& setup, const FrontierSurvey& survey,
-                               const FailedViews& failed, const Eigen::Vector3d& position, std::uint64_t& operations)
-    : setup_(setup),
-      failed_(failed),
-      position_(position),
-      place_(map.frame().cell_of(position)),
-      frame_(map.frame()),
-      caster_(map),
-      rays_(setup.sensor.rays_for(map.resolution_m())) {
-  const RangeSensor& sensor = setup.sensor;
+LookDirections::LookDirections(const Scene& scene, const FrontierSurvey& survey, const Eigen::Vector3d& position,
+                               std::uint64_t& operations)
+    : scene_(scene), position_(position), place_(scene.map.frame().cell_of(position)) {
+  const OccupancyMap& map = scene.map;
+  const RangeSensor& sensor = scene.setup.sensor;
   const double furthest_m = std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
   for (const FrontierTarget& target : survey.targets) {
-    const Eigen::Vector3d line = frame_.centre_of(target.unknown) - position;
+    const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
     const double range_m = line.norm();
-    if (range_m >= sensor.min_range_m && range_m <= furthest_m && !failed.failed_from(target.unknown, place_) &&
+    if (range_m >= sensor.min_range_m && range_m <= furthest_m && !scene.failed.failed_from(target.unknown, place_) &&
         in_plain_sight(map, position, target.unknown, operations)) {
       sightings_.push_back({target.unknown, line});
     }
@@ -74,7 +70,7 @@ bool LookDirections::choosable(const OccupancyMap& map, const RangeSensor& senso
 std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {
   std::vector<Look> looks;
   for (const Eigen::Vector3d& direction : spread_directions(kDirections)) {
-    const Pose pose = setup_.platform->facing(position_, direction);
+    const Pose pose = scene_.setup.platform->facing(position_, direction);
     TargetView seen = targets_in_view(pose);
     const bool serves = wanted ? std::find(seen.unknown.begin(), seen.unknown.end(), *wanted) != seen.unknown.end()
                                : !seen.unknown.empty();
@@ -82,7 +78,7 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
       looks.push_back({std::move(seen)});
     }
   }
-  share_work(looks.size(), static_cast<std::size_t>(setup_.threads),
+  share_work(looks.size(), static_cast<std::size_t>(scene_.setup.threads),
              [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
   const auto best =
       std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.cells < b.cells; });
@@ -92,7 +88,7 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
 TargetView LookDirections::targets_in_view(const Pose& pose) const {
   TargetView seen{.view = {.pose = pose}};
   for (const Sighting& sighting : sightings_) {
-    if (setup_.sensor.in_view(pose.linear().transpose() * sighting.line)) {
+    if (scene_.setup.sensor.in_view(pose.linear().transpose() * sighting.line)) {
       seen.unknown.push_back(sighting.unknown);
     }
   }
@@ -102,12 +98,21 @@ TargetView LookDirections::targets_in_view(const Pose& pose) const {
 
 double LookDirections::expected_cells(const Pose& pose) const {
   double cells = 0.0;
-  for (const SightedCell& seen : sight_->look(caster_, pose, rays_)) {
-    if (!failed_.failed_from(seen.cell, place_) && !failed_.gave_up(seen.cell)) {
+  for (const SightedCell& seen : sight_->look(scene_.caster, pose, scene_.rays)) {
+    if (!scene_.failed.failed_from(seen.cell, place_) && !scene_.failed.gave_up(seen.cell) &&
+        !was_in_view(seen.cell)) {
       cells += seen.chance;
     }
   }
   return cells;
+}
+
+// Of an earlier view from here: another does not resolve it either.
+bool LookDirections::was_in_view(const VoxelIndex& cell) const {
+  const std::span<const Pose> taken = scene_.failed.taken_from(place_);
+  const Eigen::Vector3d line = scene_.map.frame().centre_of(cell) - position_;
+  return std::any_of(taken.begin(), taken.end(),
+                     [&](const Pose& pose) { return scene_.setup.sensor.in_view(pose.linear().transpose() * line); });
 }
 
 }  // namespace vantage::detail

@@ -26,9 +26,18 @@ struct Look {
 /// targets is in sight do not count, so a look always has a boundary to resolve, or to give up.
 class LookDirections {
  public:
-  /// From the place `position`, in the map as it is now. All but the position must outlive it.
-  LookDirections(const OccupancyMap& map, const PlannerSetup& setup, const FrontierSurvey& survey,
-                 const FailedViews& failed, const Eigen::Vector3d& position, std::uint64_t& operations);
+  /// What it needs from whoever follows the map; all of it must outlive it.
+  struct Scene {
+    const OccupancyMap& map;
+    const RayCaster& caster;  ///< that looks at `map` as it is now
+    const ViewRays& rays;     ///< of the sensor, as dense as the cells ask for
+    const PlannerSetup& setup;
+    const FailedViews& failed;
+  };
+
+  /// From the place `position`. `operations` counts the cells that lines of sight visit.
+  LookDirections(const Scene& scene, const FrontierSurvey& survey, const Eigen::Vector3d& position,
+                 std::uint64_t& operations);
 
   /// The best view; with `wanted`, of those that have this cell, which must be in sight from here, in view. None if
   /// there is no such view.
@@ -45,15 +54,12 @@ class LookDirections {
   };
   [[nodiscard]] TargetView targets_in_view(const Pose& pose) const;
   [[nodiscard]] double expected_cells(const Pose& pose) const;
+  [[nodiscard]] bool was_in_view(const VoxelIndex& cell) const;
 
-  const PlannerSetup& setup_;
-  const FailedViews& failed_;
+  Scene scene_;
   Eigen::Vector3d position_;
   VoxelIndex place_;
-  VoxelFrame frame_;
   std::vector<Sighting> sightings_;
-  RayCaster caster_;
-  ViewRays rays_;
   std::optional<UnknownSight> sight_;
 };
 

@@ -211,6 +211,8 @@ std::unique_ptr<ExplorationPlanner> make_harmonic(const PlannerSetup& setup, Set
       .number("over_relaxation", options.over_relaxation)
       .number("uniform_source", options.uniform_source)
       .number("detour_m", options.strategy.detour_m)
+      .choice("sink_choice", options.strategy.sink_choice,
+              {{"steepest", SinkChoice::Steepest}, {"largest-flux", SinkChoice::LargestFlux}})
       .flag("look_early", options.strategy.look_early)
       .number("look_spacing_m", options.strategy.look_spacing_m)
       .number("look_again_dm3", options.strategy.look_again_dm3)

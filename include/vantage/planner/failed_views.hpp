@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/known_map.hpp>
@@ -39,6 +40,9 @@ class FailedViews {
   [[nodiscard]] bool failed(const VoxelIndex& unknown) const { return failures_.count(unknown) != 0; }
   /// Whether views of this unknown cell have failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
+  /// The views that `review` has found taken from within this cell, as they were announced or nearly so. What a
+  /// sensor had in view from there and did not resolve, it will not resolve from there next time.
+  [[nodiscard]] std::span<const Pose> taken_from(const VoxelIndex& viewpoint) const;
   /// How many cells have failed at least once.
   [[nodiscard]] std::size_t size() const { return failures_.size(); }
 
@@ -60,6 +64,7 @@ class FailedViews {
   KnownMap map_;  // that was reviewed last
   OccupancyMap::Revision reviewed_ = 0;
   std::unordered_map<VoxelIndex, Failures> failures_;
+  std::unordered_map<VoxelIndex, std::vector<Pose>> taken_;
 };
 
 }  // namespace vantage

@@ -9,11 +9,14 @@
 #include <string_view>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
+#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/raytrace/view_rays.hpp>
 #include <vector>
 
 namespace vantage {
@@ -25,11 +28,19 @@ enum class FieldSolver : std::uint8_t {
   GaussSeidel,  ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
 };
 
+/// Which of the boundaries the way leads to.
+enum class SinkChoice : std::uint8_t {
+  Steepest,     ///< the one at which the streamline from the sensor ends: the paper's
+  LargestFlux,  ///< the cluster of sinks into which most flows, wherever that streamline turns (sink_flux.hpp)
+};
+
 /// What HarmonicPlanner does that the paper leaves open or does otherwise; docs/harmonic.md has what each part earns.
 struct HarmonicStrategy {
   /// Sinks whose way is longer than the way to the nearest by more than this wait for a later plan, metres, >= 0:
   /// what is near is cleared first. Infinity: every frontier draws.
   double detour_m = 0.2;
+  /// Which of these it goes for.
+  SinkChoice sink_choice = SinkChoice::Steepest;
   /// Looks from the first place on the way from which the boundary it came for is in sight, not from beside it.
   bool look_early = true;
   /// With look_early: once it has gone so far, metres, >= 0, any other boundary that comes into sight is looked at,
@@ -102,6 +113,7 @@ class HarmonicPlanner final : public ExplorationPlanner {
 
  private:
   void solve(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
+  void solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
   void solve_by_multigrid();
   void relax();
   [[nodiscard]] std::vector<VoxelIndex> way_down(const OccupancyMap& map, const Pose& current,
@@ -116,11 +128,16 @@ class HarmonicPlanner final : public ExplorationPlanner {
   [[nodiscard]] TargetView look_at(const OccupancyMap& map, const FrontierSurvey& survey,
                                    const FrontierTarget& wanted, std::uint64_t& operations) const;
   [[nodiscard]] bool chooses_directions(const OccupancyMap& map) const;
+  void follow(const OccupancyMap& map);
 
   PlannerSetup setup_;
   HarmonicOptions options_;
   FailedViews failed_;
   std::optional<HarmonicField> field_;
+  // Of the map in which it last chose a direction:
+  std::optional<RayCaster> caster_;
+  std::optional<ViewRays> rays_;  // as dense as its cells ask for
+  KnownMap followed_;
 };
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <vantage/planner/failed_views.hpp>
 
@@ -55,6 +56,26 @@ TEST(FailedViews, FailsTowardsAllThatLieInTheSameDirection) {
     EXPECT_FALSE(failed.failed_towards(kUnknown, {8, 5, 5}, within_rad)) << "the other side";
     EXPECT_FALSE(failed.failed_towards({5, 5, 6}, {2, 5, 5}, within_rad));
   }
+}
+
+TEST(FailedViews, RemembersTheViewsThatWereTaken) {
+  OccupancyMap map = slab_before_the_unknown();
+  FailedViews failed;
+  const VoxelIndex place{2, 5, 5};
+  const Eigen::Vector3d position = map.frame().centre_of(place);
+  for (const double yaw_rad : {0.0, 1.0, 2.0}) {
+    const Pose announced = pose_looking(position, yaw_rad);
+    failed.expect(map, announced, {kUnknown});
+    failed.review(map, announced);  // before there is a scan
+    map.set_log_odds(VoxelIndex{0, 0, 0}, -1.0);
+    const Pose taken = pose_looking(position + Eigen::Vector3d(0.02, 0.0, 0.0), yaw_rad + 0.05);
+    failed.review(map, taken);
+    failed.review(map, taken);
+    const std::span<const Pose> views = failed.taken_from(place);
+    ASSERT_EQ(views.size(), static_cast<std::size_t>(yaw_rad) + 1U);
+    EXPECT_EQ(views.back().matrix(), taken.matrix());
+  }
+  EXPECT_TRUE(failed.taken_from({2, 5, 6}).empty());
 }
 
 TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {

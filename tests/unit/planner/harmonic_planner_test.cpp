@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <vantage/field/sink_flux.hpp>
 #include <vantage/field/streamline.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
@@ -150,6 +151,42 @@ TEST(HarmonicPlanner, ClearsWhatIsNearBeforeItGoesFar) {
 }
 
 // A height band one cell high makes the problem of the paper's own experiments: a plane.
+// From many places in a box with a second opening: it goes for the boundary that draws most of the paper's field.
+TEST(HarmonicPlanner, GoesWhereMostFlows) {
+  OccupancyMap map = box_with_opening();
+  for_each_cell({{4, -1, 3}, {9, 0, 8}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  HarmonicStrategy strategy = HarmonicStrategy::faithful();
+  HarmonicPlanner steepest(setup_with(all_around()), {.strategy = strategy});
+  strategy.sink_choice = SinkChoice::LargestFlux;
+  HarmonicPlanner by_flux(setup_with(all_around()), {.strategy = strategy});
+  std::size_t other_ways = 0;
+  std::size_t places = 0;
+  for_each_cell({{2, 2, 2}, {19, 15, 11}}, [&](const VoxelIndex& cell) {
+    if (cell.x % 4 != 2 || cell.y % 4 != 2 || cell.z % 4 != 2) {
+      return;
+    }
+    const Pose current = pose_looking(map.frame().centre_of(cell), 0.0);
+    (void)steepest.plan(map, current);
+    const Plan plan = by_flux.plan(map, current);
+    ASSERT_TRUE(steepest.field() && by_flux.field());
+    const std::vector<SinkCluster> all = sink_clusters(steepest.field()->problem, steepest.field()->phi);
+    ASSERT_EQ(all.size(), 2U);
+    const std::vector<VoxelIndex>& larger = all[all[0].flux > all[1].flux ? 0 : 1].sinks;
+    const std::vector<SinkCluster> sought = sink_clusters(by_flux.field()->problem, by_flux.field()->phi);
+    ASSERT_EQ(sought.size(), 1U);
+    EXPECT_EQ(sought[0].sinks, larger);
+    const auto ends_there = [&](const Pose& end) {
+      return std::count(larger.begin(), larger.end(), map.frame().cell_of(end.translation())) == 1;
+    };
+    EXPECT_TRUE(ends_there(plan.goal.pose));
+    const Eigen::Vector3d steepest_end = steepest.field()->streamline.back();
+    other_ways += ends_there(Pose(Eigen::Translation3d(steepest_end))) ? 0U : 1U;
+    ++places;
+  });
+  EXPECT_EQ(places, 60U);
+  EXPECT_GE(other_ways, 1U) << "where the streamline would have led to the smaller";
+}
+
 TEST(HarmonicPlanner, APlatformThatKeepsItsHeightSolvesInThePlane) {
   const OccupancyMap map = box_with_opening();
   const Pose current = pose_looking({0.5, 0.5, 1.1}, 0.0);
@@ -274,6 +311,33 @@ Travelled explore_room(const HarmonicStrategy& strategy) {
   }
   run.free_cells = map.counts().free;
   return run;
+}
+
+// What it keeps of a map from plan to plan follows the map: one that gets a copy each time plans the same.
+TEST(HarmonicPlanner, KeepsNothingThatTheMapHasOutgrown) {
+  constexpr VoxelBox kRoom{{0, 0, 0}, {16, 16, 10}};
+  GridWorld world{VoxelFrame{0.2}, VoxelGrid<std::uint8_t>(kRoom)};
+  const PlannerSetup setup = setup_with(RangeSensor::pinhole(64, 48, 1.0, 0.75, 0.4, 4.0));
+  OccupancyMap map({.resolution_m = 0.2, .region = Box{{-0.2, -0.2, -0.2}, {3.4, 3.4, 2.2}}});
+  Pose pose = pose_looking({1.5, 1.5, 1.1}, 0.0);
+  map.assume_free(Box{{1.15, 1.15, 0.75}, {1.85, 1.85, 1.45}});
+  HarmonicPlanner follows(setup);
+  HarmonicPlanner starts_anew(setup);
+  std::size_t views = 0;
+  for (Outcome outcome = Outcome::Move; outcome == Outcome::Move && views < 100; ++views) {
+    map.insert(world.scan(setup.sensor, pose));
+    const OccupancyMap copy = map;
+    const Plan plan = follows.plan(map, pose);
+    const Plan same = starts_anew.plan(copy, pose);
+    ASSERT_EQ(plan.outcome, same.outcome) << views;
+    ASSERT_EQ(plan.path.size(), same.path.size()) << views;
+    EXPECT_EQ(plan.goal.pose.matrix(), same.goal.pose.matrix()) << views;
+    EXPECT_EQ(plan.sought, same.sought) << views;
+    outcome = plan.outcome;
+    pose = plan.goal.pose;
+  }
+  EXPECT_GE(views, 20U);
+  EXPECT_LT(views, 100U);
 }
 
 TEST(HarmonicPlanner, ANarrowSensorLooksAllAroundBeforeItMovesOn) {
