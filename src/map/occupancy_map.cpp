@@ -171,16 +171,17 @@ std::size_t OccupancyMap::memory_bytes() const {
   return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * (sizeof(Stored) + sizeof(void*));
 }
 
-std::vector<VoxelIndex> OccupancyMap::changed_since(Revision revision) const {
+void OccupancyMap::require_past(Revision revision) const {
   if (revision > revision_) {
     throw std::invalid_argument("changed_since(" + std::to_string(revision) + "): the map is only at revision " +
                                 std::to_string(revision_));
   }
+}
+
+std::vector<VoxelIndex> OccupancyMap::changed_since(Revision revision) const {
   std::vector<VoxelIndex> changed;
-  for (BrickDirectory::Number number = newest_; number != BrickDirectory::kNone && bricks_[number].changed > revision;
-       number = bricks_[number].older) {
-    changed.push_back(bricks_[number].address);
-  }
+  for_each_changed_since(revision,
+                         [&](const VoxelIndex& address, const Brick& /*brick*/) { changed.push_back(address); });
   return changed;
 }
 

@@ -31,44 +31,110 @@ Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t 
   return (policy == CoarseningPolicy::Max ? largest : sum) >= 0 ? Occupancy::Occupied : Occupancy::Free;
 }
 
-// Rows of words along x, as bits, of a page and kFurthest words around it.
-constexpr std::size_t kRows = 24;
-using Rows = std::array<std::uint32_t, kRows * kRows>;
+void prefetch_planes(const Brick& brick) {
+#if defined(__GNUC__)
+  __builtin_prefetch(brick.known.data());
+  __builtin_prefetch(brick.occupied.data());
+#else
+  (void)brick;
+#endif
+}
+
+// Rows of words along x, as bits, of a page and kFurthest words around it; rows of a plane side by side.
+constexpr std::size_t kSpan = 24;
+constexpr std::size_t kFirstRow = 8;  // row, and plane, of the page
+using Rows = std::array<std::uint32_t, kSpan * kSpan>;
+
+// From the rows of 27 pages, those of lower z, then of lower y, then of lower x first.
+inline void gather(const std::array<const std::array<std::uint8_t, 64>*, 27>& pages, Rows& rows) {
+  for (std::size_t side = 0; side < 9; ++side) {
+    const std::uint8_t* const low = pages[3 * side]->data();
+    const std::uint8_t* const middle = pages[3 * side + 1]->data();
+    const std::uint8_t* const high = pages[3 * side + 2]->data();
+    for (std::size_t z = 0; z < 8; ++z) {
+      std::uint32_t* const to = &rows[(side / 3 * 8 + z) * kSpan + side % 3 * 8];
+      VANTAGE_INDEPENDENT
+      for (std::size_t y = 0; y < 8; ++y) {
+        const std::size_t from = z * 8 + y;
+        to[y] = low[from] | std::uint32_t{middle[from]} << 8U | std::uint32_t{high[from]} << 16U;
+      }
+    }
+  }
+}
 
 // Leaves the bits all of whose 26 neighbours are set, in the planes [from, to); bits at the rim lose their meaning.
 inline void erode(Rows& rows, std::size_t from, std::size_t to) {
-  Rows along_x;
-  Rows along_y{};
-  for (std::size_t i = (from - 1) * kRows; i < (to + 1) * kRows; ++i) {
-    along_x[i] = rows[i] & rows[i] << 1U & rows[i] >> 1U;
+  Rows in_plane;
+  VANTAGE_INDEPENDENT
+  for (std::size_t i = (from - 1) * kSpan + 1; i < (to + 1) * kSpan - 1; ++i) {
+    const std::uint32_t along_y = rows[i - 1] & rows[i] & rows[i + 1];
+    in_plane[i] = along_y & along_y << 1U & along_y >> 1U;
   }
-  for (std::size_t i = (from - 1) * kRows + 1; i + 1 < (to + 1) * kRows; ++i) {
-    along_y[i] = along_x[i - 1] & along_x[i] & along_x[i + 1];
+  VANTAGE_INDEPENDENT
+  for (std::size_t i = from * kSpan + 1; i < to * kSpan - 1; ++i) {
+    rows[i] = in_plane[i - kSpan] & in_plane[i] & in_plane[i + kSpan];
   }
-  for (std::size_t i = from * kRows; i < to * kRows; ++i) {
-    rows[i] = along_y[i - kRows] & along_y[i] & along_y[i + kRows];
+}
+
+// Bit x of byte k becomes bit k of byte x.
+inline std::uint64_t transposed(std::uint64_t bits) {
+  std::uint64_t moves = (bits ^ bits >> 7U) & 0x00AA00AA00AA00AAU;
+  bits ^= moves ^ moves << 7U;
+  moves = (bits ^ bits >> 14U) & 0x0000CCCC0000CCCCU;
+  bits ^= moves ^ moves << 14U;
+  moves = (bits ^ bits >> 28U) & 0x00000000F0F0F0F0U;
+  return bits ^ moves ^ moves << 28U;
+}
+
+// How many bits of every byte are set.
+inline std::uint64_t bits_of_bytes(std::uint64_t bytes) {
+  bytes -= bytes >> 1U & 0x5555555555555555U;
+  bytes = (bytes & 0x3333333333333333U) + (bytes >> 2U & 0x3333333333333333U);
+  return (bytes + (bytes >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
+}
+
+// A bit for every byte that is not zero; bytes are at most 15.
+inline std::uint8_t bytes_set(std::uint64_t bytes) {
+  const std::uint64_t tops = (bytes + 0x7F7F7F7F7F7F7F7FU) & 0x8080808080808080U;
+  return static_cast<std::uint8_t>((tops >> 7U) * 0x0102040810204080U >> 56U);
+}
+
+// Whether any of these words of a page lies at its border to the page next to it on this side.
+bool meet(const std::array<std::uint8_t, 64>& words, const VoxelIndex& side) {
+  const auto first = [](std::int32_t along) { return along > 0 ? std::size_t{7} : std::size_t{0}; };
+  const auto last = [](std::int32_t along) { return along < 0 ? std::size_t{0} : std::size_t{7}; };
+  unsigned met = 0;
+  for (std::size_t z = first(side.z); z <= last(side.z); ++z) {
+    for (std::size_t y = first(side.y); y <= last(side.y); ++y) {
+      met |= words[z * 8 + y];
+    }
   }
+  return (met & (side.x < 0 ? 0x01U : side.x > 0 ? 0x80U : 0xFFU)) != 0;
 }
 
 }  // namespace
 
 std::size_t BlockingGrid::update(const OccupancyMap& map) {
+  struct Changed {
+    VoxelIndex address;
+    const Brick* brick;
+  };
   // The mean of a coarser cell may change its sign while no finest cell changes its state.
   const bool by_mean = level_ > 0 && policy_ == CoarseningPolicy::Mean && map.revision() != revision_;
-  const std::vector<VoxelIndex> changed = map.changed_since(by_mean ? 0 : revision_);
+  std::vector<Changed> changed;
   VoxelBox pages;
-  for (const VoxelIndex& brick : changed) {
-    const VoxelBox words = words_of_brick(brick);
-    const VoxelIndex page = page_address(words.lo);
+  map.for_each_changed_since(by_mean ? 0 : revision_, [&](const VoxelIndex& address, const Brick& brick) {
+    changed.push_back({address, &brick});
+    const VoxelIndex page = page_address(words_of_brick(address).lo);
     pages = detail::box_around(pages, {page, page + VoxelIndex{1, 1, 1}});
-  }
+    prefetch_planes(brick);
+  });
   reach(pages);
-  for (const VoxelIndex& address : changed) {
-    const Brick& brick = *map.find_brick(address);
+  for (const Changed& one : changed) {
     if (level_ == 0) {
-      take_brick(address, brick);
+      take_brick(one.address, *one.brick);
     } else {
-      take_coarse(map, address, brick);
+      take_coarse(map, one.address, *one.brick);
     }
   }
   refresh_distances();
@@ -112,16 +178,20 @@ BlockingGrid::Page& BlockingGrid::writable_page(const VoxelIndex& page) {
   return *place;
 }
 
-void BlockingGrid::write(Page& page, std::size_t offset, std::uint64_t blocking, std::uint64_t occupied) {
-  const bool was_free = page.blocking[offset] == 0;
-  page.blocking[offset] = blocking;
-  page.occupied[offset] = occupied;
-  if ((blocking == 0) != was_free) {
-    page.free_words[offset >> 3U] ^= static_cast<std::uint8_t>(1U << (offset & 7U));
-    if (!page.stale) {
-      page.stale = true;
-      stale_.push_back(&page);
-    }
+void BlockingGrid::make_stale(Page& page) {
+  if (!page.stale) {
+    page.stale = true;
+    stale_.push_back(&page);
+  }
+}
+
+// Takes note of whether a word stops nothing.
+void BlockingGrid::set_free(Page& page, const VoxelIndex& word, bool is_free) {
+  std::uint8_t& row = page.free_words[row_in_page(word)];
+  const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(word.x & 7));
+  if (((row & bit) != 0) != is_free) {
+    row ^= bit;
+    make_stale(page);
   }
 }
 
@@ -129,12 +199,15 @@ void BlockingGrid::write(Page& page, std::size_t offset, std::uint64_t blocking,
 void BlockingGrid::take_brick(const VoxelIndex& address, const Brick& brick) {
   const VoxelIndex first = words_of_brick(address).lo;
   Page& page = writable_page(page_address(first));
-  const std::size_t offset = offset_in_page(first);
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const std::size_t at = offset + (word & 1U) + (word >> 1U & 1U) * 8 + (word >> 2U) * 64;
-    const std::uint64_t blocking = ~brick.free(word);
-    if (page.blocking[at] != blocking || page.occupied[at] != brick.occupied[word]) {
-      write(page, at, blocking, brick.occupied[word]);
+  std::uint64_t* const blocking = &page.blocking[offset_in_page(first)];
+  std::uint64_t* const occupied = &page.occupied[offset_in_page(first)];
+  for (std::size_t i = 0; i < Brick::kWords; ++i) {
+    const std::uint64_t was = blocking[i];
+    blocking[i] = ~brick.free(i);
+    occupied[i] = brick.occupied[i];
+    if ((blocking[i] == 0) != (was == 0)) {
+      const auto at = static_cast<std::int32_t>(i);
+      set_free(page, first + VoxelIndex{at & 1, at >> 1 & 1, at >> 2}, blocking[i] == 0);
     }
   }
 }
@@ -144,8 +217,9 @@ void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& addres
     const std::uint64_t bit = bit_of(coarse);
     Page& page = writable_page(page_address(word_of(coarse)));
     const std::size_t at = offset_in_page(word_of(coarse));
-    write(page, at, (page.blocking[at] & ~bit) | (state == Occupancy::Free ? 0 : bit),
-          (page.occupied[at] & ~bit) | (state == Occupancy::Occupied ? bit : 0));
+    page.blocking[at] = (page.blocking[at] & ~bit) | (state == Occupancy::Free ? 0 : bit);
+    page.occupied[at] = (page.occupied[at] & ~bit) | (state == Occupancy::Occupied ? bit : 0);
+    set_free(page, word_of(coarse), page.blocking[at] == 0);
   };
   const VoxelIndex cell = Brick::first_cell(address);
   const VoxelIndex first{cell.x >> level_, cell.y >> level_, cell.z >> level_};
@@ -161,13 +235,22 @@ void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& addres
   });
 }
 
-// A word is nearer than kFurthest to those of its own page and the pages around it only.
+// Between a word whose distance changes, as another one begins or ceases to stop rays, and that one lies a chain of
+// neighbours whose distances change too: so pages pass it on across their borders, and no other page is looked at.
 void BlockingGrid::refresh_distances() {
-  std::vector<Page*> affected;
-  for (const Page* page : stale_) {
-    for_each_cell(VoxelBox{page->address, page->address + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& at) {
-      if (pages_box_.contains(at) && table_[place_in_table(at)] != &unseen_) {
-        affected.push_back(table_[place_in_table(at)]);
+  for (std::size_t i = 0; i < stale_.size(); ++i) {  // more may come meanwhile
+    const VoxelIndex address = stale_[i]->address;
+    const RowBits changed = find_distances(*stale_[i]);
+    if (changed == RowBits{}) {
+      continue;
+    }
+    for_each_cell({{-1, -1, -1}, {2, 2, 2}}, [&](const VoxelIndex& side) {
+      const VoxelIndex beside = address + side;
+      if (pages_box_.contains(beside) && meet(changed, side)) {
+        Page* const page = table_[place_in_table(beside)];
+        if (page != &unseen_) {  // in which everything is at distance 0
+          make_stale(*page);
+        }
       }
     });
   }
@@ -175,42 +258,41 @@ void BlockingGrid::refresh_distances() {
     page->stale = false;
   }
   stale_.clear();
-  std::sort(affected.begin(), affected.end());
-  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
-  for (Page* page : affected) {
-    find_distances(*page);
-  }
 }
 
-// The k-th erosion of the free words leaves those with only free words less than k words away.
-void BlockingGrid::find_distances(Page& page) {
-  Rows rows{};
-  for_each_cell({{-1, -1, -1}, {2, 2, 2}}, [&](const VoxelIndex& side) {
-    const std::array<std::uint8_t, 64>& free_words = page_at(page.address + side).free_words;
-    const std::size_t first =
-        static_cast<std::size_t>(side.z + 1) * 8 * kRows + static_cast<std::size_t>(side.y + 1) * 8;
-    for (std::size_t row = 0; row < free_words.size(); ++row) {
-      rows[first + (row >> 3U) * kRows + (row & 7U)] |= std::uint32_t{free_words[row]}
-                                                        << 8U * static_cast<unsigned>(side.x + 1);
-    }
-  });
-  std::array<std::uint32_t, 512> distance{};
+// The k-th erosion of the free words leaves those with only free words less than k words away. Returns the words
+// whose distance has changed.
+BlockingGrid::RowBits BlockingGrid::find_distances(Page& page) const {
+  std::array<const RowBits*, 27> around{};
+  std::size_t next = 0;
+  for_each_cell({{-1, -1, -1}, {2, 2, 2}},
+                [&](const VoxelIndex& side) { around[next++] = &page_at(page.address + side).free_words; });
+  RowBits changed{};
   compiled_for(best_instruction_set(), [&] {
-    for (std::uint8_t k = 1; k <= kFurthest; ++k) {
-      for (std::size_t row = 0; row < 64; ++row) {
-        const std::uint32_t bits = rows[((row >> 3U) + 8) * kRows + (row & 7U) + 8] >> 8U;
-        for (std::uint32_t x = 0; x < 8; ++x) {
-          distance[row * 8 + x] += bits >> x & 1U;
-        }
+    Rows rows;
+    gather(around, rows);
+    std::array<std::uint64_t, kPageRows> survived{};  // byte k of a row: the bits that the k-th erosion leaves
+    for (std::size_t k = 0; k < kFurthest; ++k) {
+      if (k > 0) {
+        erode(rows, k, kSpan - k);  // what lies further out does not reach the page any more
       }
-      if (k < kFurthest) {
-        erode(rows, 1U + k, kRows - 1U - k);  // what lies further out does not reach the page any more
+      std::uint32_t any = 0;
+      for (std::size_t row = 0; row < kPageRows; ++row) {
+        const std::uint32_t left = rows[((row >> 3U) + kFirstRow) * kSpan + (row & 7U) + kFirstRow] >> 8U & 0xFFU;
+        survived[row] |= std::uint64_t{left} << 8U * k;
+        any |= left;
+      }
+      if (any == 0) {
+        break;
       }
     }
+    for (std::size_t row = 0; row < kPageRows; ++row) {
+      const std::uint64_t distance = bits_of_bytes(transposed(survived[row]));
+      changed[row] = bytes_set(distance ^ page.distance[row]);
+      page.distance[row] = distance;
+    }
   });
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    page.distance[i] = static_cast<std::uint8_t>(distance[i]);
-  }
+  return changed;
 }
 
 }  // namespace vantage

@@ -51,9 +51,7 @@ class BlockingGrid {
     return page_of(word).occupied[offset_in_page(word)];
   }
   /// All words less than this many words away along every axis stop nothing; 0: this one stops something.
-  [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) const {
-    return page_of(word).distance[offset_in_page(word)];
-  }
+  [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) const { return page_of(word).distance_of(word); }
   /// State of a cell.
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
     const VoxelIndex word = word_of(cell);
@@ -70,19 +68,31 @@ class BlockingGrid {
  private:
   static constexpr std::int32_t kPageSide = 8;  // words
   static constexpr std::size_t kPageWords = 512;
+  static constexpr std::size_t kPageRows = 64;  // of words along x
+
+  using RowBits = std::array<std::uint8_t, kPageRows>;  // a bit for every word of a row
 
   struct Page {
-    std::array<std::uint64_t, kPageWords> blocking{};
+    std::array<std::uint64_t, kPageWords> blocking{};  // brick by brick, as offset_in_page
     std::array<std::uint64_t, kPageWords> occupied{};
-    std::array<std::uint8_t, kPageWords> distance{};
-    std::array<std::uint8_t, 64> free_words{};  // a bit for every word that stops nothing; a row along x in a byte
+    std::array<std::uint64_t, kPageRows> distance{};  // a byte for every word of a row along x
+    RowBits free_words{};                             // those that stop nothing
     VoxelIndex address;
-    bool stale = false;  // its free words have changed since the distances were found
+    bool stale = false;  // its distances may be wrong
+
+    [[nodiscard]] std::uint8_t distance_of(const VoxelIndex& word) const {
+      return static_cast<std::uint8_t>(distance[row_in_page(word)] >> 8U * static_cast<unsigned>(word.x & 7));
+    }
   };
 
   static VoxelIndex page_address(const VoxelIndex& word) { return {word.x >> 3, word.y >> 3, word.z >> 3}; }
+  // The eight words of a brick lie side by side, in the order of the brick.
   static std::size_t offset_in_page(const VoxelIndex& word) {
-    return static_cast<std::size_t>((word.x & 7) | (word.y & 7) << 3 | (word.z & 7) << 6);
+    return static_cast<std::size_t>((word.x & 1) | (word.y & 1) << 1 | (word.z & 1) << 2 | (word.x & 6) << 2 |
+                                    (word.y & 6) << 4 | (word.z & 6) << 6);
+  }
+  static std::size_t row_in_page(const VoxelIndex& word) {
+    return static_cast<std::size_t>((word.y & 7) | (word.z & 7) << 3);
   }
   [[nodiscard]] std::size_t place_in_table(const VoxelIndex& page) const {
     const VoxelIndex at = page - pages_box_.lo;
@@ -96,12 +106,13 @@ class BlockingGrid {
 
   void reach(const VoxelBox& pages);
   Page& writable_page(const VoxelIndex& page);
-  void write(Page& page, std::size_t offset, std::uint64_t blocking, std::uint64_t occupied);
+  void set_free(Page& page, const VoxelIndex& word, bool is_free);
+  void make_stale(Page& page);
   void take_brick(const VoxelIndex& address, const Brick& brick);
   void take_coarse(const OccupancyMap& map, const VoxelIndex& address, const Brick& brick);
   [[nodiscard]] VoxelBox words_of_brick(const VoxelIndex& address) const;
   void refresh_distances();
-  void find_distances(Page& page);
+  [[nodiscard]] RowBits find_distances(Page& page) const;
 
   int level_;
   CoarseningPolicy policy_;
@@ -126,7 +137,7 @@ class BlockingGrid::Reader {
     return page_of(word).blocking[offset_in_page(word)];
   }
   /// As BlockingGrid::distance.
-  [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) { return page_of(word).distance[offset_in_page(word)]; }
+  [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) { return page_of(word).distance_of(word); }
 
  private:
   const Page& page_of(const VoxelIndex& word) {

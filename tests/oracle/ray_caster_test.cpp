@@ -268,6 +268,39 @@ TEST(RayCaster, DistancesAreThoseToTheNearestWordThatStops) {
   EXPECT_GT(cases, 90'000U);
 }
 
+// Cells and boxes of cells come and go, at all distances and some of them where nothing has been seen.
+TEST(RayCaster, DistancesFollowTheMapAsIfFoundAnew) {
+  std::mt19937 engine(37);
+  std::uniform_int_distribution<std::int32_t> coordinate(-120, 120);
+  std::size_t cases = 0;
+  for (int world = 0; world < 4; ++world) {
+    OccupancyMap map = test::hollow_map(engine, 0.1);
+    BlockingGrid following(0, CoarseningPolicy::Max);
+    following.update(map);
+    for (int step = 0; step < 20; ++step) {
+      for (std::uint32_t i = engine() % 4; i-- > 0;) {
+        const VoxelIndex cell{coordinate(engine), coordinate(engine), coordinate(engine)};
+        const auto edge = static_cast<std::int32_t>(engine() % 3 == 0 ? 1 : 2 + engine() % 40);
+        map.set_log_odds(VoxelBox{cell, cell + VoxelIndex{edge, edge, edge}}, engine() % 3 == 0 ? 2.0 : -2.0);
+      }
+      following.update(map);
+      BlockingGrid anew(0, CoarseningPolicy::Max);
+      anew.update(map);
+      std::size_t differing = 0;
+      for_each_cell({{-45, -45, -45}, {45, 45, 45}}, [&](const VoxelIndex& word) {
+        differing += following.distance(word) != anew.distance(word) ||
+                             following.blocking(word) != anew.blocking(word) ||
+                             following.occupied(word) != anew.occupied(word)
+                         ? 1U
+                         : 0U;
+        ++cases;
+      });
+      ASSERT_EQ(differing, 0U);
+    }
+  }
+  EXPECT_EQ(cases, 80U * 90U * 90U * 90U);
+}
+
 TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
   std::mt19937 engine(36);
   constexpr int kWorlds = test::kSanitized ? 15 : 60;

@@ -159,6 +159,19 @@ class OccupancyMap {
   /// Addresses of the bricks in which a cell changed its state after `revision`, the latest first. Costs what it
   /// returns. Throws std::invalid_argument if `revision` is still to come.
   [[nodiscard]] std::vector<VoxelIndex> changed_since(Revision revision) const;
+  /// Calls `visit(brick address, const Brick&)` for the same bricks in the same order. Errors as changed_since.
+  template <class Visit>
+  void for_each_changed_since(Revision revision, Visit&& visit) const {
+    require_past(revision);
+    for (BrickDirectory::Number number = newest_; number != BrickDirectory::kNone;) {
+      const Stored& stored = bricks_[number];
+      if (stored.changed <= revision) {
+        break;
+      }
+      visit(stored.address, stored.cells);
+      number = stored.older;
+    }
+  }
 
   // --- writing
   // -------------------------------------------------------------------------------------------------------
@@ -195,6 +208,7 @@ class OccupancyMap {
   [[nodiscard]] bool is_clear(const Brick& brick, std::size_t offset) const {
     return brick.at(offset) == Occupancy::Free && !shows_a_hit(brick.log_odds[offset]);
   }
+  void require_past(Revision revision) const;
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
