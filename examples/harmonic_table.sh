@@ -4,9 +4,9 @@
 # one row per planner and setting, medians with quartiles. harmonic_table.sh [PART...], where PART is among paper
 # baselines ablation kinect stereo (default: paper baselines ablation). Needs a built program (VANTAGE=path names
 # another). MAX_VIEWS is the budget of a run, SHARES="0.95 0.99" the coverage at which its path is given, JOBS how many
-# runs go on at a time. EVERY=N thins the images of kinect and stereo to every N-th pixel both ways, to save time: at 4,
-# neighbours are 5 cm apart at the end of the range. Reports that lie in the folder RESULTS (default:
-# build/harmonic-table) already are not made again.
+# runs go on at a time. Reports that lie in the folder RESULTS (default: build/harmonic-table) already are not made again.
+# Of kinect and stereo: PLANNERS="harmonic frontier-gain nearest-frontier" are the rows; EVERY=N thins the images to every
+# N-th pixel both ways, to save time (at 4, neighbours are 5 cm apart where the range ends).
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 vantage=${VANTAGE:-$here/build/release/bin/vantage}
@@ -15,6 +15,7 @@ seeds=${SEEDS:-$(seq 1 20)}
 jobs=${JOBS:-2}
 max_views=${MAX_VIEWS:-1000}
 every=${EVERY:-1}
+planners=${PLANNERS:-harmonic frontier-gain nearest-frontier}
 read -r share_1 share_2 <<< "${SHARES:-0.95 0.99}"
 mkdir -p "$results"
 
@@ -103,12 +104,16 @@ thinned() {
 
 # sensor_rows SENSOR: the planners beside each other with a narrow sensor.
 sensor_rows() {
-  local sensor
+  local sensor planner
   sensor=$(thinned "$1")
   head_of_table "$1"
-  row 'harmonic' "$1-harmonic" --planner harmonic --sensor "$sensor"
-  row 'frontier-gain, 200 hypotheses' "$1-gain-200" --planner frontier-gain --set hypotheses=200 --sensor "$sensor"
-  row 'nearest-frontier' "$1-nearest" --planner nearest-frontier --sensor "$sensor"
+  for planner in $planners; do
+    if [[ $planner == frontier-gain ]]; then
+      row 'frontier-gain, 200 hypotheses' "$1-gain-200" --planner frontier-gain --set hypotheses=200 --sensor "$sensor"
+    else
+      row "$planner" "$1-$planner" --planner "$planner" --sensor "$sensor"
+    fi
+  done
 }
 
 for part in "${@:-paper baselines ablation}"; do

@@ -62,8 +62,12 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
     return;
   }
   const VoxelIndex viewpoint = map.frame().cell_of(expected_->goal.translation());
-  taken_[map.frame().cell_of(current.translation())].push_back(current);
-  fail(map, viewpoint, expected_->sought);
+  const std::vector<VoxelIndex>& sought = expected_->sought;
+  if (std::any_of(sought.begin(), sought.end(),
+                  [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
+    views_[map.frame().cell_of(current.translation())].push_back(current);
+  }
+  fail(map, viewpoint, sought);
   const std::vector<VoxelIndex>& hoped = expected_->hoped;
   if (std::all_of(hoped.begin(), hoped.end(),
                   [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
@@ -78,9 +82,9 @@ bool FailedViews::failed_from(const VoxelIndex& unknown, const VoxelIndex& viewp
                                                  viewpoint) != failure->second.viewpoints.end();
 }
 
-std::span<const Pose> FailedViews::taken_from(const VoxelIndex& viewpoint) const {
-  const auto taken = taken_.find(viewpoint);
-  return taken == taken_.end() ? std::span<const Pose>() : std::span<const Pose>(taken->second);
+std::span<const Pose> FailedViews::views_from(const VoxelIndex& viewpoint) const {
+  const auto views = views_.find(viewpoint);
+  return views == views_.end() ? std::span<const Pose>() : std::span<const Pose>(views->second);
 }
 
 bool FailedViews::failed_towards(const VoxelIndex& unknown, const VoxelIndex& viewpoint, double within_rad) const {

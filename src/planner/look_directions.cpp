@@ -80,8 +80,9 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
   }
   share_work(looks.size(), static_cast<std::size_t>(scene_.setup.threads),
              [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
-  const auto best =
-      std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.cells < b.cells; });
+  const auto best = std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
+    return a.cells != b.cells ? a.cells < b.cells : a.seen.unknown.size() < b.seen.unknown.size();
+  });
   return best == looks.end() ? std::nullopt : std::optional<Look>(std::move(*best));
 }
 
@@ -107,11 +108,11 @@ double LookDirections::expected_cells(const Pose& pose) const {
   return cells;
 }
 
-// Of an earlier view from here: another does not resolve it either.
+// Of a view from here that failed: another does not resolve it either.
 bool LookDirections::was_in_view(const VoxelIndex& cell) const {
-  const std::span<const Pose> taken = scene_.failed.taken_from(place_);
+  const std::span<const Pose> views = scene_.failed.views_from(place_);
   const Eigen::Vector3d line = scene_.map.frame().centre_of(cell) - position_;
-  return std::any_of(taken.begin(), taken.end(),
+  return std::any_of(views.begin(), views.end(),
                      [&](const Pose& pose) { return scene_.setup.sensor.in_view(pose.linear().transpose() * line); });
 }
 

@@ -40,9 +40,9 @@ class FailedViews {
   [[nodiscard]] bool failed(const VoxelIndex& unknown) const { return failures_.count(unknown) != 0; }
   /// Whether views of this unknown cell have failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
-  /// The views that `review` has found taken from within this cell, as they were announced or nearly so. What a
-  /// sensor had in view from there and did not resolve, it will not resolve from there next time.
-  [[nodiscard]] std::span<const Pose> taken_from(const VoxelIndex& viewpoint) const;
+  /// The views from within this cell that left some of what they sought unresolved. What a sensor had in view there
+  /// and did not resolve, it will not resolve from there next time.
+  [[nodiscard]] std::span<const Pose> views_from(const VoxelIndex& viewpoint) const;
   /// How many cells have failed at least once.
   [[nodiscard]] std::size_t size() const { return failures_.size(); }
 
@@ -64,7 +64,7 @@ class FailedViews {
   KnownMap map_;  // that was reviewed last
   OccupancyMap::Revision reviewed_ = 0;
   std::unordered_map<VoxelIndex, Failures> failures_;
-  std::unordered_map<VoxelIndex, std::vector<Pose>> taken_;
+  std::unordered_map<VoxelIndex, std::vector<Pose>> views_;  // that failed, by place
 };
 
 }  // namespace vantage

@@ -58,7 +58,7 @@ TEST(FailedViews, FailsTowardsAllThatLieInTheSameDirection) {
   }
 }
 
-TEST(FailedViews, RemembersTheViewsThatWereTaken) {
+TEST(FailedViews, RemembersTheViewsThatFailed) {
   OccupancyMap map = slab_before_the_unknown();
   FailedViews failed;
   const VoxelIndex place{2, 5, 5};
@@ -71,11 +71,18 @@ TEST(FailedViews, RemembersTheViewsThatWereTaken) {
     const Pose taken = pose_looking(position + Eigen::Vector3d(0.02, 0.0, 0.0), yaw_rad + 0.05);
     failed.review(map, taken);
     failed.review(map, taken);
-    const std::span<const Pose> views = failed.taken_from(place);
+    const std::span<const Pose> views = failed.views_from(place);
     ASSERT_EQ(views.size(), static_cast<std::size_t>(yaw_rad) + 1U);
     EXPECT_EQ(views.back().matrix(), taken.matrix());
   }
-  EXPECT_TRUE(failed.taken_from({2, 5, 6}).empty());
+  EXPECT_TRUE(failed.views_from({2, 5, 6}).empty());
+
+  const VoxelIndex elsewhere{2, 5, 7};
+  const Pose succeeds = pose_looking(map.frame().centre_of(elsewhere), 0.0);
+  failed.expect(map, succeeds, {kUnknown});
+  map.set(kUnknown, Occupancy::Free);
+  failed.review(map, succeeds);
+  EXPECT_TRUE(failed.views_from(elsewhere).empty());
 }
 
 TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {
