@@ -24,6 +24,16 @@ VANTAGE_TARGET_AVX512 std::uint64_t equal_avx512(const RayBlock::PerRay<std::int
   return equal;
 }
 
+VANTAGE_TARGET_AVX512 std::uint64_t changes_avx512(const RayBlock::PerRay<std::int32_t>& values) {
+  std::uint64_t changes = 1;
+  for (const std::size_t first : {0U, 16U, 32U, 47U}) {  // the last sixteen pairs overlap
+    const __m512i some = _mm512_loadu_si512(&values[first]);
+    const __m512i next = _mm512_loadu_si512(&values[first + 1]);
+    changes |= std::uint64_t{_mm512_cmpneq_epi32_mask(some, next)} << (first + 1);
+  }
+  return changes;
+}
+
 VANTAGE_TARGET_AVX512 std::pair<double, double> range_avx512(const RayBlock::PerRay<double>& values,
                                                              std::uint64_t active) {
   __m512d least = _mm512_set1_pd(kLarge);
@@ -71,6 +81,17 @@ VANTAGE_TARGET_AVX2 std::uint64_t equal_avx2(const RayBlock::PerRay<std::int32_t
   return equal;
 }
 
+VANTAGE_TARGET_AVX2 std::uint64_t changes_avx2(const RayBlock::PerRay<std::int32_t>& values) {
+  std::uint64_t changes = 1;
+  for (const std::size_t first : {0U, 8U, 16U, 24U, 32U, 40U, 48U, 55U}) {  // the last eight pairs overlap
+    const __m256i some = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&values[first]));
+    const __m256i next = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&values[first + 1]));
+    const auto same = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(some, next))));
+    changes |= std::uint64_t{~same & 255U} << (first + 1);
+  }
+  return changes;
+}
+
 #endif
 
 }  // namespace
@@ -90,6 +111,23 @@ std::uint64_t equal_to(const RayBlock::PerRay<std::int32_t>& values, std::int32_
     equal |= static_cast<std::uint64_t>(values[i] == value) << i;
   }
   return equal;
+}
+
+std::uint64_t changes_of(const RayBlock::PerRay<std::int32_t>& values, InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::Avx512) {
+    return changes_avx512(values);
+  }
+  if (set == InstructionSet::Avx2) {
+    return changes_avx2(values);
+  }
+#endif
+  (void)set;
+  std::uint64_t changes = 1;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    changes |= static_cast<std::uint64_t>(values[i] != values[i - 1]) << i;
+  }
+  return changes;
 }
 
 std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active, InstructionSet set) {

@@ -12,6 +12,9 @@ namespace vantage {
 [[nodiscard]] std::uint64_t equal_to(const RayBlock::PerRay<std::int32_t>& values, std::int32_t value,
                                      InstructionSet set);
 
+/// The rays with another value than the ray before them, a bit for each; the first is one.
+[[nodiscard]] std::uint64_t changes_of(const RayBlock::PerRay<std::int32_t>& values, InstructionSet set);
+
 /// The least and the largest of the values of the `active` rays.
 [[nodiscard]] std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active,
                                                  InstructionSet set);

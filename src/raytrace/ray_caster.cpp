@@ -3,7 +3,8 @@
 #include <bit>
 #include <cmath>
 #include <raytrace/blocking_grid.hpp>
-#include <raytrace/lane_queries.hpp>
+#include <raytrace/box_culling.hpp>
+#include <raytrace/free_cone.hpp>
 #include <raytrace/single_walk.hpp>
 #include <raytrace/tile_walk.hpp>
 #include <raytrace/view_placer.hpp>
@@ -37,130 +38,6 @@ RayCasterOptions validated(const RayCasterOptions& options) {
                          "in [0, 16]");
   return options;
 }
-
-// Which rays of a view can meet a box at all.
-class BoxCulling {
- public:
-  BoxCulling(const Pose& world_from_sensor, const Box& box) : origin_(world_from_sensor.translation()), box_(box) {
-    // Far more than rounding can move a ray, far less than a cell.
-    const double margin =
-        1e-9 * (1.0 + origin_.cwiseAbs().maxCoeff() + box.min.cwiseAbs().maxCoeff() + box.max.cwiseAbs().maxCoeff());
-    box_.min.array() -= margin;
-    box_.max.array() += margin;
-    const Eigen::Vector3d to_centre = box_.centre() - origin_;
-    const double distance = to_centre.norm();
-    const double radius = 0.5 * box_.extent().norm();
-    inside_sphere_ = distance <= radius;
-    if (!inside_sphere_) {
-      axis_ = world_from_sensor.linear().transpose() * to_centre / distance;
-      sin_ = radius / distance;
-      cos_ = std::sqrt(1.0 - sin_ * sin_);
-      find_outline(world_from_sensor.linear());
-    }
-  }
-
-  // Whether a cone of rays may meet the box: it meets the cone around the sphere around the box, and is not all on
-  // the outer side of a plane through the origin and an edge of the outline of the box.
-  [[nodiscard]] bool may_meet(const RayCone& cone) const {
-    if (inside_sphere_ || cone.cos_half_angle <= 0.0) {
-      return true;
-    }
-    const double sin_of_sum = cone.sin_half_angle * cos_ + cone.cos_half_angle * sin_;
-    const double cos_of_sum = cone.cos_half_angle * cos_ - cone.sin_half_angle * sin_;
-    if (sin_of_sum > 0.0 && cone.axis.dot(axis_) < cos_of_sum) {
-      return false;
-    }
-    for (std::size_t i = 0; i < edges_; ++i) {
-      constexpr double kFlat = 1e-9;
-      if (cone.axis.dot(outwards_[i]) > cone.sin_half_angle + kFlat) {
-        return false;
-      }
-    }
-    return true;
-  }
-  // The tiles of a view that may.
-  [[nodiscard]] std::vector<const RayTile*> meeting(const ViewRays& rays) const {
-    std::vector<const RayTile*> tiles;
-    for (std::size_t i = 0; i < rays.tiles().size(); ++i) {
-      if (may_meet(rays.cones()[i])) {
-        tiles.push_back(&rays.tiles()[i]);
-      }
-    }
-    return tiles;
-  }
-  // The rays of a block, placed, that pass through the box.
-  [[nodiscard]] std::uint64_t meeting(const RayBlock& block) const {
-    RayBlock::PerRay<std::int32_t> flags;
-    const double* const end_x = block.end[0].data();
-    const double* const end_y = block.end[1].data();
-    const double* const end_z = block.end[2].data();
-    compiled_for(best_instruction_set(),
-                 [=, &flags, lo = Eigen::Vector3d(box_.min - origin_), hi = Eigen::Vector3d(box_.max - origin_),
-                  origin = origin_, parallel = 1e-12] {
-                   std::int32_t* const meets = flags.data();
-                   VANTAGE_INDEPENDENT
-                   for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-                     const Share x(lo.x(), hi.x(), end_x[i] - origin.x(), parallel);
-                     const Share y(lo.y(), hi.y(), end_y[i] - origin.y(), parallel);
-                     const Share z(lo.z(), hi.z(), end_z[i] - origin.z(), parallel);
-                     const double enters_xy = x.enters > y.enters ? x.enters : y.enters;
-                     const double leaves_xy = x.leaves < y.leaves ? x.leaves : y.leaves;
-                     const double enters = enters_xy > z.enters ? enters_xy : z.enters;
-                     const double leaves = leaves_xy < z.leaves ? leaves_xy : z.leaves;
-                     meets[i] = static_cast<std::int32_t>(enters <= leaves) &
-                                static_cast<std::int32_t>(enters <= 1.0) & static_cast<std::int32_t>(leaves >= 0.0);
-                   }
-                 });
-    return equal_to(flags, 1, best_instruction_set());
-  }
-
- private:
-  // The part of a ray, of which 1 is all, that lies between two planes across an axis.
-  struct Share {
-    Share(double lo, double hi, double extent, double parallel) {
-      const double per_unit = 1.0 / (std::abs(extent) < parallel ? parallel : extent);
-      const double to_lo = lo * per_unit;
-      const double to_hi = hi * per_unit;
-      enters = to_lo < to_hi ? to_lo : to_hi;
-      leaves = to_lo < to_hi ? to_hi : to_lo;
-    }
-    double enters;
-    double leaves;
-  };
-
-  // The edges at which a side of the box that looks at the origin meets one that does not.
-  void find_outline(const Eigen::Matrix3d& world_from_sensor) {
-    const auto side = [&](Eigen::Index axis, bool upper) {
-      return (upper ? box_.max : box_.min)[axis] - origin_[axis];
-    };
-    const auto looks = [&](Eigen::Index axis, bool upper) { return side(axis, upper) * (upper ? 1.0 : -1.0) < 0.0; };
-    const Eigen::Vector3d to_centre = box_.centre() - origin_;
-    for (Eigen::Index along = 0; along < 3; ++along) {
-      const Eigen::Index a = (along + 1) % 3;
-      const Eigen::Index b = (along + 2) % 3;
-      for (unsigned edge = 0; edge < 4; ++edge) {
-        const bool upper_a = (edge & 1U) != 0;
-        const bool upper_b = (edge & 2U) != 0;
-        if (looks(a, upper_a) != looks(b, upper_b)) {
-          Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-          normal[a] = side(b, upper_b);
-          normal[b] = -side(a, upper_a);
-          normal *= (normal.dot(to_centre) > 0.0 ? -1.0 : 1.0) / normal.norm();
-          outwards_[edges_++] = world_from_sensor.transpose() * normal;
-        }
-      }
-    }
-  }
-
-  Eigen::Vector3d origin_;
-  Box box_;
-  bool inside_sphere_ = false;
-  std::size_t edges_ = 0;                            // of the outline
-  std::array<Eigen::Vector3d, 6> outwards_;          // across planes through them and the origin, in the sensor frame
-  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  // to the centre of the box, in the sensor frame
-  double cos_ = -1.0;                                // of the cone around the box
-  double sin_ = 0.0;
-};
 
 }  // namespace
 
@@ -201,7 +78,7 @@ void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays, std::s
   const ViewPlacer placer(world_from_sensor, rays, frame_);
   TileWalk walk(*grid_, frame_, world_from_sensor.translation(), best_instruction_set());
   RayBlock block;
-  TileHits hits;
+  TileHits hits(best_instruction_set());
   VoxelIndex last;
   std::uint64_t occupied = grid_->occupied(BlockingGrid::word_of(last));
   for (std::size_t n = 0; n < rays.tiles().size(); ++n) {
@@ -211,7 +88,8 @@ void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays, std::s
       __builtin_prefetch(&ends[tile.ray[i]], 1);
     }
     placer.place_ends(tile, block);
-    walk.walk(block, tile.rays, kEverywhere, hits);
+    hits.stopped = 0;
+    walk.walk(block, tile.rays, kEverywhere, 0.0, hits);
     std::uint64_t left = tile.rays & ~hits.stopped;
     if (left != 0) {
       placer.place_cells(block);
@@ -243,25 +121,35 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
   if (box.empty()) {
     return seen;
   }
+  const InstructionSet set = best_instruction_set();
   const ViewPlacer placer(world_from_sensor, rays, frame_);
-  const BoxCulling culling(world_from_sensor, frame_.box_of(box));
-  TileWalk walk(*grid_, frame_, world_from_sensor.translation(), best_instruction_set());
+  const BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
+  FreeCone free_cone(*grid_, frame_, world_from_sensor);
+  TileWalk walk(*grid_, frame_, world_from_sensor.translation(), set);
+  CellStamps stamps(seen, set);
   RayBlock block;
-  TileHits hits;
-  const std::vector<const RayTile*> tiles = culling.meeting(rays);
-  for (std::size_t n = 0; n < tiles.size(); ++n) {
-    const RayTile& tile = *tiles[n];
-    prefetch(*tiles[std::min(n + 1, tiles.size() - 1)]);
-    placer.place_ends(tile, block);
-    const std::uint64_t meeting = culling.meeting(block) & tile.rays;
-    if (meeting == 0) {
+  for (const TileGroup& group : rays.groups()) {
+    const Meeting of_group = culling.meeting(group.cone);
+    if (of_group == Meeting::None) {
       continue;
     }
-    walk.walk(block, meeting, box, hits);
-    for (std::uint64_t left = hits.stopped; left != 0;) {
-      const VoxelIndex cell = hits.cell_at(static_cast<std::size_t>(std::countr_zero(left)));
-      seen.insert(cell);
-      left &= ~hits.stopped_by(cell, best_instruction_set());
+    const double free_m = free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
+    if (free_m >= culling.furthest_m()) {
+      continue;
+    }
+    const double free_share = std::min(free_m / rays.max_range_m(), 1.0);
+    for (std::size_t i = group.first; i < group.last; ++i) {
+      const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(rays.cones()[i]);
+      if (meeting == Meeting::None) {
+        continue;
+      }
+      const RayTile& tile = rays.tiles()[i];
+      prefetch(rays.tiles()[std::min(i + 1, group.last - 1)]);
+      placer.place_ends(tile, block);
+      const std::uint64_t of_box = meeting == Meeting::All ? tile.rays : culling.meeting(block) & tile.rays;
+      if (of_box != 0) {
+        walk.walk(block, of_box, box, free_share, stamps);
+      }
     }
   }
   if (frame_.box_of(box).distance_to(world_from_sensor.translation()) < rays.min_range_m()) {

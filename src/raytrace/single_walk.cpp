@@ -2,7 +2,6 @@
 #include <raytrace/single_walk.hpp>
 
 namespace vantage {
-namespace {}  // namespace
 
 SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& first,
                        const Eigen::Vector3d& to, const VoxelIndex& last)

@@ -30,4 +30,12 @@ inline std::uint64_t swap_index_bits(std::uint64_t word) {
   return major == 2 ? word : swap_index_bits<2, 4>(swap_index_bits<3, 5>(word));
 }
 
+/// The inverse of `in_slices`.
+[[nodiscard]] inline std::uint64_t from_slices(std::uint64_t word, std::size_t major) {
+  if (major != 2) {
+    word = swap_index_bits<2, 4>(swap_index_bits<3, 5>(word));
+  }
+  return major == 0 ? swap_index_bits<0, 2>(swap_index_bits<1, 3>(word)) : word;
+}
+
 }  // namespace vantage

@@ -8,6 +8,8 @@
 #include <raytrace/single_walk.hpp>
 #include <raytrace/sliced_word.hpp>
 #include <raytrace/tile_walk.hpp>
+#include <raytrace/word_rows.hpp>
+#include <span>
 #include <vantage/geometry/voxel_ray.hpp>
 
 namespace vantage {
@@ -25,6 +27,12 @@ std::int32_t round_down(double value) {
 constexpr double kRoundingCells = 1e-6;
 static_assert(kRoundingCells * SliceLanes::kCell + 10 < SliceLanes::kDoubt);
 
+// The slices of a word (in_slices) in the opposite order.
+inline std::uint64_t reversed(std::uint64_t slices) {
+  slices = slices << 32U | slices >> 32U;
+  return (slices & 0x0000FFFF0000FFFFU) << 16U | (slices >> 16U & 0x0000FFFF0000FFFFU);
+}
+
 struct Limits {
   double least;
   double most;
@@ -38,22 +46,6 @@ struct Limits {
 
 }  // namespace
 
-std::uint64_t TileHits::stopped_by(const VoxelIndex& by, InstructionSet set) const {
-  const std::int32_t* const x = cell[0].data();
-  const std::int32_t* const y = cell[1].data();
-  const std::int32_t* const z = cell[2].data();
-  RayBlock::PerRay<std::int32_t> differences;
-  compiled_for(set, [=, &differences] {
-    const VoxelIndex of = by;
-    std::int32_t* const differs = differences.data();
-    VANTAGE_INDEPENDENT
-    for (std::size_t i = 0; i < kRays; ++i) {
-      differs[i] = (x[i] ^ of.x) | (y[i] ^ of.y) | (z[i] ^ of.z);
-    }
-  });
-  return equal_to(differences, 0, set) & stopped;
-}
-
 TileWalk::TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin,
                    InstructionSet set)
     : grid_(grid), reader_(grid), frame_(frame), set_(set), origin_(origin), first_(frame.cell_of(origin)) {
@@ -63,10 +55,11 @@ TileWalk::TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eige
   }
 }
 
-void TileWalk::walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, TileHits& hits) {
-  hits.stopped = 0;
+void TileWalk::walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, double free_share,
+                    HitSink& hits) {
   singly_ = 0;
   within_ = within;
+  free_share_ = free_share;
   measure(block);
   while (rays != 0) {
     const std::uint64_t of_class = take_class(rays);
@@ -119,18 +112,18 @@ std::uint64_t TileWalk::take_class(std::uint64_t rays) {
     }
   });
   const std::int32_t chosen = kinds[static_cast<std::size_t>(std::countr_zero(rays))];
-  major_ = static_cast<std::size_t>(chosen / 2);
-  u_ = major_ == 0 ? 1 : 0;
-  v_ = major_ == 2 ? 1 : 2;
-  up_ = chosen % 2 == 1;
-  from_entry_ = up_ ? within_first_[major_] : 1.0 - within_first_[major_];
+  place_.major = static_cast<std::size_t>(chosen / 2);
+  place_.u = place_.major == 0 ? 1 : 0;
+  place_.v = place_.major == 2 ? 1 : 2;
+  place_.up = chosen % 2 == 1;
+  from_entry_ = place_.up ? within_first_[place_.major] : 1.0 - within_first_[place_.major];
   return equal_to(kinds, chosen, set_) & rays;
 }
 
-void TileWalk::walk_class(std::uint64_t rays, TileHits& hits) {
-  const double* const extent_u = extent_[u_].data();
-  const double* const extent_v = extent_[v_].data();
-  double* const extent_m = extent_[major_].data();
+void TileWalk::walk_class(std::uint64_t rays, HitSink& hits) {
+  const double* const extent_u = extent_[place_.u].data();
+  const double* const extent_v = extent_[place_.v].data();
+  double* const extent_m = extent_[place_.major].data();
   double* const slope_u = slope_[0].data();
   double* const slope_v = slope_[1].data();
   compiled_for(set_, [=] {
@@ -141,23 +134,25 @@ void TileWalk::walk_class(std::uint64_t rays, TileHits& hits) {
       slope_v[i] = extent_v[i] * per_cell;
     }
   });
-  const auto [least, most] = range_of(extent_[major_], rays, set_);
-  nearest_end_ = up_ ? least : -most;
+  const auto [least, most] = range_of(extent_[place_.major], rays, set_);
+  nearest_end_ = place_.up ? least : -most;
   if (!(nearest_end_ > kRoundingCells)) {
     singly_ |= rays;
     return;
   }
-  furthest_end_ = up_ ? most : -least;
-  follow(rays, 0, hits);
+  furthest_end_ = place_.up ? most : -least;
+  const double free_cells = free_share_ * nearest_end_ - kRoundingCells;
+  const auto first = static_cast<std::int64_t>(std::max(free_cells + from_entry_, 0.0));
+  follow(rays, free_cells > 0.0 ? first : 0, hits);
 }
 
 // The rays of a class as one beam from this slice on.
-void TileWalk::follow(std::uint64_t active, std::int64_t beam, TileHits& hits) {
+void TileWalk::follow(std::uint64_t active, std::int64_t beam, HitSink& hits) {
   const std::int64_t last = last_slice();
   Spread spread = spread_of(active);
   while (active != 0 && beam <= last) {
-    const std::int32_t along = first_cell_[major_] + static_cast<std::int32_t>(up_ ? beam : -beam);
-    std::int32_t count = up_ ? 4 - (along & 3) : (along & 3) + 1;
+    const std::int32_t along = first_cell_[place_.major] + static_cast<std::int32_t>(place_.up ? beam : -beam);
+    std::int32_t count = place_.up ? 4 - (along & 3) : (along & 3) + 1;
     const Window window = window_of(spread, beam, beam + count - 1);
     const Window words{{window.lo[0] >> 2, window.lo[1] >> 2}, {window.hi[0] >> 2, window.hi[1] >> 2}};
     const std::int32_t layers = free_layers(words, along >> 2);
@@ -186,7 +181,7 @@ void TileWalk::follow(std::uint64_t active, std::int64_t beam, TileHits& hits) {
 }
 
 // Takes rays through the windows; false: none has left the beam.
-bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, TileHits& hits) {
+bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, HitSink& hits) {
   const double enters = entered_at(slice);
   const double leaves = entered_at(slice + static_cast<std::int64_t>(windows_.count));
   const std::uint64_t before = active;
@@ -200,7 +195,9 @@ bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, TileHits& hits) 
   of_slices.where.fill(-1);
   walk_slices(lanes_, windows_, active, of_slices, set_);
   end_rays(ending, slice, of_slices);
-  take_hits(of_slices, slice, hits);
+  if (of_slices.stopped != 0) {
+    hits.take(of_slices, place_);
+  }
   singly_ |= of_slices.doubtful;
   active &= ~(of_slices.stopped | of_slices.doubtful | ending);
   return active != before;
@@ -212,42 +209,40 @@ void TileWalk::end_rays(std::uint64_t ending, std::int64_t slice, SliceHits& of_
   for (ending &= of_slices.stopped; ending != 0; ending &= ending - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(ending));
     const std::uint64_t ray = std::uint64_t{1} << i;
-    const double end = std::abs(extent_[major_][i]) + from_entry_ - static_cast<double>(slice);
+    const double end = std::abs(extent_[place_.major][i]) + from_entry_ - static_cast<double>(slice);
     const std::int32_t met = of_slices.where[i] >> 9;
     if (static_cast<double>(met + 1) > end - kRoundingCells) {
       of_slices.stopped &= ~ray;
+      of_slices.where[i] = -1;
       of_slices.doubtful |= static_cast<double>(met) < end + kRoundingCells ? ray : 0;
     }
   }
 }
 
-void TileWalk::walk_singly(const RayBlock& block, std::uint64_t rays, TileHits& hits) const {
+void TileWalk::walk_singly(const RayBlock& block, std::uint64_t rays, HitSink& hits) const {
   for (; rays != 0; rays &= rays - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rays));
     const Eigen::Vector3d end(block.end[0][i], block.end[1][i], block.end[2][i]);
     SingleWalk walk(frame_, origin_, first_, end, frame_.cell_of(end));
     if (walk.advance(grid_)) {
-      hits.stopped |= std::uint64_t{1} << i;
-      const VoxelIndex cell = walk.cell();
-      hits.cell[0][i] = cell.x;
-      hits.cell[1][i] = cell.y;
-      hits.cell[2][i] = cell.z;
+      hits.take(i, walk.cell());
     }
   }
 }
 
 // The last slice in which a ray may still meet a cell that is asked for.
 std::int64_t TileWalk::last_slice() const {
-  const std::int32_t first = first_cell_[major_];
+  const std::int32_t first = first_cell_[place_.major];
   const std::array<std::int32_t, 3> lo{within_.lo.x, within_.lo.y, within_.lo.z};
   const std::array<std::int32_t, 3> hi{within_.hi.x, within_.hi.y, within_.hi.z};
-  const std::int64_t of_box = up_ ? std::int64_t{hi[major_]} - 1 - first : std::int64_t{first} - lo[major_];
+  const std::int64_t of_box =
+      place_.up ? std::int64_t{hi[place_.major]} - 1 - first : std::int64_t{first} - lo[place_.major];
   return std::min(of_box, static_cast<std::int64_t>(furthest_end_ + from_entry_ + kRoundingCells));
 }
 
 // The rays that end within this many cells along the major axis.
 std::uint64_t TileWalk::ending_by(double distance) const {
-  const double* const extent = extent_[major_].data();
+  const double* const extent = extent_[place_.major].data();
   RayBlock::PerRay<std::int32_t> flags;
   compiled_for(set_, [=, &flags] {
     std::int32_t* const ends = flags.data();
@@ -266,13 +261,13 @@ double TileWalk::entered_at(std::int64_t slice) const {
 
 // Puts all rays where they are `enters` cells from the origin, going `through` cells in each slice.
 void TileWalk::place_lanes(double enters, double through) {
-  const std::array<std::size_t, 2> axes{u_, v_};
+  const std::array<std::size_t, 2> axes{place_.u, place_.v};
   for (std::size_t lateral = 0; lateral < 2; ++lateral) {
     const std::size_t axis = axes[lateral];
     const double* const slope = slope_[lateral].data();
     std::int32_t* const at = (lateral == 0 ? lanes_.u : lanes_.v).data();
     std::int32_t* const step = (lateral == 0 ? lanes_.step_u : lanes_.step_v).data();
-    const double from = within_first_[axis] + (first_cell_[axis] - window_cell_[lateral]);
+    const double from = within_first_[axis] + (first_cell_[axis] - (lateral == 0 ? place_.first_u : place_.first_v));
     // Rays that are not active may be anywhere. (g++ 12 makes a vector of limits only if it does not know them.)
     const Limits places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
     const Limits steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
@@ -299,7 +294,7 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
   const double enters = entered_at(first);
   const double leaves = entered_at(last + 1);
   Window window{};
-  const std::array<std::size_t, 2> axes{u_, v_};
+  const std::array<std::size_t, 2> axes{place_.u, place_.v};
   for (std::size_t lateral = 0; lateral < 2; ++lateral) {
     const double least = spread.least[lateral];
     const double most = spread.most[lateral];
@@ -316,76 +311,50 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
 // further sideways than forwards.
 std::int32_t TileWalk::free_layers(const Window& words, std::int32_t along) {
   std::int32_t layers = BlockingGrid::kFurthest;
-  for (std::int32_t v = words.lo[1]; v <= words.hi[1] && layers > 0; ++v) {
+  for (std::int32_t v = words.lo[1]; v <= words.hi[1]; ++v) {
     for (std::int32_t u = words.lo[0]; u <= words.hi[0]; ++u) {
-      layers = std::min<std::int32_t>(layers, reader_.distance(word_at(along, u, v)));
+      layers = std::min<std::int32_t>(layers, reader_.distance(place_.at(along, u, v)));
+      if (layers == 0) {
+        return 0;
+      }
     }
   }
   return layers;
 }
 
-// Makes the windows of `count` slices of one layer of words; false: no cell in which rays may be stops them.
+// Makes the windows of `count` slices of one layer of words; false: no cell in which rays may be stops them. (Rows
+// of words beside these are left as they are: no ray comes there.)
 bool TileWalk::fill_windows(const Window& window, std::int64_t slice, std::size_t count) {
-  const std::int32_t along = first_cell_[major_] + static_cast<std::int32_t>(up_ ? slice : -slice);
-  const std::int32_t first_u = window.lo[0] >> 2;
-  const std::int32_t first_v = window.lo[1] >> 2;
+  const std::int32_t along = first_cell_[place_.major] + static_cast<std::int32_t>(place_.up ? slice : -slice);
+  const VoxelIndex lo = place_.at(along >> 2, window.lo[0] >> 2, window.lo[1] >> 2);
   windows_.count = count;
-  windows_.rows = {};
-  window_cell_ = {first_u * 4, first_v * 4};
-  for (std::int32_t v = first_v; v <= window.hi[1] >> 2; ++v) {
-    for (std::int32_t u = first_u; u <= window.hi[0] >> 2; ++u) {
-      const std::uint64_t word = reader_.blocking(word_at(along >> 2, u, v));
-      if (word == 0) {
-        continue;
-      }
-      const std::uint64_t slices = in_slices(word, major_);
-      const auto row = static_cast<std::size_t>(v - first_v) * 4;
-      const auto shift = static_cast<unsigned>(u - first_u) * 4U;
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto at = static_cast<unsigned>(
-            (up_ ? along + static_cast<std::int32_t>(i) : along - static_cast<std::int32_t>(i)) & 3);
-        const auto cells = static_cast<std::uint32_t>(slices >> 16U * at & 0xFFFFU);
-        for (unsigned r = 0; r < 4; ++r) {
-          windows_.rows[i][row + r] |= (cells >> 4U * r & 15U) << shift;
-        }
-      }
-    }
-  }
-  const std::int32_t u_lo = window.lo[0] - first_u * 4;
-  const std::int32_t u_hi = window.hi[0] - first_u * 4;
-  const std::uint32_t columns = ~std::uint32_t{0} << u_lo & ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - u_hi);
+  place_.along = along;
+  place_.first_u = (window.lo[0] >> 2) * 4;
+  place_.first_v = (window.lo[1] >> 2) * 4;
+  const std::int32_t u_words = (window.hi[0] >> 2) - (window.lo[0] >> 2);
+  const std::int32_t v_words = (window.hi[1] >> 2) - (window.lo[1] >> 2);
+  const std::uint32_t columns = ~std::uint32_t{0} << (window.lo[0] & 3) &
+                                ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (window.hi[0] - place_.first_u));
+  const std::uint64_t taken = ~std::uint64_t{0} >> (64U - 16U * count);
+  const auto skipped = static_cast<unsigned>(place_.up ? along & 3 : 3 - (along & 3)) * 16U;
+  std::array<std::uint64_t, SliceWindows::kWidth / 4> words;
   std::uint32_t any = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::int32_t v = window.lo[1]; v <= window.hi[1]; ++v) {
-      any |= windows_.rows[i][static_cast<std::size_t>(v - first_v * 4)] & columns;
+  for (std::int32_t v = 0; v <= v_words; ++v) {
+    for (std::int32_t u = 0; u <= u_words; ++u) {
+      const std::uint64_t slices = in_slices(reader_.blocking(lo + place_.at(0, u, v)), place_.major);
+      words[static_cast<std::size_t>(u)] = (place_.up ? slices : reversed(slices)) >> skipped & taken;
+    }
+    const WordRows rows = rows_of_words(std::span(words).first(static_cast<std::size_t>(u_words) + 1), set_);
+    const std::int32_t first = place_.first_v + v * 4;
+    for (std::size_t i = 0; i < SliceWindows::kMost; ++i) {
+      std::copy_n(&rows[4 * i], 4, &windows_.rows[i][static_cast<std::size_t>(v) * 4]);
+      for (std::int32_t r = 0; r < 4; ++r) {
+        const bool is_met = window.lo[1] <= first + r && first + r <= window.hi[1];
+        any |= is_met ? rows[4 * i + static_cast<std::size_t>(r)] : 0;
+      }
     }
   }
-  return any != 0;
-}
-
-void TileWalk::take_hits(const SliceHits& of_slices, std::int64_t slice, TileHits& hits) const {
-  if (of_slices.stopped == 0) {
-    return;
-  }
-  hits.stopped |= of_slices.stopped;
-  compiled_for(set_, [=, this, &of_slices, &hits] {
-    const std::int32_t step = up_ ? 1 : -1;
-    const std::int32_t along = first_cell_[major_] + step * static_cast<std::int32_t>(slice);
-    const std::int32_t first_u = window_cell_[0];
-    const std::int32_t first_v = window_cell_[1];
-    const std::int32_t* const where = of_slices.where.data();
-    std::int32_t* const cell_m = hits.cell[major_].data();
-    std::int32_t* const cell_u = hits.cell[u_].data();
-    std::int32_t* const cell_v = hits.cell[v_].data();
-    VANTAGE_INDEPENDENT
-    for (std::size_t i = 0; i < kRays; ++i) {
-      const std::int32_t at = where[i];
-      const std::int32_t is_new = ~(at >> 31);  // all bits or none
-      cell_m[i] ^= (cell_m[i] ^ (along + step * (at >> 9))) & is_new;
-      cell_u[i] ^= (cell_u[i] ^ (first_u + (at & (SliceWindows::kWidth - 1)))) & is_new;
-      cell_v[i] ^= (cell_v[i] ^ (first_v + (at >> 5 & (SliceWindows::kHeight - 1)))) & is_new;
-    }
-  });
+  return (any & columns) != 0;
 }
 
 }  // namespace vantage

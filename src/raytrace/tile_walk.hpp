@@ -4,19 +4,9 @@
 #include <Eigen/Core>
 #include <raytrace/blocking_grid.hpp>
 #include <raytrace/slice_lanes.hpp>
+#include <raytrace/tile_hits.hpp>
 
 namespace vantage {
-
-/// Where rays were stopped.
-struct TileHits {
-  std::uint64_t stopped = 0;                                         ///< a bit for each ray that was
-  alignas(64) std::array<RayBlock::PerRay<std::int32_t>, 3> cell{};  ///< by which cell
-
-  /// The cell that stopped a ray.
-  [[nodiscard]] VoxelIndex cell_at(std::size_t ray) const { return {cell[0][ray], cell[1][ray], cell[2][ray]}; }
-  /// The rays that a cell stopped.
-  [[nodiscard]] std::uint64_t stopped_by(const VoxelIndex& by, InstructionSet set) const;
-};
 
 /// Follows neighbouring rays from one origin to the first cells that stop them: together as one beam while all that
 /// it may pass is free, then in slices (SliceLanes), and one by one where they lie too far apart for that, where they
@@ -27,8 +17,9 @@ class TileWalk {
   TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin, InstructionSet set);
 
   /// Walks `rays` of a block, of which the ends are placed and which start at the origin. They may be left where they
-  /// can no longer meet a cell of `within`: what they meet behind is not told.
-  void walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, TileHits& hits);
+  /// can no longer meet a cell of `within`: what they meet behind is not told. Nothing stops them in the first
+  /// `free_share` of their way, of which 1 is all.
+  void walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, double free_share, HitSink& hits);
 
  private:
   /// Lateral cells that rays may be in, first and last.
@@ -44,23 +35,19 @@ class TileWalk {
 
   void measure(const RayBlock& block);
   [[nodiscard]] std::uint64_t take_class(std::uint64_t rays);
-  void walk_class(std::uint64_t rays, TileHits& hits);
-  void follow(std::uint64_t active, std::int64_t slice, TileHits& hits);
-  bool cross(std::uint64_t& active, std::int64_t slice, TileHits& hits);
+  void walk_class(std::uint64_t rays, HitSink& hits);
+  void follow(std::uint64_t active, std::int64_t slice, HitSink& hits);
+  bool cross(std::uint64_t& active, std::int64_t slice, HitSink& hits);
   void end_rays(std::uint64_t ending, std::int64_t slice, SliceHits& of_slices) const;
-  void walk_singly(const RayBlock& block, std::uint64_t rays, TileHits& hits) const;
+  void walk_singly(const RayBlock& block, std::uint64_t rays, HitSink& hits) const;
   [[nodiscard]] std::int64_t last_slice() const;
   [[nodiscard]] std::uint64_t ending_by(double distance) const;
   [[nodiscard]] double entered_at(std::int64_t slice) const;
   [[nodiscard]] Spread spread_of(std::uint64_t active) const;
   [[nodiscard]] Window window_of(const Spread& spread, std::int64_t first, std::int64_t last) const;
-  [[nodiscard]] VoxelIndex word_at(std::int32_t along, std::int32_t u, std::int32_t v) const {
-    return major_ == 0 ? VoxelIndex{along, u, v} : major_ == 1 ? VoxelIndex{u, along, v} : VoxelIndex{u, v, along};
-  }
   [[nodiscard]] std::int32_t free_layers(const Window& words, std::int32_t along);
   bool fill_windows(const Window& window, std::int64_t slice, std::size_t count);
   void place_lanes(double enters, double through);
-  void take_hits(const SliceHits& of_slices, std::int64_t slice, TileHits& hits) const;
 
   const BlockingGrid& grid_;
   BlockingGrid::Reader reader_;
@@ -72,11 +59,10 @@ class TileWalk {
   std::array<double, 3> within_first_;      // place of the origin in its cell, in [0, 1]
   VoxelBox within_;
 
+  double free_share_ = 0.0;
+
   // Of the class of rays that is being walked.
-  std::size_t major_ = 0;  // axis along which they advance fastest
-  std::size_t u_ = 1;      // the others
-  std::size_t v_ = 2;
-  bool up_ = true;            // along the major axis
+  SlicePlace place_;          // major axis: along which they advance fastest
   double from_entry_ = 0.0;   // of the origin, to where it would have entered its slice, in cells
   double nearest_end_ = 0.0;  // of rays, along the major axis
   double furthest_end_ = 0.0;
@@ -84,7 +70,6 @@ class TileWalk {
 
   SliceLanes lanes_;
   SliceWindows windows_;
-  std::array<std::int32_t, 2> window_cell_{};                     // first cell of the windows, laterally
   alignas(64) std::array<RayBlock::PerRay<double>, 3> extent_{};  // of rays, in cells
   alignas(64) std::array<RayBlock::PerRay<double>, 2> slope_{};   // lateral cells per cell along the major axis
 };

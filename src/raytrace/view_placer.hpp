@@ -14,7 +14,9 @@ class ViewPlacer {
   ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame);
 
   /// From the directions of a tile to the ends of its rays.
-  void place_ends(const RayTile& tile, RayBlock& block) const { placer_.place_ends(tile.directions, block); }
+  void place_ends(const RayTile& tile, RayBlock& block) const {
+    placer_.place_ends(tile.directions, tile.stretch, block);
+  }
   /// From the ends of rays to their cells.
   void place_cells(RayBlock& block) const { placer_.place_cells(block); }
 

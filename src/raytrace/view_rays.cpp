@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <map/sensor_frame.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vantage/raytrace/view_rays.hpp>
@@ -10,28 +12,29 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kSide = 8;
+constexpr std::size_t kSide = 8;               // rays of a tile
+constexpr std::size_t kGroupSide = 4 * kSide;  // and of a group
 
 // Column and row in a tile of the place `place`: its even and its odd bits.
 std::size_t column_of(std::size_t place) { return (place & 1U) | (place >> 1U & 2U) | (place >> 2U & 4U); }
 
-RayCone cone_around(const RayTile& tile) {
-  const auto direction = [&](std::size_t place) {
-    return Eigen::Vector3d(tile.directions[3 * place], tile.directions[3 * place + 1], tile.directions[3 * place + 2])
-        .normalized();
+RayCone cone_around(std::span<const RayTile> tiles) {
+  const auto for_each_direction = [&](auto&& visit) {
+    for (const RayTile& tile : tiles) {
+      for (std::size_t place = 0; place < RayTile::kRays; ++place) {
+        const float* const of_ray = &tile.directions[3 * place];
+        visit(Eigen::Vector3d(of_ray[0], of_ray[1], of_ray[2]).normalized());
+      }
+    }
   };
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t place = 0; place < RayTile::kRays; ++place) {
-    sum += direction(place);
-  }
+  for_each_direction([&](const Eigen::Vector3d& direction) { sum += direction; });
   // Directions all around have no mean: their cone is all of space, whatever its axis.
   constexpr double kLeastMean = 1e-6;
   RayCone cone;
   cone.axis = sum.norm() < kLeastMean ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(sum.normalized());
   double least = 1.0;
-  for (std::size_t place = 0; place < RayTile::kRays; ++place) {
-    least = std::min(least, cone.axis.dot(direction(place)));
-  }
+  for_each_direction([&](const Eigen::Vector3d& direction) { least = std::min(least, cone.axis.dot(direction)); });
   constexpr double kRounding = 1e-7;  // of directions in single precision
   cone.cos_half_angle = std::max(least - kRounding, -1.0);
   cone.sin_half_angle = std::sqrt(1.0 - cone.cos_half_angle * cone.cos_half_angle);
@@ -60,21 +63,35 @@ ViewRays::ViewRays(const std::vector<Eigen::Vector3f>& directions, std::size_t w
       throw std::invalid_argument("ViewRays: every direction must be finite and not zero");
     }
   }
-  for (std::size_t top = 0; top < height; top += kSide) {
-    for (std::size_t left = 0; left < width; left += kSide) {
-      RayTile& tile = tiles_.emplace_back();
-      for (std::size_t place = 0; place < RayTile::kRays; ++place) {
-        const std::size_t column = left + column_of(place);
-        const std::size_t row = top + column_of(place >> 1U);
-        const bool holds = column < width && row < height;
-        const std::size_t ray = holds ? row * width + column : top * width + left;
-        tile.ray[place] = static_cast<std::uint32_t>(ray);
-        tile.rays |= std::uint64_t{holds} << place;
-        std::copy_n(directions[ray].data(), 3, &tile.directions[3 * place]);
+  for (std::size_t top = 0; top < height; top += kGroupSide) {
+    for (std::size_t left = 0; left < width; left += kGroupSide) {
+      const std::size_t first = tiles_.size();
+      for (std::size_t row = top; row < std::min(top + kGroupSide, height); row += kSide) {
+        for (std::size_t column = left; column < std::min(left + kGroupSide, width); column += kSide) {
+          add_tile(directions, width, row, column);
+        }
       }
-      cones_.push_back(cone_around(tile));
+      groups_.push_back({cone_around(std::span(tiles_).subspan(first)), first, tiles_.size()});
     }
   }
+}
+
+void ViewRays::add_tile(const std::vector<Eigen::Vector3f>& directions, std::size_t width, std::size_t top,
+                        std::size_t left) {
+  const std::size_t height = directions.size() / width;
+  RayTile& tile = tiles_.emplace_back();
+  for (std::size_t place = 0; place < RayTile::kRays; ++place) {
+    const std::size_t column = left + column_of(place);
+    const std::size_t row = top + column_of(place >> 1U);
+    const bool holds = column < width && row < height;
+    const std::size_t ray = holds ? row * width + column : top * width + left;
+    const Eigen::Vector3f& direction = directions[ray];
+    tile.ray[place] = static_cast<std::uint32_t>(ray);
+    tile.rays |= std::uint64_t{holds} << place;
+    std::copy_n(direction.data(), 3, &tile.directions[3 * place]);
+    tile.stretch[place] = max_range_m_ / std::sqrt(SensorFrame::squared(direction.x(), direction.y(), direction.z()));
+  }
+  cones_.push_back(cone_around({&tile, 1}));
 }
 
 }  // namespace vantage

@@ -18,6 +18,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
+      failed_ = failed_ || run.error_occurred;
       if (run.run_type == Run::RT_Iteration && !run.error_occurred) {
         const std::string& arguments = run.run_name.args;
         add(run.run_name.function_name + (arguments.empty() ? "" : "/" + arguments),
@@ -40,6 +41,9 @@ class RatioReporter : public benchmark::ConsoleReporter {
       }
     }
   }
+
+  // Whether a benchmark put an end to itself, as those do whose peers find something else.
+  [[nodiscard]] bool failed() const { return failed_; }
 
  private:
   struct Peers {
@@ -65,6 +69,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
 
   std::map<std::string, double> least_times_;
   std::vector<std::string> names_;  // in the order of the run
+  bool failed_ = false;
 };
 
 }  // namespace
@@ -77,5 +82,5 @@ int main(int argc, char** argv) {
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
-  return 0;
+  return reporter.failed() ? 1 : 0;
 }

@@ -103,19 +103,25 @@ struct Compared {
   std::size_t differing = 0;
 };
 
-// All rays of one view by `set`, against the slow walk from the same origin to the same ends.
+// All rays of one view by `set`, against the slow walk from the same origin to the same ends; and the cells of a box
+// that they meet.
 void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose& pose, const ViewRays& rays,
                   InstructionSet set, const std::vector<RayEnd>& expected, Compared& compared) {
   const VoxelFrame& frame = map.frame();
   const RayPlacer placer{SensorFrame(pose), rays.max_range_m(), frame.size_m * kFurthestVoxel, frame.size_m};
   TileWalk walk(grid, frame, pose.translation(), set);
+  constexpr VoxelBox kBox{{-33, -30, -31}, {29, 34, 32}};
+  CellSet seen(kBox);
+  CellSet expected_seen(kBox);
+  CellStamps stamps(seen, set);
   for (const RayTile& tile : rays.tiles()) {
     RayBlock block;
     block.point = tile.directions;
     placer.place_ends(false, block, set);
     placer.place_cells(block, set);
-    TileHits hits;
-    walk.walk(block, tile.rays, kEverywhere, hits);
+    TileHits hits(set);
+    walk.walk(block, tile.rays, kEverywhere, 0.0, hits);
+    walk.walk(block, tile.rays, kBox, 0.0, stamps);
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       if ((tile.rays >> i & 1U) == 0) {
         continue;
@@ -125,11 +131,15 @@ void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose&
       const RayEnd& end = expected[tile.ray[i]];
       const bool same = end.cell == VoxelIndex{cells[0][i], cells[1][i], cells[2][i]} &&
                         stopped == (end.occupancy != Occupancy::Free);
+      if (end.occupancy != Occupancy::Free) {
+        expected_seen.insert(end.cell);
+      }
       ++compared.rays;
       compared.stopped += stopped ? 1U : 0U;
       compared.differing += same ? 0U : 1U;
     }
   }
+  compared.differing += seen == expected_seen ? 0U : 1U;
 }
 
 std::vector<RayEnd> slow_view(const OccupancyMap& map, const Pose& pose, const ViewRays& rays) {
@@ -315,8 +325,8 @@ TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
       const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
       const VoxelBox box{lo,
                          lo + VoxelIndex{1 + coordinate(engine) % 9 + 30, 25, 1 + static_cast<int>(engine() % 60)}};
-      const RangeSensor sensor =
-          RangeSensor::pinhole(1 + engine() % 90, 1 + engine() % 70, 1.4, 1.1, view % 3 == 0 ? 2.0 : 0.0, 9.0);
+      const RangeSensor sensor = RangeSensor::pinhole(1 + engine() % 90, 1 + engine() % 70, 1.4, 1.1,
+                                                      view % 3 == 0 ? 2.0 : 0.0, view % 4 < 2 ? 2.5 : 9.0);
       const ViewRays rays(sensor);
       const Pose pose = view % 2 == 0 ? random_pose(engine, map.frame())
                                       : pose_looking_along(inside, map.frame().box_of(box).centre() - inside);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +34,14 @@ class CellSet {
   void insert(const VoxelIndex& cell) {
     if (box_.contains(cell)) {
       words_[place_of(cell)] |= bit_of(cell);
+    }
+  }
+  /// Adds the cells of a word, as `for_each_word` tells them; those outside the box have no effect.
+  void insert_word(const VoxelIndex& word, std::uint64_t cells) {
+    if (VoxelBox{lo_, lo_ + extent_}.contains(word)) {
+      const VoxelIndex first{word.x * 4, word.y * 4, word.z * 4};
+      const bool whole = box_.contains(first) && box_.contains(first + VoxelIndex{3, 3, 3});
+      words_[place_of(first)] |= whole ? cells : cells & in_box(first);
     }
   }
   /// Takes a cell out.
@@ -97,6 +107,20 @@ class CellSet {
     return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(extent_.y) + static_cast<std::size_t>(at.y)) *
                static_cast<std::size_t>(extent_.x) +
            static_cast<std::size_t>(at.x);
+  }
+  // The cells in the box of the word that begins with cell `first`.
+  [[nodiscard]] std::uint64_t in_box(const VoxelIndex& first) const {
+    constexpr std::uint64_t kX = 0x1111111111111111U;  // those with x % 4 = 0
+    constexpr std::uint64_t kY = 0x000F000F000F000FU;
+    constexpr std::uint64_t kZ = 0x000000000000FFFFU;
+    constexpr std::array<std::uint64_t, 5> kBelowX{0, kX, kX * 3, kX * 7, ~std::uint64_t{0}};
+    constexpr std::array<std::uint64_t, 5> kBelowY{0, kY, kY * 0x11, kY * 0x111, ~std::uint64_t{0}};
+    constexpr std::array<std::uint64_t, 5> kBelowZ{0, kZ, kZ * 0x10001, kZ * 0x100010001, ~std::uint64_t{0}};
+    const auto place = [](std::int32_t cell) { return static_cast<std::size_t>(std::clamp(cell, 0, 4)); };
+    const VoxelIndex lo = box_.lo - first;
+    const VoxelIndex hi = box_.hi - first;
+    return kBelowX[place(hi.x)] & kBelowY[place(hi.y)] & kBelowZ[place(hi.z)] & ~kBelowX[place(lo.x)] &
+           ~kBelowY[place(lo.y)] & ~kBelowZ[place(lo.z)];
   }
   [[nodiscard]] VoxelIndex word_at(std::size_t place) const {
     const auto row = static_cast<std::size_t>(extent_.x);

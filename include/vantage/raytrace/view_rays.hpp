@@ -17,6 +17,7 @@ struct RayTile {
   /// Directions in the sensor frame, x y z of one ray after the other; neighbours are close in the list too (the bits
   /// of column and row alternate). A place without a ray repeats the first.
   std::array<float, 3 * kRays> directions{};
+  std::array<double, kRays> stretch{};     ///< what makes each direction as long as rays reach
   std::array<std::uint32_t, kRays> ray{};  ///< number of each ray in the image, row by row
   std::uint64_t rays = 0;                  ///< a bit for each place that holds a ray
 };
@@ -26,6 +27,13 @@ struct RayCone {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< a unit vector
   double cos_half_angle = 1.0;                      ///< cosine of the angle between it and the directions, at most
   double sin_half_angle = 0.0;                      ///< sine of that angle
+};
+
+/// Neighbouring tiles of a view, a square of 4 x 4 of them.
+struct TileGroup {
+  RayCone cone;           ///< around all of their rays
+  std::size_t first = 0;  ///< their numbers: from this one
+  std::size_t last = 0;   ///< to the one before this
 };
 
 /// The rays of a view in the sensor frame: an image of directions that all reach equally far, arranged for being
@@ -45,17 +53,22 @@ class ViewRays {
   [[nodiscard]] double max_range_m() const { return max_range_m_; }
   /// What stops a ray nearer than this is not seen, metres.
   [[nodiscard]] double min_range_m() const { return min_range_m_; }
-  /// All rays, in tiles.
+  /// All rays, in tiles, group by group.
   [[nodiscard]] const std::vector<RayTile>& tiles() const { return tiles_; }
   /// A cone around the rays of each tile.
   [[nodiscard]] const std::vector<RayCone>& cones() const { return cones_; }
+  /// All tiles.
+  [[nodiscard]] const std::vector<TileGroup>& groups() const { return groups_; }
 
  private:
+  void add_tile(const std::vector<Eigen::Vector3f>& directions, std::size_t width, std::size_t top, std::size_t left);
+
   std::size_t size_ = 0;
   double max_range_m_ = 0.0;
   double min_range_m_ = 0.0;
   std::vector<RayTile> tiles_;
-  std::vector<RayCone> cones_;  // apart: a view looks at all of them, but at few of the tiles
+  std::vector<RayCone> cones_;  // apart: a view looks at more of them than of the tiles
+  std::vector<TileGroup> groups_;
 };
 
 }  // namespace vantage

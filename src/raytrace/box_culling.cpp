@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <raytrace/box_culling.hpp>
+#include <raytrace/lane_queries.hpp>
+
+namespace vantage {
+namespace {
+
+// The part of a ray, of which 1 is all, that lies between two planes across an axis.
+struct Share {
+  Share(double lo, double hi, double extent, double parallel) {
+    const double per_unit = 1.0 / (std::abs(extent) < parallel ? parallel : extent);
+    const double to_lo = lo * per_unit;
+    const double to_hi = hi * per_unit;
+    enters = to_lo < to_hi ? to_lo : to_hi;
+    leaves = to_lo < to_hi ? to_hi : to_lo;
+  }
+  double enters;
+  double leaves;
+};
+
+}  // namespace
+
+BoxCulling::BoxCulling(const Pose& world_from_sensor, const Box& box, InstructionSet set)
+    : set_(set), origin_(world_from_sensor.translation()), box_(box) {
+  // Far more than rounding can move a ray, far less than a cell.
+  const double margin =
+      1e-9 * (1.0 + origin_.cwiseAbs().maxCoeff() + box.min.cwiseAbs().maxCoeff() + box.max.cwiseAbs().maxCoeff());
+  box_.min.array() -= margin;
+  box_.max.array() += margin;
+  constexpr double kLooseness = 1e-5;  // of rotations
+  furthest_m_ = (1.0 + kLooseness) * (box_.max - origin_).cwiseAbs().cwiseMax((box_.min - origin_).cwiseAbs()).norm();
+  const Eigen::Vector3d to_centre = box_.centre() - origin_;
+  const double distance = to_centre.norm();
+  const double radius = 0.5 * box_.extent().norm();
+  inside_sphere_ = distance <= radius;
+  if (!inside_sphere_) {
+    axis_ = world_from_sensor.linear().transpose() * to_centre / distance;
+    sin_ = radius / distance;
+    cos_ = std::sqrt(1.0 - sin_ * sin_);
+    find_outline(world_from_sensor.linear());
+  }
+}
+
+// A cone may meet the box if it meets the cone around the sphere around the box, and is not all on the outer side of
+// a plane through the origin and an edge of the outline of the box; all of it does, if it is on the inner side of
+// each.
+Meeting BoxCulling::meeting(const RayCone& cone) const {
+  if (inside_sphere_ || cone.cos_half_angle <= 0.0) {
+    return Meeting::Some;
+  }
+  const double sin_of_sum = cone.sin_half_angle * cos_ + cone.cos_half_angle * sin_;
+  const double cos_of_sum = cone.cos_half_angle * cos_ - cone.sin_half_angle * sin_;
+  if (sin_of_sum > 0.0 && cone.axis.dot(axis_) < cos_of_sum) {
+    return Meeting::None;
+  }
+  Meeting meeting = Meeting::All;
+  for (std::size_t i = 0; i < edges_; ++i) {
+    constexpr double kFlat = 1e-9;
+    const double outwards = cone.axis.dot(outwards_[i]);
+    if (outwards > cone.sin_half_angle + kFlat) {
+      return Meeting::None;
+    }
+    if (outwards > -cone.sin_half_angle) {
+      meeting = Meeting::Some;
+    }
+  }
+  return meeting;
+}
+
+std::uint64_t BoxCulling::meeting(const RayBlock& block) const {
+  RayBlock::PerRay<std::int32_t> flags;
+  const double* const end_x = block.end[0].data();
+  const double* const end_y = block.end[1].data();
+  const double* const end_z = block.end[2].data();
+  compiled_for(set_, [=, &flags, lo = Eigen::Vector3d(box_.min - origin_), hi = Eigen::Vector3d(box_.max - origin_),
+                      origin = origin_, parallel = 1e-12] {
+    std::int32_t* const meets = flags.data();
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+      const Share x(lo.x(), hi.x(), end_x[i] - origin.x(), parallel);
+      const Share y(lo.y(), hi.y(), end_y[i] - origin.y(), parallel);
+      const Share z(lo.z(), hi.z(), end_z[i] - origin.z(), parallel);
+      const double enters_xy = x.enters > y.enters ? x.enters : y.enters;
+      const double leaves_xy = x.leaves < y.leaves ? x.leaves : y.leaves;
+      const double enters = enters_xy > z.enters ? enters_xy : z.enters;
+      const double leaves = leaves_xy < z.leaves ? leaves_xy : z.leaves;
+      meets[i] = static_cast<std::int32_t>(enters <= leaves) & static_cast<std::int32_t>(enters <= 1.0) &
+                 static_cast<std::int32_t>(leaves >= 0.0);
+    }
+  });
+  return equal_to(flags, 1, set_);
+}
+
+// The edges at which a side of the box that looks at the origin meets one that does not.
+void BoxCulling::find_outline(const Eigen::Matrix3d& world_from_sensor) {
+  const auto side = [&](Eigen::Index axis, bool upper) {
+    return (upper ? box_.max : box_.min)[axis] - origin_[axis];
+  };
+  const auto looks = [&](Eigen::Index axis, bool upper) { return side(axis, upper) * (upper ? 1.0 : -1.0) < 0.0; };
+  const Eigen::Vector3d to_centre = box_.centre() - origin_;
+  for (Eigen::Index along = 0; along < 3; ++along) {
+    const Eigen::Index a = (along + 1) % 3;
+    const Eigen::Index b = (along + 2) % 3;
+    for (unsigned edge = 0; edge < 4; ++edge) {
+      const bool upper_a = (edge & 1U) != 0;
+      const bool upper_b = (edge & 2U) != 0;
+      if (looks(a, upper_a) != looks(b, upper_b)) {
+        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+        normal[a] = side(b, upper_b);
+        normal[b] = -side(a, upper_a);
+        normal *= (normal.dot(to_centre) > 0.0 ? -1.0 : 1.0) / normal.norm();
+        outwards_[edges_++] = world_from_sensor.transpose() * normal;
+      }
+    }
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <raytrace/blocking_grid.hpp>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/raytrace/view_rays.hpp>
+
+namespace vantage {
+
+/// Tells how far cones of rays from the sensor of a view reach before a cell may stop one of them.
+class FreeCone {
+ public:
+  /// The grid must outlive it.
+  FreeCone(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor);
+
+  /// A distance, metres, up to which nothing stops a ray of the cone; not much more than `enough_m`.
+  [[nodiscard]] double free_m(const RayCone& cone, double enough_m);
+
+ private:
+  BlockingGrid::Reader reader_;
+  double size_m_;
+  Eigen::Vector3d origin_;  // in cells
+  Eigen::Matrix3d world_from_sensor_;
+};
+
+}  // namespace vantage
