@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV-B.
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vantage/frontier/void_clusters.hpp>
 #include <vantage/geometry/cell_moments.hpp>
 
 #include "geometry/box_around.hpp"
 #include "geometry/dice.hpp"
+#include "map/instruction_set.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage {
@@ -22,89 +27,239 @@ constexpr std::uint32_t kUnassigned = VoidClusters::kNone - 1;
 // The variance of a solid ellipsoid along an axis of half length a is a^2 / this.
 constexpr double kVarianceShare = 5.0;
 
+// Of the half axes of an ellipsoid: those within which members are counted.
+constexpr std::array<double, 5> kShares{1.0, 0.95, 0.9, 0.86, 0.82};
+
+// The cells where clusters start, drawn one after the other. They lie anywhere in memory, so they are fetched ahead.
+class Starts {
+ public:
+  /// Of the cells of `numbers` that are unassigned now, as positions in it.
+  Starts(const VoxelGrid<std::uint32_t>& numbers, std::uint64_t seed) : numbers_(numbers.values()), dice_(seed) {
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      if (numbers_[i] == kUnassigned) {
+        left_.push_back(i);
+      }
+    }
+  }
+
+  // The next that is still unassigned.
+  std::optional<std::size_t> next() {
+    for (;;) {
+      if (next_ == drawn_.size()) {
+        draw();
+      }
+      if (drawn_.empty()) {
+        return std::nullopt;
+      }
+      if (const std::size_t start = drawn_[next_++]; numbers_[start] == kUnassigned) {
+        return start;
+      }
+    }
+  }
+
+ private:
+  void draw() {
+    constexpr std::size_t kAhead = 64;
+    next_ = 0;
+    drawn_.clear();
+    for (std::size_t left = left_.size(); left > 0 && drawn_.size() < kAhead; --left) {
+      drawn_.push_back(dice_.below(left));
+      __builtin_prefetch(&left_[drawn_.back()], 1);
+    }
+    for (std::size_t& drawn : drawn_) {
+      drawn = std::exchange(left_[drawn], left_.back());
+      left_.pop_back();
+      __builtin_prefetch(&numbers_[drawn]);
+    }
+  }
+
+  const std::vector<std::uint32_t>& numbers_;
+  Dice dice_;
+  std::vector<std::size_t> left_;   // in raster order at first
+  std::vector<std::size_t> drawn_;  // of which those before `next_` have been given
+  std::size_t next_ = 0;
+};
+
 // Grows clusters, one after the other, in a grid of the cells that still have none.
 class Growth {
  public:
   Growth(VoxelGrid<std::uint32_t>& numbers, const VoxelFrame& frame, const VoidClusterOptions& options)
-      : numbers_(numbers), frame_(frame), options_(options) {}
+      : numbers_(numbers), frame_(frame), options_(options) {
+    const auto& [lo, hi] = numbers.box();
+    lowest_ = {lo.x, lo.y, lo.z};
+    highest_ = {hi.x - 1, hi.y - 1, hi.z - 1};
+    strides_ = {1, hi.x - lo.x, std::ptrdiff_t{hi.x - lo.x} * (hi.y - lo.y)};
+  }
 
-  VoidCluster grow(const VoxelIndex& start, std::uint32_t number) {
+  VoidCluster grow(std::size_t start_offset, std::uint32_t number) {
+    const VoxelIndex start = numbers_.cell_at(start_offset);
     number_ = number;
-    members_.clear();
     moments_ = CellMoments(start);
-    take(start);
-    double score = score_now();
+    offsets_.clear();
+    for (auto& coordinates : members_) {
+      coordinates.clear();
+    }
+    take(start_offset, {start.x, start.y, start.z});
+    counted_.members = 0;
     for (std::size_t latest = 0;;) {
-      const std::size_t before = members_.size();
+      const std::size_t before = offsets_.size();
       add_layer(latest);
-      if (members_.size() == before) {
+      if (offsets_.size() == before) {
         break;
       }
-      const double grown = score_now();
-      if (grown < options_.min_score) {
+      if (!fits()) {
         give_back(before);
         break;
       }
-      score = grown;
       latest = before;
     }
-    return {start, members_.size(), moments_.ellipsoid(frame_), score};
+    return {start, offsets_.size(), moments_.ellipsoid(frame_), score_now()};
   }
 
  private:
-  void take(const VoxelIndex& cell) {
-    numbers_[cell] = number_;
-    members_.push_back(cell);
-    moments_.add(cell);
+  using Cell = std::array<std::int32_t, 3>;
+
+  void take(std::size_t offset, const Cell& cell) {
+    numbers_.values()[offset] = number_;
+    offsets_.push_back(offset);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      members_[axis].push_back(cell[axis]);
+    }
+    moments_.add({cell[0], cell[1], cell[2]});
   }
 
   // One cell further on every side: along x, from there along y, from there along z. Members before `latest` have
   // found all their neighbours already.
   void add_layer(std::size_t latest) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t end = members_.size();
+      const std::size_t end = offsets_.size();
       for (std::size_t i = latest; i < end; ++i) {
-        for (const VoxelIndex& step : {kFaceNeighbours[2 * axis], kFaceNeighbours[2 * axis + 1]}) {
-          const VoxelIndex cell = members_[i] + step;
-          if (numbers_.value_or(cell, kNoVoid) == kUnassigned) {
-            take(cell);
-          }
+        const std::int32_t at = members_[axis][i];
+        if (at < highest_[axis]) {
+          take_neighbour(i, axis, 1);
+        }
+        if (at > lowest_[axis]) {
+          take_neighbour(i, axis, -1);
         }
       }
     }
   }
 
-  void give_back(std::size_t first) {
-    for (std::size_t i = first; i < members_.size(); ++i) {
-      numbers_[members_[i]] = kUnassigned;
-      moments_.remove(members_[i]);
+  void take_neighbour(std::size_t i, std::size_t axis, std::int32_t step) {
+    const std::size_t offset = offsets_[i] + static_cast<std::size_t>(step * strides_[axis]);
+    if (numbers_.values()[offset] == kUnassigned) {
+      Cell cell{members_[0][i], members_[1][i], members_[2][i]};
+      cell[axis] += step;
+      take(offset, cell);
     }
-    members_.resize(first);
   }
 
-  // Equation (2) for the members as they are.
-  [[nodiscard]] double score_now() const {
-    const Eigen::Matrix3d covariance = moments_.covariance_cells();
-    const Eigen::Matrix3d inverse = covariance.inverse();
-    const Eigen::Vector3d mean = moments_.mean_cells();
-    std::size_t inside = 0;
-    for (const VoxelIndex& cell : members_) {
-      const Eigen::Vector3d off(cell.x - mean.x(), cell.y - mean.y(), cell.z - mean.z());
-      inside += off.dot(inverse * off) <= kVarianceShare ? 1U : 0U;
+  void give_back(std::size_t first) {
+    for (std::size_t i = first; i < offsets_.size(); ++i) {
+      numbers_.values()[offsets_[i]] = kUnassigned;
+      moments_.remove({members_[0][i], members_[1][i], members_[2][i]});
     }
+    offsets_.resize(first);
+    for (auto& coordinates : members_) {
+      coordinates.resize(first);
+    }
+  }
+
+  // How many members lie in ellipsoids with one centre and shape: that of all members then, and smaller ones.
+  struct Counted {
+    std::size_t members = 0;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    std::array<std::int32_t, kShares.size()> inside{};
+  };
+
+  void count() {
+    counted_.members = offsets_.size();
+    counted_.mean = moments_.mean_cells();
+    counted_.covariance = moments_.covariance_cells();
+    const Eigen::Matrix3d inverse = counted_.covariance.inverse();
+    const std::array<double, 3> m{counted_.mean.x(), counted_.mean.y(), counted_.mean.z()};
+    const std::array<double, 3> of_squares{inverse(0, 0), inverse(1, 1), inverse(2, 2)};
+    const std::array<double, 3> of_products{2.0 * inverse(0, 1), 2.0 * inverse(0, 2), 2.0 * inverse(1, 2)};
+    const std::int32_t* const xs = members_[0].data();
+    const std::int32_t* const ys = members_[1].data();
+    const std::int32_t* const zs = members_[2].data();
+    auto& inside = counted_.inside;
+    compiled_for(instructions_, [=, &inside, count = offsets_.size()] {
+      std::array<std::int32_t, kShares.size()> within{};
+      for (std::size_t i = 0; i < count; ++i) {
+        const double x = xs[i] - m[0];
+        const double y = ys[i] - m[1];
+        const double z = zs[i] - m[2];
+        const double square = x * (of_squares[0] * x + of_products[0] * y + of_products[1] * z) +
+                              y * (of_squares[1] * y + of_products[2] * z) + of_squares[2] * z * z;
+        for (std::size_t share = 0; share < within.size(); ++share) {
+          within[share] += square <= kVarianceShare * kShares[share] * kShares[share] ? 1 : 0;
+        }
+      }
+      inside = within;
+    });
+  }
+
+  // At least so many members lie in the ellipsoid of these moments: those counted in the largest ellipsoid that lies
+  // in it whole. In units in which the new one is a ball of radius 1 about 0, one of a share of the old reaches from
+  // its own centre as far as `longest` times the share.
+  [[nodiscard]] std::int32_t inside_at_least(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance) const {
+    constexpr std::size_t kFew = 64;  // are counted as soon
+    constexpr double kRounding = 1e-6;
+    if (counted_.members < kFew) {
+      return 0;
+    }
+    const Eigen::LLT<Eigen::Matrix3d> root(covariance);
+    const Eigen::Matrix3d half = root.matrixL().solve(counted_.covariance);
+    const Eigen::Matrix3d shape = root.matrixL().solve(half.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(shape, Eigen::EigenvaluesOnly);
+    const double longest = std::sqrt(solver.eigenvalues()[2]);
+    const double shift = root.matrixL().solve(counted_.mean - mean).norm() / std::sqrt(kVarianceShare);
+    for (std::size_t i = 0; i < kShares.size(); ++i) {
+      if (shift + longest * kShares[i] <= 1.0 - kRounding) {
+        return counted_.inside[i];
+      }
+    }
+    return 0;
+  }
+
+  // Equation (2) for so many members inside.
+  [[nodiscard]] double score(std::int32_t inside, const Eigen::Matrix3d& covariance) const {
     const double variances = covariance.determinant();  // the product of the eigenvalues
     const double product = options_.score == FitScore::VolumeRatio
                                ? std::sqrt(std::pow(kVarianceShare, 3) * variances)
                                : variances * std::pow(frame_.size_m, 3);
-    return static_cast<double>(inside) / (4.0 / 3.0 * std::numbers::pi * product);
+    return inside / (4.0 / 3.0 * std::numbers::pi * product);
+  }
+
+  // For the members as they are.
+  [[nodiscard]] double score_now() {
+    if (counted_.members != offsets_.size()) {
+      count();
+    }
+    return score(counted_.inside[0], counted_.covariance);
+  }
+
+  // Whether the score is high enough. Counting all members after every layer would be most of the work.
+  [[nodiscard]] bool fits() {
+    const Eigen::Matrix3d covariance = moments_.covariance_cells();
+    return score(inside_at_least(moments_.mean_cells(), covariance), covariance) >= options_.min_score ||
+           score_now() >= options_.min_score;
   }
 
   VoxelGrid<std::uint32_t>& numbers_;
   const VoxelFrame frame_;
   const VoidClusterOptions options_;
+  const InstructionSet instructions_ = best_instruction_set();
+  Cell lowest_{};  // of the grid on each axis, and likewise:
+  Cell highest_{};
+  std::array<std::ptrdiff_t, 3> strides_{};
   std::uint32_t number_ = 0;
-  std::vector<VoxelIndex> members_;
+  std::vector<std::size_t> offsets_;                  // of the members, in the grid
+  std::array<std::vector<std::int32_t>, 3> members_;  // their x, y and z
   CellMoments moments_;
+  Counted counted_;
 };
 
 }  // namespace
@@ -116,25 +271,11 @@ VoidClusters cluster_void_cells(std::span<const VoxelIndex> cells, const VoxelFr
   for (const VoxelIndex& cell : cells) {
     numbers[cell] = kUnassigned;
   }
-  // In raster order, whatever the order in which they came.
-  std::vector<std::size_t> left;
-  left.reserve(cells.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (numbers.values()[i] == kUnassigned) {
-      left.push_back(i);
-    }
-  }
   std::vector<VoidCluster> clusters;
   Growth growth(numbers, frame, options);
-  Dice dice(options.seed);
-  while (!left.empty()) {
-    std::size_t& drawn = left[dice.below(left.size())];
-    const std::size_t start = drawn;
-    drawn = left.back();
-    left.pop_back();
-    if (numbers.values()[start] == kUnassigned) {
-      clusters.push_back(growth.grow(numbers.cell_at(start), static_cast<std::uint32_t>(clusters.size())));
-    }
+  Starts starts(numbers, options.seed);
+  while (const auto start = starts.next()) {
+    clusters.push_back(growth.grow(*start, static_cast<std::uint32_t>(clusters.size())));
   }
   return {std::move(clusters), std::move(numbers)};
 }

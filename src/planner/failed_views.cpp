@@ -37,6 +37,7 @@ void FailedViews::fail(const OccupancyMap& map, const VoxelIndex& viewpoint, con
   for (const VoxelIndex& cell : cells) {
     if (map.at(cell) == Occupancy::Unknown) {
       Failures& failures = failures_[cell];
+      may_have_failed_.insert(cell);
       if (!failed_from(cell, viewpoint)) {
         failures.viewpoints.push_back(viewpoint);
       }
@@ -58,6 +59,10 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
     const auto& [cell, failures] = entry;
     return map.at(cell) != Occupancy::Unknown || known_neighbours(map, cell) > failures.known_neighbours;
   });
+  may_have_failed_.clear();
+  for (const auto& entry : failures_) {
+    may_have_failed_.insert(entry.first);
+  }
   if (!expected_ || expected_->revision >= map.revision() || !arrived(map, expected_->goal, current)) {
     return;
   }
@@ -76,10 +81,18 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
   expected_.reset();
 }
 
-bool FailedViews::failed_from(const VoxelIndex& unknown, const VoxelIndex& viewpoint) const {
+const FailedViews::Failures* FailedViews::failures_of(const VoxelIndex& unknown) const {
+  if (!may_have_failed_.contains(unknown)) {
+    return nullptr;
+  }
   const auto failure = failures_.find(unknown);
-  return failure != failures_.end() && std::find(failure->second.viewpoints.begin(), failure->second.viewpoints.end(),
-                                                 viewpoint) != failure->second.viewpoints.end();
+  return failure == failures_.end() ? nullptr : &failure->second;
+}
+
+bool FailedViews::failed_from(const VoxelIndex& unknown, const VoxelIndex& viewpoint) const {
+  const Failures* failures = failures_of(unknown);
+  return failures != nullptr &&
+         std::find(failures->viewpoints.begin(), failures->viewpoints.end(), viewpoint) != failures->viewpoints.end();
 }
 
 std::span<const Pose> FailedViews::views_from(const VoxelIndex& viewpoint) const {
@@ -88,8 +101,8 @@ std::span<const Pose> FailedViews::views_from(const VoxelIndex& viewpoint) const
 }
 
 bool FailedViews::failed_towards(const VoxelIndex& unknown, const VoxelIndex& viewpoint, double within_rad) const {
-  const auto failure = failures_.find(unknown);
-  if (failure == failures_.end()) {
+  const Failures* failures = failures_of(unknown);
+  if (failures == nullptr) {
     return false;
   }
   const auto direction_to = [&](const VoxelIndex& place) {
@@ -98,15 +111,15 @@ bool FailedViews::failed_towards(const VoxelIndex& unknown, const VoxelIndex& vi
   };
   const Eigen::Vector3d towards = direction_to(viewpoint);
   const double least_cosine = std::cos(within_rad);
-  const auto& viewpoints = failure->second.viewpoints;
+  const auto& viewpoints = failures->viewpoints;
   return std::any_of(viewpoints.begin(), viewpoints.end(), [&](const VoxelIndex& place) {
     return place == viewpoint || direction_to(place).dot(towards) >= least_cosine;
   });
 }
 
 bool FailedViews::gave_up(const VoxelIndex& unknown) const {
-  const auto failure = failures_.find(unknown);
-  return failure != failures_.end() && failure->second.viewpoints.size() >= static_cast<std::size_t>(patience_);
+  const Failures* failures = failures_of(unknown);
+  return failures != nullptr && failures->viewpoints.size() >= static_cast<std::size_t>(patience_);
 }
 
 }  // namespace vantage

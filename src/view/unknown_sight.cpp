@@ -28,12 +28,19 @@ struct UnknownSight::Ray {
 class UnknownSight::Chances {
  public:
   Chances(const VoxelBox& box, const Eigen::Vector3d& sensor, double min_range_m, const VoxelFrame& frame)
-      : best_(box, 0), sensor_(sensor), min_range_m_(min_range_m), frame_(frame) {}
+      : best_(box, 0),
+        row_length_(static_cast<std::size_t>(box.extent().x)),
+        raised_(best_.size() / row_length_, 0),
+        sensor_(sensor),
+        min_range_m_(min_range_m),
+        frame_(frame) {}
 
   void raise(const VoxelIndex& cell, double chance) {
     if (best_.contains(cell)) {
-      std::uint16_t& best = best_[cell];
+      const std::size_t offset = best_.offset_of(cell);
+      std::uint16_t& best = best_.values()[offset];
       best = std::max(best, static_cast<std::uint16_t>(std::lround(chance * kWhole)));
+      raised_[offset / row_length_] = 1;
     }
   }
   // Nearer surfaces give no return.
@@ -42,13 +49,9 @@ class UnknownSight::Chances {
   }
   [[nodiscard]] std::vector<SightedCell> cells() const {
     std::vector<SightedCell> seen;
-    for (std::size_t i = 0; i < best_.size(); ++i) {
-      if (best_.values()[i] == 0) {
-        continue;
-      }
-      const VoxelIndex cell = best_.cell_at(i);
-      if (in_range(cell)) {
-        seen.push_back({cell, best_.values()[i] / kWhole});
+    for (std::size_t row = 0; row < raised_.size(); ++row) {
+      if (raised_[row] != 0) {
+        append_row(row, seen);
       }
     }
     return seen;
@@ -63,7 +66,22 @@ class UnknownSight::Chances {
 
  private:
   static constexpr double kWhole = 65535.0;
+
+  void append_row(std::size_t row, std::vector<SightedCell>& seen) const {
+    for (std::size_t i = row * row_length_; i < (row + 1) * row_length_; ++i) {
+      if (best_.values()[i] == 0) {
+        continue;
+      }
+      const VoxelIndex cell = best_.cell_at(i);
+      if (in_range(cell)) {
+        seen.push_back({cell, best_.values()[i] / kWhole});
+      }
+    }
+  }
+
   VoxelGrid<std::uint16_t> best_;
+  std::size_t row_length_;
+  std::vector<std::uint8_t> raised_;  // the rows along x in which any cell has a chance
   Eigen::Vector3d sensor_;
   double min_range_m_;
   VoxelFrame frame_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -37,7 +38,7 @@ class FailedViews {
   /// between the lines from the unknown cell.
   [[nodiscard]] bool failed_towards(const VoxelIndex& unknown, const VoxelIndex& viewpoint, double within_rad) const;
   /// Whether any view of this unknown cell has failed.
-  [[nodiscard]] bool failed(const VoxelIndex& unknown) const { return failures_.count(unknown) != 0; }
+  [[nodiscard]] bool failed(const VoxelIndex& unknown) const { return failures_of(unknown) != nullptr; }
   /// Whether views of this unknown cell have failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
   /// The views from within this cell that left some of what they sought unresolved. What a sensor had in view there
@@ -58,12 +59,38 @@ class FailedViews {
     std::vector<VoxelIndex> viewpoints;
     int known_neighbours = 0;  // when the latest of them failed
   };
+  // Planners ask millions of times and hardly any cell has failed: a bit that all cells share whose coordinates are
+  // the same modulo its size answers for most.
+  class MayHaveFailed {
+   public:
+    void insert(const VoxelIndex& cell) {
+      bits_.resize(kWords);
+      bits_[word_of(cell)] |= bit_of(cell);
+    }
+    void clear() { bits_.clear(); }
+    [[nodiscard]] bool contains(const VoxelIndex& cell) const {
+      return !bits_.empty() && (bits_[word_of(cell)] & bit_of(cell)) != 0;
+    }
+
+   private:
+    static constexpr std::size_t kWords = std::size_t{2} * 128 * 64;  // 128 x 128 x 64 cells
+    static std::size_t word_of(const VoxelIndex& cell) {
+      return (static_cast<std::size_t>(cell.z & 63) * 128 + static_cast<std::size_t>(cell.y & 127)) * 2 +
+             static_cast<std::size_t>(cell.x >> 6 & 1);
+    }
+    static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (cell.x & 63); }
+
+    std::vector<std::uint64_t> bits_;  // none until one has failed
+  };
+  // Null where none have.
+  [[nodiscard]] const Failures* failures_of(const VoxelIndex& unknown) const;
 
   int patience_;
   std::optional<Expectation> expected_;
   KnownMap map_;  // that was reviewed last
   OccupancyMap::Revision reviewed_ = 0;
   std::unordered_map<VoxelIndex, Failures> failures_;
+  MayHaveFailed may_have_failed_;
   std::unordered_map<VoxelIndex, std::vector<Pose>> views_;  // that failed, by place
 };
 

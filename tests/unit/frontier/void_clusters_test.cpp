@@ -142,6 +142,41 @@ TEST(VoidClusters, GrowAsTheDefinitionSaysCellByCell) {
   EXPECT_GT(cells_seen, 30'000U);
 }
 
+/// A hall with pillars and a wall across it, or cut short at a slant: voids of many layers.
+std::vector<VoxelIndex> random_hall(std::mt19937& engine) {
+  const auto draw = [&](std::int32_t count) { return static_cast<std::int32_t>(engine() % 1000) % count; };
+  std::vector<VoxelIndex> cells = box({}, {18 + draw(12), 10 + draw(8), 5 + draw(5)});
+  for (int pillar = 0; pillar < 3; ++pillar) {
+    const VoxelIndex lo{draw(30), draw(18), 0};
+    const VoxelBox solid{lo, lo + VoxelIndex{1 + draw(3), 1 + draw(6), 12}};
+    std::erase_if(cells, [&](const VoxelIndex& cell) { return solid.contains(cell); });
+  }
+  const std::int32_t slant = draw(2);
+  std::erase_if(cells, [&](const VoxelIndex& cell) { return slant * cell.x + cell.y + cell.z > 26; });
+  return cells;
+}
+
+TEST(VoidClusters, OfManyLayersGrowAsTheDefinitionSaysToo) {
+  std::mt19937 engine(44);
+  std::size_t large = 0;
+  for (int round = 0; round < 12; ++round) {
+    const std::vector<VoxelIndex> cells = random_hall(engine);
+    const VoidClusterOptions options{.min_score = 0.45 + 0.08 * (round % 4), .seed = engine()};
+    const VoidClusters voids = cluster_void_cells(cells, kFrame, options);
+    const std::vector<Cells> members = members_of(voids, cells);
+    Cells left(cells.begin(), cells.end());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      ASSERT_EQ(members[i], grown_from(voids.clusters()[i].start, left, options)) << "round " << round;
+      ASSERT_NEAR(voids.clusters()[i].score, score_of(members[i], options.score), 1e-6);
+      for (const VoxelIndex& cell : members[i]) {
+        left.erase(cell);
+      }
+      large += members[i].size() > 400 ? 1U : 0U;
+    }
+  }
+  EXPECT_GE(large, 10U);
+}
+
 TEST(VoidClusters, DependOnTheCellsAndTheSeedAlone) {
   std::mt19937 engine(42);
   std::size_t other_starts = 0;

@@ -38,7 +38,10 @@ TEST(FailedViews, GivesACellUpAfterViewsFromAsManyPlacesAsItHasPatience) {
       EXPECT_TRUE(failed.failed_from(kUnknown, from));
       EXPECT_EQ(failed.gave_up(kUnknown), view == patience) << view;
     }
-    EXPECT_FALSE(failed.gave_up({5, 5, 6}));
+    for (const VoxelIndex& other : {VoxelIndex{0, 0, 1}, {128, 0, 0}, {0, -128, 0}, {0, 0, 64}, {64, 0, 0}}) {
+      EXPECT_FALSE(failed.failed(kUnknown + other));
+      EXPECT_FALSE(failed.gave_up(kUnknown + other));
+    }
   }
 }
 
