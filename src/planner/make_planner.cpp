@@ -159,8 +159,15 @@ std::unique_ptr<ExplorationPlanner> make_frontier_gain(const PlannerSetup& setup
 std::unique_ptr<ExplorationPlanner> make_frontier_void(const PlannerSetup& setup, SettingReader& read) {
   FrontierVoidOptions options;
   bool faithful = false;
-  if (read.flag("faithful", faithful); faithful) {
+  bool travelling = false;
+  read.flag("faithful", faithful).flag("travelling", travelling);
+  if (faithful && travelling) {
+    throw std::invalid_argument("planner 'frontier-void': 'faithful' and 'travelling' exclude each other");
+  }
+  if (faithful) {
     options.strategy = FrontierVoidStrategy::faithful();
+  } else if (travelling) {
+    options.strategy = FrontierVoidStrategy::travelling();
   }
   read_survey(read, options.survey)
       .choice("score", options.clusters.score,

@@ -291,6 +291,9 @@ TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {
   EXPECT_NE(message("frontier-gain", {{"hypotheses", "many"}}).find("must be a whole number"), std::string::npos);
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "0"}}), "FrontierGainOptions::hypotheses is 0, must be >= 1");
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "30"}, {"cost_per_m", "2.5"}}), "");
+  EXPECT_EQ(message("frontier-void", {{"travelling", "true"}, {"near_views", "5"}}), "");
+  EXPECT_NE(message("frontier-void", {{"travelling", "true"}, {"faithful", "true"}}).find("exclude each other"),
+            std::string::npos);
   EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), nullptr, 1, 1}), std::invalid_argument);
   EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), std::make_shared<FreeFlyer>(), 1, 0}),
                std::invalid_argument);

@@ -67,6 +67,10 @@ struct FrontierVoidStrategy {
             .opaque_beside_surface = 1.0,
             .beyond_voids = false};
   }
+  /// For a body to which metres matter and views do not: what is near is finished before it goes on.
+  [[nodiscard]] static FrontierVoidStrategy travelling() {
+    return {.cost_per_m = 100.0, .along_way = true, .near_views = 20};
+  }
 };
 
 /// Options of FrontierVoidPlanner.

@@ -154,8 +154,7 @@ TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
 
 TEST(FrontierVoidPlanner, FinishesWhatLiesNear) {
   Robot robot;
-  FrontierVoidPlanner planner(robot.setup(),
-                              {.strategy = {.cost_per_m = 100.0, .along_way = true, .near_views = 20}});
+  FrontierVoidPlanner planner(robot.setup(), {.strategy = FrontierVoidStrategy::travelling()});
   const Plan last = robot.run(planner);
   EXPECT_EQ(last.outcome, Outcome::Explored) << last.reason;
   EXPECT_EQ(robot.unknown_in_the_chest(), 0U);
