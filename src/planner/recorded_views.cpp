@@ -150,18 +150,23 @@ RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions&
   }
 }
 
+// With an object the map ends with what is known around it: beyond, there is nothing to look for.
 OccupancyMap RecordedViews::map_before() const {
-  OccupancyMap map(options_);
-  if (object_) {
-    Box all = *object_;
-    for (const Scan& scan : scans_) {
-      all.extend(scan.world_from_sensor.translation());
-    }
-    map.assume_free(all);
-    const VoxelBox unknown{map.frame().cell_of(object_->min),
-                           map.frame().cell_of(object_->max) + VoxelIndex{1, 1, 1}};
-    for_each_cell(unknown, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
+  if (!object_) {
+    return OccupancyMap(options_);
   }
+  const Eigen::Vector3d cell = Eigen::Vector3d::Constant(options_.resolution_m);
+  Box all = *object_;
+  for (const Scan& scan : scans_) {
+    all.extend(scan.world_from_sensor.translation() + cell);
+    all.extend(scan.world_from_sensor.translation() - cell);
+  }
+  OccupancyMapOptions options = options_;
+  options.region = options_.region.value_or(all);
+  OccupancyMap map(options);
+  map.assume_free(all);
+  const VoxelBox unknown{map.frame().cell_of(object_->min), map.frame().cell_of(object_->max) + VoxelIndex{1, 1, 1}};
+  for_each_cell(unknown, [&](const VoxelIndex& index) { map.set(index, Occupancy::Unknown); });
   return map;
 }
 
