@@ -139,7 +139,8 @@ void add_choosers(const ReplayRequest& request, const Recording& recording, cons
   const auto threads = static_cast<std::size_t>(request.run.threads);
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
   const auto planners = planners_of(request, sensor, platform);
-  // What a planner asks for, by the view nearest to it; and the views judged by what it looks for.
+  // What a planner asks for, by the view nearest to it; and the views judged by what it looks for with its next view,
+  // and by all that it looks for.
   std::vector<std::pair<std::string, ChooseView>> choosers{{"expected cells", most_expected_cells(views, sensor)}};
   for (const auto& planner : planners) {
     const std::string name(planner->name());
@@ -148,7 +149,11 @@ void add_choosers(const ReplayRequest& request, const Recording& recording, cons
       continue;
     }
     choosers.emplace_back(name, nearest_to_goal(views, *planner, kMetresPerRadian));
-    choosers.emplace_back(name + ", by aim", most_for_what_is_sought(views, sensor, *planner));
+    choosers.emplace_back(name + ", by aim", most_for_what_is_sought(views, sensor, sought_next(views, *planner)));
+    choosers.emplace_back(
+        name + ", by all it seeks",
+        most_for_what_is_sought(views, sensor,
+                                name == "frontier-void" ? sought_in_voids() : sought_behind_frontiers()));
   }
   ChoosingPrinter printer(told, choosers.size() * (views.size() - 1));
   for (const auto& [name, choose] : choosers) {
@@ -195,12 +200,12 @@ void print_table(std::ostream& out, const Comparison& comparison) {
   char text[256];
   const double volume = comparison.greedy_volume.volume_area();
   const double surface = comparison.greedy_surface.surface_area();
-  std::snprintf(text, sizeof text, "\n%-24s %7s %9s %8s   %8s %9s %8s  %12s\n", "", "volume", "of greedy", "> random",
+  std::snprintf(text, sizeof text, "\n%-30s %7s %9s %8s   %8s %9s %8s  %12s\n", "", "volume", "of greedy", "> random",
                 "surface", "of greedy", "> random", "choosing");
   out << text;
   for (const Contender& contender : comparison.contenders) {
     const ViewOrderCurve& curve = contender.curve;
-    std::snprintf(text, sizeof text, "%-24s %7.4f %7.1f %% %6.0f %%   %8.4f %7.1f %% %6.0f %%", curve.name.c_str(),
+    std::snprintf(text, sizeof text, "%-30s %7.4f %7.1f %% %6.0f %%   %8.4f %7.1f %% %6.0f %%", curve.name.c_str(),
                   curve.volume_area(), 100.0 * curve.volume_area() / volume, 100.0 * contender.above_random_volume,
                   curve.surface_area(), 100.0 * curve.surface_area() / surface,
                   100.0 * contender.above_random_surface);
@@ -211,7 +216,7 @@ void print_table(std::ostream& out, const Comparison& comparison) {
     }
     out << '\n';
   }
-  std::snprintf(text, sizeof text, "%-24s %7.4f %7.1f %% %8s   %8.4f %7.1f %%\n", "greedy", volume, 100.0, "",
+  std::snprintf(text, sizeof text, "%-30s %7.4f %7.1f %% %8s   %8.4f %7.1f %%\n", "greedy", volume, 100.0, "",
                 surface, 100.0);
   out << text
       << "\nAreas under the curves of what is known over the number of views, as shares of what all views know;\n"
@@ -234,7 +239,7 @@ void print_void_table(std::ostream& out, const Comparison& comparison) {
   }
   const std::vector<std::size_t> columns = columns_of(comparison.frames.size());
   char text[128];
-  std::snprintf(text, sizeof text, "\n%-24s", "void left, dm^3, after");
+  std::snprintf(text, sizeof text, "\n%-30s", "void left, dm^3, after");
   out << text;
   for (const std::size_t views : columns) {
     std::snprintf(text, sizeof text, " %7zu", views);
@@ -242,7 +247,7 @@ void print_void_table(std::ostream& out, const Comparison& comparison) {
   }
   out << "     mean  > random\n";
   const auto row = [&](const ViewOrderCurve& curve, const Contender* contender) {
-    std::snprintf(text, sizeof text, "%-24s", curve.name.c_str());
+    std::snprintf(text, sizeof text, "%-30s", curve.name.c_str());
     out << text;
     for (const std::size_t views : columns) {
       std::snprintf(text, sizeof text, " %7.1f",

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/frontier/void_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/recorded_views.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
@@ -229,12 +231,36 @@ ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& se
   };
 }
 
-ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
-                                   ExplorationPlanner& planner) {
+SoughtCells sought_next(const RecordedViews& views, ExplorationPlanner& planner) {
+  return [&views, &planner](const OccupancyMap& map, std::size_t last) {
+    return planner.plan(map, views.scans()[last].world_from_sensor).sought;
+  };
+}
+
+SoughtCells sought_behind_frontiers() {
+  return [](const OccupancyMap& map, std::size_t) {
+    std::vector<VoxelIndex> cells;
+    for (const VoxelIndex& frontier : frontier_cells(map)) {
+      for (const VoxelIndex& step : kFaceNeighbours) {
+        const VoxelIndex beside = frontier + step;
+        if (map.in_region(beside) && map.at(beside) == Occupancy::Unknown) {
+          cells.push_back(beside);
+        }
+      }
+    }
+    return cells;
+  };
+}
+
+SoughtCells sought_in_voids() {
+  return [](const OccupancyMap& map, std::size_t) { return void_cells(map); };
+}
+
+ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor, SoughtCells sought) {
   const auto expected = std::make_shared<ExpectedGains>(views, sensor);
-  return [&views, &planner, expected](const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left) {
-    const Plan plan = planner.plan(map, views.scans()[last].world_from_sensor);
-    const std::vector<ExpectedGain> gains = expected->of(map, last, left, plan.sought);
+  return [sought = std::move(sought), expected](const OccupancyMap& map, std::size_t last,
+                                                std::span<const std::size_t> left) {
+    const std::vector<ExpectedGain> gains = expected->of(map, last, left, sought(map, last));
     const auto most = std::max_element(gains.begin(), gains.end(),
                                        [](const auto& a, const auto& b) { return a.marked < b.marked; });
     const double enough = most->marked < 1.0 ? 0.0 : kEnough * most->marked;

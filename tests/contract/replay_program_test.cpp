@@ -140,7 +140,7 @@ TEST_F(ReplayProgram, DrawsABarOnATerminal) {
       EXPECT_NE(bar.find("view "), std::string::npos) << bar;
       EXPECT_NE(bar.find(" of 5"), std::string::npos) << bar;
     }
-    EXPECT_EQ(bars, more.empty() ? 5U : 12U) << text;
+    EXPECT_EQ(bars, more.empty() ? 5U : 16U) << text;
   }
 }
 
@@ -160,7 +160,7 @@ TEST_F(ReplayProgram, ComparesOrdersOfViews) {
   EXPECT_EQ(report.at("command"), "replay");
   const auto& selection = report.at("selection");
   EXPECT_EQ(selection.at("frames").size(), 5U);
-  EXPECT_EQ(selection.at("orders").size(), 7U);
+  EXPECT_EQ(selection.at("orders").size(), 8U);
   for (const auto& order : selection.at("orders")) {
     EXPECT_EQ(order.at("volume").size(), 5U) << order.at("name");
     EXPECT_NEAR(order.at("volume").back().get<double>(), 1.0, 1e-12) << "every order ends with all that is known";

@@ -104,11 +104,20 @@ using ChooseView =
 /// the unknown began. A cell counts by the most likely ray to reach it.
 [[nodiscard]] ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& sensor);
 
-/// Of the views that are expected to show at least half as much as any of what `planner` seeks with its next one
-/// (Plan::sought), by the same chances, the one that is expected to make most cells known; where it seeks none that
-/// can be seen, of all.
+/// The unknown cells that a view is wanted for, given what `map` knows; `last` is the view taken last.
+using SoughtCells = std::function<std::vector<VoxelIndex>(const OccupancyMap& map, std::size_t last)>;
+
+/// What `planner` seeks with its next view (Plan::sought).
+[[nodiscard]] SoughtCells sought_next(const RecordedViews& views, ExplorationPlanner& planner);
+/// All that planners seek who explore frontiers: the unknown cells beside them.
+[[nodiscard]] SoughtCells sought_behind_frontiers();
+/// All that a planner seeks who looks into voids: their cells (Dornhege & Kleiner 2011, IV-B).
+[[nodiscard]] SoughtCells sought_in_voids();
+
+/// Of the views that are expected to show at least half as many as any of the cells sought, by the same chances, the
+/// one that is expected to make most cells known; where none of these can be seen, of all.
 [[nodiscard]] ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
-                                                 ExplorationPlanner& planner);
+                                                 SoughtCells sought);
 
 /// The view nearest to where `planner` wants to look from, a radian off the direction counting as
 /// `metres_per_radian`. Where it wants nothing more, the view furthest, by the same measure, from all that were
