@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdlib>
 #include <map/instruction_set.hpp>
+#include <string_view>
 
 namespace vantage {
 
@@ -19,7 +22,15 @@ std::vector<InstructionSet> instruction_sets() {
 }
 
 InstructionSet best_instruction_set() {
-  static const InstructionSet best = instruction_sets().back();
+  static const InstructionSet best = [] {
+    const std::vector<InstructionSet> all = instruction_sets();
+    const char* const limit = std::getenv("VANTAGE_INSTRUCTION_SET");
+    const std::string_view name = limit == nullptr ? "" : limit;
+    const InstructionSet most = name == "baseline" ? InstructionSet::Baseline
+                                : name == "avx2"   ? InstructionSet::Avx2
+                                                   : InstructionSet::Avx512;
+    return std::min(most, all.back());
+  }();
   return best;
 }
 

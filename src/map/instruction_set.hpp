@@ -12,7 +12,8 @@ enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 
 /// Those this processor has, the fastest last.
 [[nodiscard]] std::vector<InstructionSet> instruction_sets();
-/// The fastest of them.
+/// The fastest of them; none beyond VANTAGE_INSTRUCTION_SET of the environment, `baseline` or `avx2`, for timing
+/// those.
 [[nodiscard]] InstructionSet best_instruction_set();
 
 /// \cond
