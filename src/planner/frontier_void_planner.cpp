@@ -126,15 +126,11 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
 }
 
 void FrontierVoidPlanner::follow(const OccupancyMap& map) {
-  if (!followed_.is_in_place(map)) {
-    caster_.emplace(map);
+  if (looking_.follow(map, setup_.sensor)) {
     frontier_.emplace(map);
     void_cells_.emplace(map);
-    rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
     sparse_rays_.emplace(setup_.sensor.rays_for(kSparse * map.resolution_m()));
-    followed_ = KnownMap(map);
   } else {
-    caster_->update();
     frontier_->update();
     void_cells_->update();
   }
@@ -177,8 +173,8 @@ double FrontierVoidPlanner::discounted(double utility, double way_m) const {
 // What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere
 // too often.
 std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays) const {
-  const VoxelIndex place = caster_->frame().cell_of(view.translation());
-  std::vector<SightedCell> seen = sight_->look(*caster_, view, rays);
+  const VoxelIndex place = looking_.caster().frame().cell_of(view.translation());
+  std::vector<SightedCell> seen = sight_->look(looking_.caster(), view, rays);
   if (failed_.size() > 0) {
     std::erase_if(seen, [&](const SightedCell& one) {
       return failed_.gave_up(one.cell) || failed_.failed_from(one.cell, place);
@@ -223,7 +219,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     candidates = rank(std::move(candidates), *sparse_rays_, current);
     candidates.resize(options_.strategy.finalists);
   }
-  candidates = rank(std::move(candidates), *rays_, current);
+  candidates = rank(std::move(candidates), looking_.rays(), current);
   const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
   std::optional<Choice> best;
   double best_value = 0.0;
@@ -249,7 +245,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     }
   }
   if (best) {
-    for (const SightedCell& one : void_cells_seen(best->view.view.pose, *rays_)) {
+    for (const SightedCell& one : void_cells_seen(best->view.view.pose, looking_.rays())) {
       (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
     }
     for (const Candidate& weighed : candidates) {

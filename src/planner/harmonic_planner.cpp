@@ -111,7 +111,7 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   const HarmonicStrategy& strategy = options_.strategy;
   PlanStatistics& statistics = cycle.plan().statistics;
   if (chooses_directions(map)) {
-    follow(map);
+    looking_.follow(map, setup_.sensor);
   }
   if (std::optional<TargetView> look = look_again(map, current, survey, statistics.ray_operations)) {
     return cycle.go(std::move(*look), std::vector<VoxelIndex>{*survey.reachable.start()});
@@ -147,16 +147,6 @@ bool HarmonicPlanner::chooses_directions(const OccupancyMap& map) const {
   return !std::isinf(options_.strategy.look_again_dm3) && detail::LookDirections::choosable(map, setup_.sensor);
 }
 
-void HarmonicPlanner::follow(const OccupancyMap& map) {
-  if (!followed_.is_in_place(map)) {
-    caster_.emplace(map);
-    rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
-    followed_ = KnownMap(map);
-  } else {
-    caster_->update();
-  }
-}
-
 // A view from where the sensor is, if one is worth taking before it moves on.
 std::optional<TargetView> HarmonicPlanner::look_again(const OccupancyMap& map, const Pose& current,
                                                       const FrontierSurvey& survey, std::uint64_t& operations) const {
@@ -165,7 +155,8 @@ std::optional<TargetView> HarmonicPlanner::look_again(const OccupancyMap& map, c
     return std::nullopt;
   }
   std::optional<detail::Look> look =
-      detail::LookDirections({map, *caster_, *rays_, setup_, failed_}, survey, position, operations).best();
+      detail::LookDirections({map, looking_.caster(), looking_.rays(), setup_, failed_}, survey, position, operations)
+          .best();
   const double cell_dm3 = 1e3 * std::pow(map.resolution_m(), 3);
   return look && look->cells * cell_dm3 >= options_.strategy.look_again_dm3
              ? std::optional<TargetView>(std::move(look->seen))
@@ -178,7 +169,8 @@ TargetView HarmonicPlanner::look_at(const OccupancyMap& map, const FrontierSurve
   if (chooses_directions(map)) {
     const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
     if (std::optional<detail::Look> look =
-            detail::LookDirections({map, *caster_, *rays_, setup_, failed_}, survey, position, operations)
+            detail::LookDirections({map, looking_.caster(), looking_.rays(), setup_, failed_}, survey, position,
+                                   operations)
                 .best(wanted.unknown)) {
       return std::move(look->seen);
     }

@@ -115,16 +115,6 @@ Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
   return options_.object ? reconstruct(map, current) : explore(map, current);
 }
 
-void NextBestViewPlanner::follow(const OccupancyMap& map) {
-  if (!followed_.is_in_place(map)) {
-    caster_.emplace(map);
-    rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
-    followed_ = KnownMap(map);
-  } else {
-    caster_->update();
-  }
-}
-
 // Line 8: the candidates that the platform admits, in the orientations that it can take.
 std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, const VoxelBox& object) const {
   const Eigen::Vector3d middle = options_.object->centre();
@@ -140,11 +130,11 @@ std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, 
   if (options_.aimed.count > 0) {
     CellSet sought(object);
     for_each_cell(object, [&](const VoxelIndex& cell) {
-      if (caster_->at(cell) == Occupancy::Unknown && !failed_.gave_up(cell)) {
+      if (looking_.caster().at(cell) == Occupancy::Unknown && !failed_.gave_up(cell)) {
         sought.insert(cell);
       }
     });
-    add(aimed_views(*caster_, sought, options_.aimed, setup_.seed));
+    add(aimed_views(looking_.caster(), sought, options_.aimed, setup_.seed));
   }
   for (Pose& view : views) {
     view = setup_.platform->facing(view.translation(), optical_axis(view));
@@ -184,7 +174,7 @@ std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(cons
     const VoxelIndex viewpoint = map.frame().cell_of(views[i].translation());
     std::size_t all = 0;
     seen[i].for_each([&](const VoxelIndex& cell) {
-      if (caster_->at(cell) == Occupancy::Unknown) {
+      if (looking_.caster().at(cell) == Occupancy::Unknown) {
         ++all;
         if (!given_up.contains(cell) &&
             !(failed_once.contains(cell) && failed_.failed_towards(cell, viewpoint, options_.failed_within_rad))) {
@@ -217,7 +207,7 @@ std::vector<ScoredView> NextBestViewPlanner::score(const OccupancyMap& map, cons
   if (!options_.gain) {
     return scored_by();
   }
-  const ViewGain gain(map, *caster_, *rays_, object, options_.gain(map, object));
+  const ViewGain gain(map, looking_.caster(), looking_.rays(), object, options_.gain(map, object));
   factors.surface = [&](const Pose& pose, const ViewEvaluation& evaluation) {
     return evaluation.unknown == 0 ? 0.0 : gain(pose, static_cast<std::size_t>(setup_.threads));
   };
@@ -242,13 +232,14 @@ std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& ma
   std::vector<ViewEvaluation> evaluations(views.size());
   detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
     if (options_.method == VisibilityMethod::Uniform) {
-      evaluations[i] = uniform.evaluate(views[i], *rays_, object, &seen[i]);
+      evaluations[i] = uniform.evaluate(views[i], looking_.rays(), object, &seen[i]);
     } else {
-      evaluations[i] = evaluate_view(*caster_, views[i], *rays_, object, &seen[i]);
+      evaluations[i] = evaluate_view(looking_.caster(), views[i], looking_.rays(), object, &seen[i]);
     }
     if (sensing) {
       sensing(views[i], seen[i]);
-      evaluations[i] = {caster_->count(seen[i], Occupancy::Unknown), caster_->count(seen[i], Occupancy::Occupied)};
+      evaluations[i] = {looking_.caster().count(seen[i], Occupancy::Unknown),
+                        looking_.caster().count(seen[i], Occupancy::Occupied)};
     }
     if (hierarchical) {
       const HierarchicalCounts counts = hierarchical->evaluate(views[i], object);
@@ -284,7 +275,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
   detail::Stopwatch stopwatch;
   detail::validate(map, current);
   failed_.review(map, current);
-  follow(map);
+  looking_.follow(map, setup_.sensor);
   const VoxelBox object = map.frame().cells_centred_in(*options_.object);
   Plan plan;
   plan.statistics.survey_ms = stopwatch.lap_ms();
@@ -335,7 +326,7 @@ Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) 
   if (cycle.over()) {
     return cycle.plan();
   }
-  follow(map);
+  looking_.follow(map, setup_.sensor);
   const FrontierSurvey& survey = cycle.survey();
   const Platform& platform = *setup_.platform;
   PlanStatistics& statistics = cycle.plan().statistics;
@@ -354,8 +345,9 @@ Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) 
   UtilityFactors factors;
   factors.surface = unknown_cells();
   factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(current, pose); });
-  const std::vector<ScoredView> scored = score_views(*caster_, candidates, *rays_, cells_of_interest(map), factors,
-                                                     static_cast<std::size_t>(setup_.threads));
+  const std::vector<ScoredView> scored =
+      score_views(looking_.caster(), candidates, looking_.rays(), cells_of_interest(map), factors,
+                  static_cast<std::size_t>(setup_.threads));
   statistics.views_scored = scored.size();
   cycle.plan().candidates = views_of(scored);
   std::priority_queue<Rank> ranks;

@@ -8,13 +8,13 @@
 #include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/frontier/void_tracker.hpp>
-#include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
-#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/raytrace/following_caster.hpp>
+#include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vantage/view/utility_vectors.hpp>
 #include <vector>
@@ -157,13 +157,11 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   FailedViews failed_;
   VoidSearch search_;
   // Of the map that was planned in last:
-  std::optional<RayCaster> caster_;
+  FollowingCaster looking_;
   std::optional<UnknownSight> sight_;
   std::optional<FrontierTracker> frontier_;
   std::optional<VoidTracker> void_cells_;
-  std::optional<ViewRays> rays_;  // as dense as its cells ask for
   std::optional<ViewRays> sparse_rays_;
-  KnownMap followed_;
 };
 
 }  // namespace vantage

@@ -9,14 +9,12 @@
 #include <string_view>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
-#include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
-#include <vantage/raytrace/ray_caster.hpp>
-#include <vantage/raytrace/view_rays.hpp>
+#include <vantage/raytrace/following_caster.hpp>
 #include <vector>
 
 namespace vantage {
@@ -128,16 +126,12 @@ class HarmonicPlanner final : public ExplorationPlanner {
   [[nodiscard]] TargetView look_at(const OccupancyMap& map, const FrontierSurvey& survey,
                                    const FrontierTarget& wanted, std::uint64_t& operations) const;
   [[nodiscard]] bool chooses_directions(const OccupancyMap& map) const;
-  void follow(const OccupancyMap& map);
 
   PlannerSetup setup_;
   HarmonicOptions options_;
   FailedViews failed_;
   std::optional<HarmonicField> field_;
-  // Of the map in which it last chose a direction:
-  std::optional<RayCaster> caster_;
-  std::optional<ViewRays> rays_;  // as dense as its cells ask for
-  KnownMap followed_;
+  FollowingCaster looking_;  // in the map in which it last chose a direction
 };
 
 }  // namespace vantage

@@ -6,12 +6,11 @@
 #include <optional>
 #include <span>
 #include <vantage/geometry/box.hpp>
-#include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
-#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/aimed_views.hpp>
 #include <vantage/view/information_gain.hpp>
 #include <vantage/view/sensing_constraint.hpp>
@@ -98,7 +97,6 @@ class NextBestViewPlanner final : public ExplorationPlanner {
     double counted = 0.0;  // how many they are by the method asked for
   };
 
-  void follow(const OccupancyMap& map);
   [[nodiscard]] std::vector<Pose> views_of_object(const OccupancyMap& map, const VoxelBox& object) const;
   [[nodiscard]] CellSet failed_cells(const VoxelBox& object, bool given_up) const;
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current,
@@ -115,9 +113,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   PlannerSetup setup_;
   NextBestViewOptions options_;
   FailedViews failed_;
-  std::optional<RayCaster> caster_;  // of the map that was planned in last
-  std::optional<ViewRays> rays_;     // as dense as its cells ask for
-  KnownMap followed_;
+  FollowingCaster looking_;  // in the map that was planned in last
 };
 
 }  // namespace vantage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <vantage/raytrace/following_caster.hpp>
+
+namespace vantage {
+namespace {
+
+TEST(FollowingCaster, FollowsOneMapAndBeginsAnewWithAnother) {
+  const RangeSensor sensor = RangeSensor::pinhole(40, 40, 0.9, 0.9, 0.0, 3.0);
+  const VoxelIndex cell{3, 4, 5};
+  OccupancyMap map({.resolution_m = 0.1});
+  FollowingCaster looking;
+  EXPECT_TRUE(looking.follow(map, sensor));
+  EXPECT_EQ(looking.caster().at(cell), Occupancy::Unknown);
+
+  map.set(cell, Occupancy::Occupied);
+  EXPECT_FALSE(looking.follow(map, sensor)) << "the same map, which has changed";
+  EXPECT_EQ(looking.caster().at(cell), Occupancy::Occupied);
+  const std::size_t rays = looking.rays().size();
+
+  OccupancyMap coarse({.resolution_m = 0.2});
+  coarse.set(cell, Occupancy::Free);
+  EXPECT_TRUE(looking.follow(coarse, sensor));
+  EXPECT_EQ(looking.caster().at(cell), Occupancy::Free);
+  EXPECT_LT(looking.rays().size(), rays) << "larger cells ask for fewer rays";
+
+  map = coarse;
+  map.set(cell, Occupancy::Occupied);
+  EXPECT_TRUE(looking.follow(map, sensor)) << "a copy changes on its own";
+  EXPECT_EQ(looking.caster().at(cell), Occupancy::Occupied);
+}
+
+}  // namespace
+}  // namespace vantage
