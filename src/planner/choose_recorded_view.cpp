@@ -8,6 +8,7 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/map/known_map.hpp>
 #include <vantage/planner/recorded_views.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vector>
@@ -33,13 +34,14 @@ VoxelBox cells_that_count(const RecordedViews& views, const VoxelFrame& frame, d
 
 // Follows the map that it is asked about from call to call.
 struct FollowedCaster {
-  const OccupancyMap* map = nullptr;
+  KnownMap map = {};
   std::optional<RayCaster> caster = std::nullopt;
 
   const RayCaster& on(const OccupancyMap& now) {
-    if (map != &now) {
+    if (!map.is_in_place(now)) {
+      map = KnownMap();  // none, if what follows throws
       caster.emplace(now);
-      map = &now;
+      map = KnownMap(now);
     }
     caster->update();
     return *caster;

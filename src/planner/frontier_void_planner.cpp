@@ -126,7 +126,8 @@ Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
 }
 
 void FrontierVoidPlanner::follow(const OccupancyMap& map) {
-  if (looking_.follow(map, setup_.sensor)) {
+  if (looking_.follow(map, setup_.sensor) || !sparse_rays_) {
+    sparse_rays_.reset();  // comes last: where it is, all of them follow this map
     frontier_.emplace(map);
     void_cells_.emplace(map);
     sparse_rays_.emplace(setup_.sensor.rays_for(kSparse * map.resolution_m()));

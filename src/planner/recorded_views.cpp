@@ -156,7 +156,7 @@ OccupancyMap RecordedViews::map_before() const {
     return OccupancyMap(options_);
   }
   const Eigen::Vector3d cell = Eigen::Vector3d::Constant(options_.resolution_m);
-  Box all = *object_;
+  Box all{object_->min - cell, object_->max + cell};  // with the cells that it cuts
   for (const Scan& scan : scans_) {
     all.extend(scan.world_from_sensor.translation() + cell);
     all.extend(scan.world_from_sensor.translation() - cell);

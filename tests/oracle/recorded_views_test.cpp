@@ -351,6 +351,11 @@ TEST(RecordedViews, ChoosersTakeTheViewThatShowsMore) {
   EXPECT_EQ(chosen_order(views, 0, most_expected_cells(views, sensor)), best);
   EXPECT_EQ(chosen_order(views, 0, most_for_what_is_sought(views, sensor, sought_in_voids())), best)
       << "a wall has no void: of all views the one that makes most known";
+  const ChooseView twice = most_unknown_cells(views, sensor);
+  for (const std::size_t start : {0U, 1U}) {
+    EXPECT_EQ(chosen_order(views, start, twice), chosen_order(views, start, most_unknown_cells(views, sensor)))
+        << "another map, perhaps where the first one lay";
+  }
   EXPECT_THROW((void)chosen_order(views, 0, [](const auto&, auto, auto) { return std::size_t{0}; }),
                std::logic_error);
   EXPECT_THROW(RecordedViews({}, {}), std::invalid_argument);

@@ -70,7 +70,7 @@ struct HarmonicOptions {
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
   double tolerance = 1e-4;            ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
   std::size_t smoothing_sweeps = 20;  ///< CoarseToFine: sweeps after the guess
-  std::size_t max_sweeps = 50000;     ///< of the relaxation; no plan takes more, > 0
+  std::size_t max_sweeps = 50000;     ///< of the relaxation; no field takes more, > 0
   double over_relaxation = 1.0;       ///< in (0, 2); 1 is Gauss-Seidel
   double uniform_source = 1e-4;       ///< see RelaxationOptions; 0 is the field of the paper
   HarmonicStrategy strategy = {};     ///< what to make of the field

@@ -86,7 +86,8 @@ class RecordedViews {
   std::vector<std::vector<std::uint32_t>> inside_;  // of those known, the ones inside the hull
 };
 
-/// Chooses one of the views `left` (never empty) for what `map` lacks; `last` is the one taken last.
+/// Chooses one of the views `left` (never empty) for what `map` lacks; `last` is the one taken last. Those made below
+/// learn from view to view: each serves one order.
 using ChooseView =
     std::function<std::size_t(const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left)>;
 

@@ -17,9 +17,10 @@ class CellSet {
  public:
   CellSet() = default;
   /// An empty set of cells of `box`.
-  explicit CellSet(const VoxelBox& box)
-      : box_(box), lo_(word_of(box.lo)), extent_(word_of(box.hi - VoxelIndex{1, 1, 1}) - lo_ + VoxelIndex{1, 1, 1}) {
+  explicit CellSet(const VoxelBox& box) : box_(box) {
     if (!box.empty()) {
+      lo_ = word_of(box.lo);
+      extent_ = word_of(box.hi - VoxelIndex{1, 1, 1}) - lo_ + VoxelIndex{1, 1, 1};
       words_.resize(VoxelBox{{}, extent_}.size());
     }
   }

@@ -14,12 +14,15 @@ namespace vantage {
 /// changes and begin anew with another map.
 class FollowingCaster {
  public:
-  /// Looks at `map` as it is now, which must outlive the next use of `caster`. Returns whether it began anew.
+  /// Looks at `map` as it is now, which must outlive the next use of `caster`; the sensor is the same every
+  /// time. Returns whether it began anew. Throws std::length_error if cells of the map lie too far apart to be looked
+  /// at (RayCaster).
   bool follow(const OccupancyMap& map, const RangeSensor& sensor) {
     if (map_.is_in_place(map)) {
       caster_->update();
       return false;
     }
+    map_ = KnownMap();  // none, if what follows throws
     caster_.emplace(map);
     rays_.emplace(sensor.rays_for(map.resolution_m()));
     map_ = KnownMap(map);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <vantage/raytrace/following_caster.hpp>
 
 namespace vantage {
@@ -29,6 +30,19 @@ TEST(FollowingCaster, FollowsOneMapAndBeginsAnewWithAnother) {
   map.set(cell, Occupancy::Occupied);
   EXPECT_TRUE(looking.follow(map, sensor)) << "a copy changes on its own";
   EXPECT_EQ(looking.caster().at(cell), Occupancy::Occupied);
+}
+
+TEST(FollowingCaster, BeginsAnewAfterAMapThatCannotBeLookedAt) {
+  const RangeSensor sensor = RangeSensor::pinhole(40, 40, 0.9, 0.9, 0.0, 3.0);
+  OccupancyMap map;
+  map.set({1, 2, 3}, Occupancy::Occupied);
+  OccupancyMap torn = map;
+  torn.set({40000, 40000, 40000}, Occupancy::Free);
+  FollowingCaster looking;
+  EXPECT_TRUE(looking.follow(map, sensor));
+  EXPECT_THROW((void)looking.follow(torn, sensor), std::length_error);
+  EXPECT_TRUE(looking.follow(map, sensor)) << "nothing is left of the map before";
+  EXPECT_EQ(looking.caster().at({1, 2, 3}), Occupancy::Occupied);
 }
 
 }  // namespace
