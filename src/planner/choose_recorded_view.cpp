@@ -8,9 +8,9 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/map/known_map.hpp>
 #include <vantage/planner/recorded_views.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
+#include <vantage/raytrace/following_caster.hpp>
 #include <vector>
 
 namespace vantage {
@@ -31,22 +31,6 @@ VoxelBox cells_that_count(const RecordedViews& views, const VoxelFrame& frame, d
   box = views.object().value_or(box);
   return {frame.cell_of(box.min), frame.cell_of(box.max) + VoxelIndex{1, 1, 1}};
 }
-
-// Follows the map that it is asked about from call to call.
-struct FollowedCaster {
-  KnownMap map = {};
-  std::optional<RayCaster> caster = std::nullopt;
-
-  const RayCaster& on(const OccupancyMap& now) {
-    if (!map.is_in_place(now)) {
-      map = KnownMap();  // none, if what follows throws
-      caster.emplace(now);
-      map = KnownMap(now);
-    }
-    caster->update();
-    return *caster;
-  }
-};
 
 // How far returns came from: the share of those seen so far that came from beyond a distance.
 class RangeShares {
@@ -211,15 +195,16 @@ std::size_t best_of(std::span<const std::size_t> left, const std::vector<Expecte
 }  // namespace
 
 ChooseView most_unknown_cells(const RecordedViews& views, const RangeSensor& sensor, std::size_t threads) {
-  const auto caster = std::make_shared<FollowedCaster>();
-  const auto rays = std::make_shared<const ViewRays>(sensor.rays_for(views.options().resolution_m));
-  return [&views, caster, rays, threads](const OccupancyMap& map, std::size_t, std::span<const std::size_t> left) {
+  const auto looking = std::make_shared<FollowingCaster>();
+  return [&views, looking, sensor, threads](const OccupancyMap& map, std::size_t, std::span<const std::size_t> left) {
+    looking->follow(map, sensor);
     std::vector<Pose> poses;
     for (const std::size_t view : left) {
       poses.push_back(views.scans()[view].world_from_sensor);
     }
-    const std::vector<ViewEvaluation> seen = evaluate_views(
-        caster->on(map), poses, *rays, cells_that_count(views, map.frame(), rays->max_range_m()), threads);
+    const std::vector<ViewEvaluation> seen =
+        evaluate_views(looking->caster(), poses, looking->rays(),
+                       cells_that_count(views, map.frame(), looking->rays().max_range_m()), threads);
     const auto best = std::max_element(seen.begin(), seen.end(),
                                        [](const auto& a, const auto& b) { return a.unknown < b.unknown; });
     return left[static_cast<std::size_t>(best - seen.begin())];
