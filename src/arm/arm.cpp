@@ -4,11 +4,12 @@
 #include <stdexcept>
 #include <vantage/arm/arm.hpp>
 
+#include "arm/arm_memory.hpp"
+#include "arm/clear_space.hpp"
 #include "arm/postures.hpp"
 #include "arm/rrt_connect.hpp"
 #include "arm/segment_distance.hpp"
 #include "map/option_rule.hpp"
-#include "robot/swept_sphere.hpp"
 
 namespace vantage {
 namespace {
@@ -65,7 +66,8 @@ std::vector<Joints> shortcut(const std::vector<Joints>& way, AdmitsMotion&& admi
 Arm::Arm(const KinematicChain& chain, const ArmOptions& options)
     : chain_(chain),
       options_(checked(options)),
-      postures_(std::make_shared<const Postures>(chain, options.capability)) {}
+      postures_(std::make_shared<const Postures>(chain, options.capability)),
+      memory_(std::make_shared<Memory>()) {}
 
 const CapabilityMap& Arm::capability() const { return postures_->capability(); }
 
@@ -73,93 +75,43 @@ Pose Arm::sensor_pose(std::span<const double> joints) const {
   return options_.world_from_base * chain_.sensor_pose(joints);
 }
 
-// --- what is clear
-// ---------------------------------------------------------------------------------------------------
-
-bool Arm::declared(const Eigen::Vector3d& point_m) const {
-  return std::any_of(options_.declared_clear.begin(), options_.declared_clear.end(),
-                     [&](const Box& box) { return box.contains(point_m); });
-}
-
-bool Arm::passable(const OccupancyMap& map, const VoxelIndex& cell) const {
-  return map.is_clear(cell) || (map.at(cell) == Occupancy::Unknown && declared(map.frame().centre_of(cell)));
-}
-
-// The same for every cell the arm can touch: a path asks millions of times.
-VoxelGrid<std::uint8_t> Arm::passable_cells(const OccupancyMap& map) const {
-  const VoxelFrame& frame = map.frame();
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(chain_.reach_m() + options_.margin_m + 2.0 * frame.size_m);
-  const Eigen::Vector3d base = options_.world_from_base.translation();
-  VoxelGrid<std::uint8_t> clear({frame.cell_of(base - reach), frame.cell_of(base + reach) + VoxelIndex{1, 1, 1}});
-  for (const Box& box : options_.declared_clear) {
-    const Box near{box.min.cwiseMax(base - reach), box.max.cwiseMin(base + reach)};
-    for_each_cell(frame.cells_centred_in(near), [&](const VoxelIndex& cell) {
-      if (clear.contains(cell) && map.at(cell) == Occupancy::Unknown) {
-        clear[cell] = 1;
-      }
-    });
-  }
-  map.for_each_clear([&](const VoxelIndex& cell) {
-    if (clear.contains(cell)) {
-      clear[cell] = 1;
-    }
-  });
-  return clear;
-}
-
 // --- where the body is
 // ------------------------------------------------------------------------------------------------
 
-template <class Clear>
-bool Arm::keeps_to(const VoxelFrame& frame, std::span<const double> joints, Clear&& clear) const {
-  const std::vector<Pose> links = chain_.link_poses(joints);
-  if (chain_.touches_itself(links)) {
-    return false;
-  }
+// A cell that the body touches and must not, given that it does not touch itself.
+std::optional<VoxelIndex> Arm::obstacle(const detail::ClearSpace& space, std::span<const Capsule> body) const {
   // From the sensor inwards: what is furthest out collides most.
-  return std::all_of(chain_.capsules().rbegin(), chain_.capsules().rend(), [&](const Capsule& capsule) {
-    if (chain_.joints_before(capsule.link) == 0) {
-      return true;
+  for (auto capsule = body.rbegin(); capsule != body.rend(); ++capsule) {
+    if (chain_.joints_before(capsule->link) == 0) {
+      continue;
     }
-    const Pose world_from_link = options_.world_from_base * links[capsule.link];
-    return detail::swept_sphere_is_clear(frame, world_from_link * capsule.from_m, world_from_link * capsule.to_m,
-                                         capsule.radius_m + options_.margin_m, clear);
-  });
+    const auto found =
+        space.obstacle(options_.world_from_base * capsule->from_m, options_.world_from_base * capsule->to_m,
+                       capsule->radius_m + options_.margin_m);
+    if (found) {
+      return found;
+    }
+  }
+  return std::nullopt;
 }
 
-template <class Clear>
-bool Arm::moves_in(const VoxelFrame& frame, const Joints& from, const Joints& to, Clear&& clear) const {
+bool Arm::keeps_to(const detail::ClearSpace& space, std::span<const double> joints) const {
+  const std::vector<Capsule> body = chain_.body_at(joints);
+  return !chain_.touches_itself(body) && !obstacle(space, body);
+}
+
+bool Arm::moves_in(const detail::ClearSpace& space, const Joints& from, const Joints& to) const {
   const int steps = steps_of(from, to, options_.joint_step_rad);
   for (int step = steps; step > 0; --step) {
-    if (!keeps_to(frame, between(from, to, static_cast<double>(step) / steps), clear)) {
+    if (!keeps_to(space, between(from, to, static_cast<double>(step) / steps))) {
       return false;
     }
   }
   return true;
 }
 
-void Arm::clear_touched(const VoxelFrame& frame, const Joints& joints, VoxelGrid<std::uint8_t>& clear) const {
-  const std::vector<Pose> links = chain_.link_poses(joints);
-  for (const Capsule& capsule : chain_.capsules()) {
-    const Pose world_from_link = options_.world_from_base * links[capsule.link];
-    const Eigen::Vector3d from = world_from_link * capsule.from_m;
-    const Eigen::Vector3d to = world_from_link * capsule.to_m;
-    const double radius_m = capsule.radius_m + options_.margin_m;
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m);
-    for_each_cell(
-        {frame.cell_of(from.cwiseMin(to) - reach), frame.cell_of(from.cwiseMax(to) + reach) + VoxelIndex{1, 1, 1}},
-        [&](const VoxelIndex& cell) {
-          if (clear.contains(cell) && clear[cell] == 0 &&
-              detail::distance_to_segment(frame.box_of(cell), from, to) < radius_m) {
-            clear[cell] = 1;
-          }
-        });
-  }
-}
-
 bool Arm::admits_joints(const OccupancyMap& map, std::span<const double> joints) const {
-  return chain_.in_range(joints) &&
-         keeps_to(map.frame(), joints, [&](const VoxelIndex& cell) { return passable(map, cell); });
+  return chain_.in_range(joints) && keeps_to(*clear_space(map), joints);
 }
 
 // --- poses
@@ -172,7 +124,7 @@ std::optional<Joints> Arm::configuration(const Pose& world_from_sensor) const {
   const Pose base_from_sensor = options_.world_from_base.inverse() * world_from_sensor;
   for (const std::uint32_t posture : postures_->near(base_from_sensor, options_.guesses, false)) {
     auto joints = chain_.inverse(base_from_sensor, postures_->joints(posture));
-    if (joints && !chain_.touches_itself(chain_.link_poses(*joints))) {
+    if (joints && !chain_.touches_itself(chain_.body_at(*joints))) {
       return joints;
     }
   }
@@ -190,7 +142,7 @@ Pose Arm::facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direc
   const std::vector<std::uint32_t> guesses = postures_->near(base_from_wanted, options_.guesses, true);
   const auto reached = [&](const Pose& target, std::uint32_t posture) -> std::optional<Pose> {
     const auto joints = chain_.inverse(target, postures_->joints(posture), {.free_roll = true});
-    if (!joints || chain_.touches_itself(chain_.link_poses(*joints))) {
+    if (!joints || chain_.touches_itself(chain_.body_at(*joints))) {
       return std::nullopt;
     }
     return sensor_pose(*joints);
@@ -229,64 +181,6 @@ Box Arm::body_box(const Pose& pose) const {
   return {pose.translation() - reach, pose.translation() + reach};
 }
 
-// --- cells
-// ------------------------------------------------------------------------------------------------------------
-
-bool Arm::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
-  const Eigen::Vector3d centre = options_.world_from_base.inverse() * map.frame().centre_of(cell);
-  if (!passable(map, cell)) {
-    return false;
-  }
-  const auto postures = postures_->in_cell(capability().frame().cell_of(centre));
-  const auto is_clear = [&](const VoxelIndex& touched) { return passable(map, touched); };
-  return std::any_of(postures.begin(), postures.end(), [&](std::uint32_t posture) {
-    return keeps_to(map.frame(), postures_->joints(posture), is_clear);
-  });
-}
-
-VoxelGrid<std::uint8_t> Arm::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
-  const VoxelGrid<std::uint8_t> clear = passable_cells(map);
-  const auto is_clear = [&](const VoxelIndex& cell) { return clear.value_or(cell, 0) != 0; };
-  enum class Answer : std::uint8_t { Unasked, Refused, Admitted };
-  VoxelGrid<Answer> answers(capability().cells(), Answer::Unasked);
-  const auto admitted_in = [&](const VoxelIndex& cell) {
-    if (!answers.contains(cell)) {
-      return false;
-    }
-    if (answers[cell] == Answer::Unasked) {
-      const auto postures = postures_->in_cell(cell);
-      answers[cell] = std::any_of(postures.begin(), postures.end(),
-                                  [&](std::uint32_t posture) {
-                                    return keeps_to(map.frame(), postures_->joints(posture), is_clear);
-                                  })
-                          ? Answer::Admitted
-                          : Answer::Refused;
-    }
-    return answers[cell] == Answer::Admitted;
-  };
-  const Pose base_from_world = options_.world_from_base.inverse();
-  VoxelGrid<std::uint8_t> admitted(box);
-  for_each_cell(box, [&](const VoxelIndex& cell) {
-    if (is_clear(cell)) {
-      const Eigen::Vector3d centre = base_from_world * map.frame().centre_of(cell);
-      admitted[cell] = admitted_in(capability().frame().cell_of(centre)) ? 1 : 0;
-    }
-  });
-  return admitted;
-}
-
-std::vector<Pose> Arm::admitted_poses(const OccupancyMap& map) const {
-  const VoxelGrid<std::uint8_t> clear = passable_cells(map);
-  const auto is_clear = [&](const VoxelIndex& cell) { return clear.value_or(cell, 0) != 0; };
-  std::vector<Pose> poses;
-  for (std::uint32_t posture = 0; posture < postures_->size(); ++posture) {
-    if (keeps_to(map.frame(), postures_->joints(posture), is_clear)) {
-      poses.push_back(options_.world_from_base * postures_->pose(posture));
-    }
-  }
-  return poses;
-}
-
 // --- ways
 // -------------------------------------------------------------------------------------------------------------
 
@@ -299,9 +193,7 @@ bool Arm::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& t
   if (!last) {
     return false;
   }
-  VoxelGrid<std::uint8_t> clear = passable_cells(map);
-  clear_touched(map.frame(), *first, clear);
-  return moves_in(map.frame(), *first, *last, [&](const VoxelIndex& cell) { return clear.value_or(cell, 0) != 0; });
+  return moves_in(*clear_space_from(map, *first), *first, *last);
 }
 
 std::optional<std::vector<Joints>> Arm::joint_path(const OccupancyMap& map, const Pose& from, const Pose& to) const {
@@ -310,18 +202,15 @@ std::optional<std::vector<Joints>> Arm::joint_path(const OccupancyMap& map, cons
   if (!last || !admits_joints(map, *last)) {
     return std::nullopt;
   }
-  const VoxelFrame& frame = map.frame();
-  VoxelGrid<std::uint8_t> clear = passable_cells(map);
-  clear_touched(frame, *first, clear);
-  const auto is_clear = [&](const VoxelIndex& cell) { return clear.value_or(cell, 0) != 0; };
-  const auto admits_straight = [&](const Joints& a, const Joints& b) { return moves_in(frame, a, b, is_clear); };
+  const std::shared_ptr<const detail::ClearSpace> space = clear_space_from(map, *first);
+  const auto admits_straight = [&](const Joints& a, const Joints& b) { return moves_in(*space, a, b); };
   if (admits_straight(*first, *last)) {
     return std::vector<Joints>{*first, *last};
   }
-  const JointSpace space{.ranges = chain_.ranges(),
-                         .admits = [&](const Joints& joints) { return keeps_to(frame, joints, is_clear); },
-                         .admits_motion = admits_straight};
-  const auto way = rrt_connect(space, *first, *last, options_.path_iterations, options_.seed);
+  const JointSpace joint_space{.ranges = chain_.ranges(),
+                               .admits = [&](const Joints& joints) { return keeps_to(*space, joints); },
+                               .admits_motion = admits_straight};
+  const auto way = rrt_connect(joint_space, *first, *last, options_.path_iterations, options_.seed);
   if (!way) {
     return std::nullopt;
   }

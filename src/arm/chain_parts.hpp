@@ -3,8 +3,11 @@
 
 #include <kdl/chain.hpp>
 #include <string>
+#include <utility>
 #include <vantage/arm/kinematic_chain.hpp>
 #include <vector>
+
+#include "arm/joint_frames.hpp"
 
 namespace vantage {
 
@@ -15,6 +18,8 @@ struct KinematicChain::Parts {
   std::vector<Capsule> capsules;
   std::vector<std::size_t> joints_before{0};  // for every link
   double reach_m = 0.0;
+  JointFrames frames;
+  std::vector<std::pair<std::size_t, std::size_t>> may_touch;  // capsules that two or more joints move apart
 
   void add(const KDL::Segment& segment) {
     chain.addSegment(segment);

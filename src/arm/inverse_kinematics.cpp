@@ -2,10 +2,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <kdl/chainfksolverpos_recursive.hpp>
-#include <kdl/chainjnttojacsolver.hpp>
 #include <numbers>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <vantage/arm/kinematic_chain.hpp>
 
 #include "arm/chain_parts.hpp"
@@ -29,73 +29,106 @@ Eigen::Vector3d turn_of_axis(const Eigen::Vector3d& wanted_axis) {
   return across / sine * std::atan2(sine, wanted_axis.z());
 }
 
+// Damped least squares over so many joints, known to the compiler or not (Eigen::Dynamic).
+template <int kCount>
 class Search {
  public:
-  Search(const KDL::Chain& chain, const std::vector<JointRange>& ranges, const Pose& target,
+  Search(const JointFrames& frames, const std::vector<JointRange>& ranges, const Pose& target,
          const InverseOptions& options)
-      : ranges_(ranges), target_(target), options_(options), forward_(chain), jacobian_(chain) {}
+      : frames_(frames),
+        ranges_(ranges),
+        target_turn_(target.linear()),
+        target_place_(target.translation()),
+        options_(options) {}
 
-  std::optional<Joints> from(KDL::JntArray joints) {
-    const auto count = joints.data.size();
+  std::optional<Joints> from(std::span<const double> guess) {
+    Values joints = Eigen::Map<const Values>(guess.data(), static_cast<Eigen::Index>(guess.size()));
     clamp(joints);
-    Vector6 error = error_at(joints);
-    KDL::Jacobian jacobian(static_cast<unsigned>(count));
+    Station station = at(joints);
     double damping = 1e-3;
-    for (int i = 0; i < options_.max_iterations && !done(error); ++i) {
-      jacobian_.JntToJac(joints, jacobian);
-      const Eigen::MatrixXd local = local_jacobian(jacobian);
-      Eigen::MatrixXd normal = local.transpose() * local;
+    for (int i = 0; i < options_.max_iterations && !done(station.error); ++i) {
+      const Columns local = jacobian(station);
+      Square normal = local.transpose() * local;
       normal.diagonal().array() += damping;
-      KDL::JntArray tried = joints;
-      tried.data += normal.ldlt().solve(local.transpose() * error);
+      Values tried = joints;
+      tried += normal.ldlt().solve(local.transpose() * station.error);
       clamp(tried);
-      const KDL::Frame before = frame_;
-      const Vector6 left = error_at(tried);
-      if (left.squaredNorm() < error.squaredNorm()) {
+      Station next = at(tried);
+      if (next.error.squaredNorm() < station.error.squaredNorm()) {
         joints = tried;
-        error = left;
+        std::swap(station, next);
         damping = std::max(damping / 5.0, 1e-12);
       } else {
-        frame_ = before;
         damping *= 4.0;
         if (damping > 1e4) {
           break;
         }
       }
     }
-    if (!done(error)) {
+    if (!done(station.error)) {
       return std::nullopt;
     }
-    return Joints(joints.data.begin(), joints.data.end());
+    return Joints(joints.begin(), joints.end());
   }
 
  private:
-  void clamp(KDL::JntArray& joints) const {
+  using Values = Eigen::Matrix<double, kCount, 1>;
+  using Square = Eigen::Matrix<double, kCount, kCount>;
+  using Places = Eigen::Matrix<double, 3, kCount>;
+  using Columns = Eigen::Matrix<double, 6, kCount>;
+  // All there is to know of some values of the joints.
+  struct Station {
+    Places axes;  // of the joints, in the base's frame
+    Places origins;
+    JointFrames::Frame sensor;
+    Vector6 error;  // what is missing to the target, in the sensor's frame, rotations in metres
+  };
+
+  void clamp(Values& joints) const {
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      double& value = joints.data[static_cast<Eigen::Index>(i)];
+      double& value = joints[static_cast<Eigen::Index>(i)];
       value = std::clamp(value, ranges_[i].min, ranges_[i].max);
     }
   }
-  // What is missing to the target, in the sensor's frame, rotations in metres.
-  Vector6 error_at(const KDL::JntArray& joints) {
-    forward_.JntToCart(joints, frame_);
-    const Pose now = pose_of(frame_);
-    const Pose now_from_target = now.inverse() * target_;
-    Vector6 error;
-    error.head<3>() = now_from_target.translation();
+  [[nodiscard]] Station at(const Values& joints) const {
+    Station station;
+    station.axes.resize(3, joints.size());
+    station.origins.resize(3, joints.size());
+    frames_.follow({joints.data(), static_cast<std::size_t>(joints.size())},
+                   [&](std::size_t i, const JointFrames::Frame& frame) {
+                     if (i > 0) {
+                       const auto column = static_cast<Eigen::Index>(i - 1);
+                       station.axes.col(column) = frame.turn.col(2);
+                       station.origins.col(column) = frame.place;
+                     }
+                     if (i == frames_.size()) {
+                       station.sensor = frames_.sensor(frame);
+                     }
+                   });
+    const Eigen::Matrix3d sensor_from_base = station.sensor.turn.transpose();
+    const Eigen::Matrix3d turn = sensor_from_base * target_turn_;
+    station.error.template head<3>() = sensor_from_base * (target_place_ - station.sensor.place);
     if (options_.free_roll) {
-      error.tail<3>() = kMetresPerRadian * turn_of_axis(optical_axis(now_from_target));
+      station.error.template tail<3>() = kMetresPerRadian * turn_of_axis(turn.col(2));
     } else {
-      const Eigen::AngleAxisd turn(now_from_target.linear());
-      error.tail<3>() = kMetresPerRadian * turn.angle() * turn.axis();
+      const Eigen::AngleAxisd missing(turn);
+      station.error.template tail<3>() = kMetresPerRadian * missing.angle() * missing.axis();
     }
-    return error;
+    return station;
   }
-  [[nodiscard]] Eigen::MatrixXd local_jacobian(const KDL::Jacobian& jacobian) const {
-    const Eigen::Matrix3d sensor_from_base = pose_of(frame_).linear().transpose();
-    Eigen::MatrixXd local(6, jacobian.data.cols());
-    local.topRows<3>() = sensor_from_base * jacobian.data.topRows<3>();
-    local.bottomRows<3>() = kMetresPerRadian * sensor_from_base * jacobian.data.bottomRows<3>();
+  // How the sensor moves with each joint, in its own frame.
+  [[nodiscard]] Columns jacobian(const Station& station) const {
+    const Eigen::Matrix3d sensor_from_base = station.sensor.turn.transpose();
+    Columns local(6, station.axes.cols());
+    for (Eigen::Index i = 0; i < local.cols(); ++i) {
+      const Eigen::Vector3d axis = sensor_from_base * station.axes.col(i);
+      if (frames_.slides(static_cast<std::size_t>(i))) {
+        local.col(i) << axis, Eigen::Vector3d::Zero();
+      } else {
+        const Eigen::Vector3d arm = sensor_from_base * (station.sensor.place - station.origins.col(i));
+        local.col(i) << axis.cross(arm), kMetresPerRadian * axis;
+      }
+    }
     if (options_.free_roll) {
       local.row(5).setZero();
     }
@@ -106,12 +139,11 @@ class Search {
            error.tail<3>().norm() <= kMetresPerRadian * options_.tolerance_rad;
   }
 
+  const JointFrames& frames_;
   const std::vector<JointRange>& ranges_;
-  Pose target_;
+  Eigen::Matrix3d target_turn_;
+  Eigen::Vector3d target_place_;
   InverseOptions options_;
-  KDL::ChainFkSolverPos_recursive forward_;
-  KDL::ChainJntToJacSolver jacobian_;
-  KDL::Frame frame_;  // of the sensor at the joints last accepted
 };
 
 }  // namespace
@@ -128,9 +160,20 @@ std::optional<Joints> KinematicChain::inverse(const Pose& base_from_sensor, std:
   if (!is_rigid(base_from_sensor)) {
     return std::nullopt;
   }
-  KDL::JntArray start(static_cast<unsigned>(guess.size()));
-  std::copy(guess.begin(), guess.end(), start.data.begin());
-  return Search(parts_->chain, parts_->ranges, base_from_sensor, options).from(start);
+  const auto search = [&](auto count) {
+    return Search<decltype(count)::value>(parts_->frames, parts_->ranges, base_from_sensor, options).from(guess);
+  };
+  // Those that most arms have: their matrices need no memory from the heap.
+  switch (guess.size()) {
+    case 5:
+      return search(std::integral_constant<int, 5>{});
+    case 6:
+      return search(std::integral_constant<int, 6>{});
+    case 7:
+      return search(std::integral_constant<int, 7>{});
+    default:
+      return search(std::integral_constant<int, Eigen::Dynamic>{});
+  }
 }
 
 }  // namespace vantage

@@ -13,11 +13,15 @@
 namespace vantage {
 namespace {
 
-KDL::JntArray array_of(std::span<const double> joints, std::size_t count) {
+void require_count(std::span<const double> joints, std::size_t count) {
   if (joints.size() != count) {
     throw std::invalid_argument("KinematicChain: " + std::to_string(joints.size()) + " values for " +
                                 std::to_string(count) + " joints");
   }
+}
+
+KDL::JntArray array_of(std::span<const double> joints, std::size_t count) {
+  require_count(joints, count);
   KDL::JntArray array(static_cast<unsigned>(count));
   std::copy(joints.begin(), joints.end(), array.data.begin());
   return array;
@@ -58,6 +62,16 @@ void KinematicChain::finish(Parts& parts) {
                            capsule.radius_m, "> 0");
     const double out_m = std::max(capsule.from_m.norm(), capsule.to_m.norm()) + capsule.radius_m;
     parts.reach_m = std::max(parts.reach_m, furthest_m[capsule.link] + out_m);
+  }
+  parts.frames = JointFrames(parts.chain, parts.capsules, parts.joints_before);
+  for (std::size_t i = 0; i < parts.capsules.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::size_t a = parts.joints_before[parts.capsules[i].link];
+      const std::size_t b = parts.joints_before[parts.capsules[j].link];
+      if (std::max(a, b) - std::min(a, b) >= 2) {
+        parts.may_touch.emplace_back(i, j);
+      }
+    }
   }
 }
 
@@ -111,24 +125,26 @@ std::vector<Pose> KinematicChain::link_poses(std::span<const double> joints) con
   return poses;
 }
 
+std::vector<Capsule> KinematicChain::body_at(std::span<const double> joints) const {
+  require_count(joints, joint_count());
+  return parts_->frames.body_at(joints);
+}
+
 bool KinematicChain::touches_itself(std::span<const Pose> base_from_links) const {
-  const auto& all = capsules();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const std::size_t a = joints_before(all[i].link);
-      const std::size_t b = joints_before(all[j].link);
-      if (std::max(a, b) - std::min(a, b) < 2) {
-        continue;
-      }
-      const Pose& pose_i = base_from_links[all[i].link];
-      const Pose& pose_j = base_from_links[all[j].link];
-      if (segment_distance(pose_i * all[i].from_m, pose_i * all[i].to_m, pose_j * all[j].from_m,
-                           pose_j * all[j].to_m) < all[i].radius_m + all[j].radius_m) {
-        return true;
-      }
-    }
+  std::vector<Capsule> body = capsules();
+  for (Capsule& capsule : body) {
+    capsule.from_m = base_from_links[capsule.link] * capsule.from_m;
+    capsule.to_m = base_from_links[capsule.link] * capsule.to_m;
   }
-  return false;
+  return touches_itself(body);
+}
+
+bool KinematicChain::touches_itself(std::span<const Capsule> body) const {
+  return std::any_of(parts_->may_touch.begin(), parts_->may_touch.end(), [&](const auto& pair) {
+    const Capsule& a = body[pair.first];
+    const Capsule& b = body[pair.second];
+    return segment_distance(a.from_m, a.to_m, b.from_m, b.to_m) < a.radius_m + b.radius_m;
+  });
 }
 
 }  // namespace vantage

@@ -14,6 +14,10 @@
 
 namespace vantage {
 
+namespace detail {
+class ClearSpace;
+}
+
 /// Where an Arm stands and how it moves.
 struct ArmOptions {
   Pose world_from_base = Pose::Identity();  ///< where the base stands; it does not move
@@ -92,18 +96,21 @@ class Arm final : public Platform {
 
  private:
   class Postures;
+  class Memory;
   [[nodiscard]] bool declared(const Eigen::Vector3d& point_m) const;
-  [[nodiscard]] bool passable(const OccupancyMap& map, const VoxelIndex& cell) const;
   [[nodiscard]] VoxelGrid<std::uint8_t> passable_cells(const OccupancyMap& map) const;
-  template <class Clear>
-  [[nodiscard]] bool keeps_to(const VoxelFrame& frame, std::span<const double> joints, Clear&& clear) const;
-  template <class Clear>
-  [[nodiscard]] bool moves_in(const VoxelFrame& frame, const Joints& from, const Joints& to, Clear&& clear) const;
-  void clear_touched(const VoxelFrame& frame, const Joints& joints, VoxelGrid<std::uint8_t>& clear) const;
+  [[nodiscard]] std::shared_ptr<const detail::ClearSpace> clear_space(const OccupancyMap& map) const;
+  [[nodiscard]] std::shared_ptr<const detail::ClearSpace> clear_space_from(const OccupancyMap& map,
+                                                                           const Joints& first) const;
+  [[nodiscard]] std::optional<VoxelIndex> obstacle(const detail::ClearSpace& space,
+                                                   std::span<const Capsule> body) const;
+  [[nodiscard]] bool keeps_to(const detail::ClearSpace& space, std::span<const double> joints) const;
+  [[nodiscard]] bool moves_in(const detail::ClearSpace& space, const Joints& from, const Joints& to) const;
 
   KinematicChain chain_;
   ArmOptions options_;
   std::shared_ptr<const Postures> postures_;
+  std::shared_ptr<Memory> memory_;  // tells sooner what would be told without
 };
 
 }  // namespace vantage

@@ -88,8 +88,12 @@ class KinematicChain {
   [[nodiscard]] Pose sensor_pose(std::span<const double> joints) const;
   /// Where all links are, `base_from_link`: the base first, the sensor last. Throws as `sensor_pose`.
   [[nodiscard]] std::vector<Pose> link_poses(std::span<const double> joints) const;
+  /// The body, piece by piece as `capsules`, but in the base's frame. Throws as `sensor_pose`.
+  [[nodiscard]] std::vector<Capsule> body_at(std::span<const double> joints) const;
   /// Whether pieces of the body that two or more joints move against each other touch.
   [[nodiscard]] bool touches_itself(std::span<const Pose> base_from_links) const;
+  /// The same of what `body_at` gives.
+  [[nodiscard]] bool touches_itself(std::span<const Capsule> body) const;
 
   /// Inverse kinematics: joints within their ranges that put the sensor at this pose, searched from `guess` by damped
   /// least squares (Levenberg-Marquardt) down to the tolerances. None if the search ends elsewhere; another guess may

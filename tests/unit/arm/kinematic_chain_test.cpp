@@ -96,6 +96,73 @@ TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
   EXPECT_NEAR((chain.sensor_pose(Joints(5, 0.0)).translation() - Eigen::Vector3d(0, 0, 0.4)).norm(), 0.97, 0.03);
 }
 
+// Joints of all kinds, capsules on any link, several or none on one: the body is where the links say.
+TEST(KinematicChain, TheBodyIsWhereTheLinksAre) {
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> any(-1.5, 1.5);
+  const auto compare = [&](const KinematicChain& chain) {
+    const Joints joints = random_joints(chain, engine);
+    const std::vector<Pose> links = chain.link_poses(joints);
+    const std::vector<Capsule> body = chain.body_at(joints);
+    ASSERT_EQ(body.size(), chain.capsules().size());
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      const Capsule& capsule = chain.capsules()[i];
+      ASSERT_EQ(body[i].link, capsule.link);
+      ASSERT_EQ(body[i].radius_m, capsule.radius_m);
+      ASSERT_LT((body[i].from_m - links[capsule.link] * capsule.from_m).norm(), 1e-9);
+      ASSERT_LT((body[i].to_m - links[capsule.link] * capsule.to_m).norm(), 1e-9);
+    }
+    ASSERT_EQ(chain.touches_itself(links), chain.touches_itself(body));
+  };
+  std::size_t capsules_in_all = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<DhRow> rows(1 + engine() % 7);
+    for (DhRow& row : rows) {
+      row = {any(engine), any(engine), any(engine), any(engine), {-2.0, 2.0}, engine() % 4 == 0};
+    }
+    std::vector<Capsule> capsules(engine() % 6);
+    for (Capsule& capsule : capsules) {
+      const auto point = [&] { return Eigen::Vector3d(any(engine), any(engine), any(engine)); };
+      capsule = {engine() % (rows.size() + 2), point(), point(), 0.3};
+    }
+    capsules_in_all += capsules.size();
+    compare(KinematicChain::from_dh(rows, Pose(shift(0.1, 0.2, 0.3)), capsules));
+  }
+  EXPECT_GT(capsules_in_all, 500U);
+  for (int i = 0; i < 300; ++i) {
+    compare(tracked_arm());
+  }
+  EXPECT_THROW((void)tracked_arm().body_at(Joints(4, 0.1)), std::invalid_argument);
+}
+
+// Any number of joints, some of which slide.
+TEST(KinematicChain, InverseKinematicsTakesAnyChain) {
+  std::mt19937_64 engine(8);
+  std::uniform_real_distribution<double> any(-1.5, 1.5);
+  std::uniform_real_distribution<double> off(-0.2, 0.2);
+  for (std::size_t count = 1; count <= 9; ++count) {
+    std::size_t found = 0;
+    for (int i = 0; i < 60; ++i) {
+      std::vector<DhRow> rows(count);
+      for (DhRow& row : rows) {
+        row = {any(engine), any(engine), any(engine), any(engine), {-2.0, 2.0}, engine() % 4 == 0};
+      }
+      const KinematicChain chain = KinematicChain::from_dh(rows, Pose(shift(0.1, 0.2, 0.3)));
+      Joints guess = random_joints(chain, engine);
+      const Pose target = chain.sensor_pose(guess);
+      for (double& value : guess) {
+        value += off(engine);
+      }
+      if (const auto back = chain.inverse(target, guess)) {
+        ++found;
+        ASSERT_TRUE(chain.in_range(*back));
+        ASSERT_TRUE(chain.sensor_pose(*back).isApprox(target, 1e-5));
+      }
+    }
+    EXPECT_GT(found, 50U) << count << " joints";
+  }
+}
+
 // Inverse kinematics leads back to the pose, from guesses that are off by up to 0.4 in every joint.
 TEST(KinematicChain, InverseKinematicsLeadsBackToThePose) {
   const KinematicChain chain = tracked_arm();
