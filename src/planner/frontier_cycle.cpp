@@ -12,25 +12,23 @@
 namespace vantage::detail {
 namespace {
 
-FrontierSurvey checked_survey(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
-                              const FrontierSurveyOptions& options, FailedViews& failed,
-                              std::optional<std::vector<VoxelIndex>> frontier) {
+FrontierSurvey checked_survey(const OccupancyMap& map, const Pose& current, FrontierSurveyor& surveyor,
+                              FailedViews& failed, std::optional<std::vector<VoxelIndex>> frontier) {
   validate(map, current);
   failed.review(map, current);
-  return survey_frontiers(map, *setup.platform, setup.sensor, current, options, failed,
-                          frontier ? std::move(*frontier) : frontier_cells(map));
+  return surveyor.survey(map, current, failed, frontier ? std::move(*frontier) : frontier_cells(map));
 }
 
 }  // namespace
 
 FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
-                             const FrontierSurveyOptions& options, FailedViews& failed,
+                             FrontierSurveyor& surveyor, FailedViews& failed,
                              std::optional<std::vector<VoxelIndex>> frontier)
     : map_(map),
       current_(current),
       setup_(setup),
       failed_(failed),
-      survey_(checked_survey(map, current, setup, options, failed, std::move(frontier))) {
+      survey_(checked_survey(map, current, surveyor, failed, std::move(frontier))) {
   plan_.leftover = survey_.leftover;
   plan_.statistics.frontier_cells = survey_.frontier_cells;
   plan_.statistics.observable_cells = survey_.targets.size();

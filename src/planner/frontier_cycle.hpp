@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vector>
@@ -29,11 +29,11 @@ class Stopwatch {
 /// chosen view into a plan.
 class FrontierCycle {
  public:
-  /// Surveys; throws std::invalid_argument if `current` is not a pose in the map. `failed` outlives the cycle.
-  /// Whoever knows the frontier cells of the map already hands them over.
-  FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup,
-                const FrontierSurveyOptions& options, FailedViews& failed,
-                std::optional<std::vector<VoxelIndex>> frontier = std::nullopt);
+  /// Surveys; throws std::invalid_argument if `current` is not a pose in the map. `failed` outlives the cycle;
+  /// `surveyor` has the platform and the sensor of `setup`. Whoever knows the frontier cells of the map already hands
+  /// them over.
+  FrontierCycle(const OccupancyMap& map, const Pose& current, const PlannerSetup& setup, FrontierSurveyor& surveyor,
+                FailedViews& failed, std::optional<std::vector<VoxelIndex>> frontier = std::nullopt);
 
   [[nodiscard]] const FrontierSurvey& survey() const { return survey_; }
   [[nodiscard]] Plan& plan() { return plan_; }

@@ -23,14 +23,14 @@ void validate(const FrontierGainOptions& options) {
 }  // namespace
 
 FrontierGainPlanner::FrontierGainPlanner(const PlannerSetup& setup, const FrontierGainOptions& options)
-    : setup_(setup), options_(options) {
+    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
   detail::validate(setup);
   validate(options);
   failed_ = FailedViews(options.survey.patience);
 }
 
 Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_);
+  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
   if (cycle.over()) {
     return cycle.plan();
   }

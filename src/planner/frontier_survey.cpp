@@ -3,78 +3,48 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 
-#include "geometry/block_counts.hpp"
 #include "geometry/cell_rows.hpp"
-#include "geometry/spread_directions.hpp"
-#include "planner/sight_tree.hpp"
+#include "planner/sight_memory.hpp"
 
 namespace vantage {
 namespace {
 
-// The cells that sight passes: a survey asks for them millions of times.
-detail::CellRows clear_cells(const OccupancyMap& map) {
-  detail::CellRows clear(map.bounds());
-  map.for_each_clear([&](const VoxelIndex& cell) { clear.insert(cell); });
-  return clear;
-}
-
-detail::CellRows rows_of(const ReachableSpace& reachable, const VoxelBox& box) {
-  detail::CellRows rows(box);
-  for (const VoxelIndex& cell : reachable.cells()) {
-    rows.insert(cell);
-  }
-  return rows;
-}
-
 // No further than the known part of the map can reach: a sensor's range may be without bound.
-double furthest_m(const OccupancyMap& map, const VoxelBox& bounds, const RangeSensor& sensor) {
-  return std::min(sensor.max_range_m, map.frame().box_of(bounds).extent().norm() + map.resolution_m());
+double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
+  return std::min(sensor.max_range_m, map.frame().box_of(map.bounds()).extent().norm() + map.resolution_m());
 }
 
 // Finds a viewpoint for one unknown cell after another.
 class ViewpointSearch {
  public:
-  ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                  const ReachableSpace& reachable, const detail::CellRows& reachable_rows, const FailedViews& failed,
-                  std::size_t direction_count)
-      : frame_(map.frame()),
+  ViewpointSearch(const VoxelFrame& frame, const Platform& platform, const RangeSensor& sensor,
+                  const ReachableSpace& reachable, const FailedViews& failed, detail::SightMemory& memory)
+      : frame_(frame),
         platform_(platform),
         sensor_(sensor),
         reachable_(reachable),
-        reachable_rows_(reachable_rows),
         failed_(failed),
-        clear_(clear_cells(map)),
-        places_(clear_.box(), reachable.cells()),
-        furthest_m_(furthest_m(map, clear_.box(), sensor)),
-        tree_(frame_, detail::spread_directions(direction_count), furthest_m_) {}
+        memory_(memory) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
+    if (const std::optional<VoxelIndex> straight = look_straight(unknown, frontier - unknown)) {
+      return straight;
+    }
     if (!can_be_seen(unknown)) {
       return std::nullopt;
     }
-    const Eigen::Vector3d centre = frame_.centre_of(unknown);
-    const Eigen::Vector3d straight = (frame_.centre_of(frontier) - centre).normalized();
-    for (const VoxelIndex& cell : VoxelRay(frame_, centre, centre + furthest_m_ * straight)) {
-      if (cell == unknown) {
-        continue;
-      }
-      if (!passes(cell)) {
-        break;
-      }
-      if (is_viewpoint(cell, unknown)) {
-        return cell;
-      }
-    }
-    return look_around(unknown);
+    return memory_.look_around(
+        unknown, failed_.failed(unknown), [&](const VoxelIndex& cell) { return passes(cell); },
+        [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
   // Tries every reachable cell, while there are pairs left to try.
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
@@ -100,46 +70,38 @@ class ViewpointSearch {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return clear(unknown + step); });
   }
-  bool clear(const VoxelIndex& cell) const { return clear_.contains(cell); }
+  bool clear(const VoxelIndex& cell) const {
+    memory_.look_at(cell);
+    return memory_.clear().contains(cell);
+  }
   bool passes(const VoxelIndex& cell) {
     ++operations_;
     return clear(cell);
   }
-  bool is_viewpoint(const VoxelIndex& cell, const VoxelIndex& unknown) {
-    return reachable_rows_.contains(cell) && serves(cell, unknown);
-  }
 
-  // The same from whichever frontier cell it is asked.
-  std::optional<VoxelIndex> look_around(const VoxelIndex& unknown) {
-    const auto [known, is_new] = looked_around_.try_emplace(unknown);
-    if (is_new) {
-      known->second = tree_.first(
-          unknown, [&](const VoxelBox& cells) { return places_.may_hold(cells); },
-          [&](const VoxelIndex& cell) { return passes(cell); },
-          [&](const VoxelIndex& cell) { return is_viewpoint(cell, unknown); });
+  // Along an axis the line of sight from a cell is the row of cells that led there.
+  std::optional<VoxelIndex> look_straight(const VoxelIndex& unknown, const VoxelIndex& step) {
+    const Eigen::Vector3d direction(step.x, step.y, step.z);
+    const VoxelIndex last = frame_.cell_of(frame_.centre_of(unknown) + memory_.furthest_m() * direction);
+    for (VoxelIndex cell = unknown; cell != last;) {
+      cell = cell + step;
+      if (!passes(cell)) {
+        return std::nullopt;
+      }
+      if (memory_.reachable().contains(cell) && in_range(cell, unknown) && can_face(cell, unknown)) {
+        return cell;
+      }
     }
-    return known->second;
+    return std::nullopt;
   }
 
   // The tests are in the order of their price: most pairs fail beside the unknown cell.
   bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
-    if (!open_towards(viewpoint, unknown)) {
-      return false;
-    }
-    const Eigen::Vector3d from = frame_.centre_of(viewpoint);
-    const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
-    const double range_m = line.norm();
-    if (range_m < sensor_.min_range_m || range_m > sensor_.max_range_m) {
-      return false;
-    }
-    const bool in_sight =
-        VoxelRay(frame_, from, frame_.centre_of(unknown)).all_from_the_end([&](const VoxelIndex& cell) {
-          return passes(cell) || cell == unknown;
-        });
-    return in_sight && !failed_.failed_from(unknown, viewpoint) &&
-           (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
+    return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) &&
+           VoxelRay(frame_, frame_.centre_of(viewpoint), frame_.centre_of(unknown))
+               .all_from_the_end([&](const VoxelIndex& cell) { return passes(cell) || cell == unknown; }) &&
+           can_face(viewpoint, unknown);
   }
-
   // Whether a line of sight from `viewpoint` could enter `unknown` by one of the faces turned to it.
   bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const VoxelIndex away = viewpoint - unknown;
@@ -147,31 +109,28 @@ class ViewpointSearch {
            (away.y != 0 && clear(unknown + VoxelIndex{0, away.y > 0 ? 1 : -1, 0})) ||
            (away.z != 0 && clear(unknown + VoxelIndex{0, 0, away.z > 0 ? 1 : -1}));
   }
+  bool in_range(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
+    const double range_m = (frame_.centre_of(unknown) - frame_.centre_of(viewpoint)).norm();
+    return range_m >= sensor_.min_range_m && range_m <= sensor_.max_range_m;
+  }
+  bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
+    const Eigen::Vector3d from = frame_.centre_of(viewpoint);
+    const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
+    return !failed_.failed_from(unknown, viewpoint) &&
+           (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
+  }
 
   VoxelFrame frame_;
   const Platform& platform_;
   const RangeSensor& sensor_;
   const ReachableSpace& reachable_;
-  const detail::CellRows& reachable_rows_;
   const FailedViews& failed_;
-  detail::CellRows clear_;
-  detail::BlockCounts places_;  // that are reachable
-  double furthest_m_;
-  detail::SightTree tree_;
-  std::unordered_map<VoxelIndex, std::optional<VoxelIndex>> looked_around_;
+  detail::SightMemory& memory_;
   std::uint64_t operations_ = 0;
 };
 
-std::vector<VoxelIndex> unknown_neighbours(const OccupancyMap& map, const VoxelIndex& cell,
-                                           const FailedViews& failed) {
-  std::vector<VoxelIndex> unknown;
-  for (const VoxelIndex& step : kFaceNeighbours) {
-    const VoxelIndex neighbour = cell + step;
-    if (map.in_region(neighbour) && map.at(neighbour) == Occupancy::Unknown && !failed.gave_up(neighbour)) {
-      unknown.push_back(neighbour);
-    }
-  }
-  return unknown;
+bool is_sought(const OccupancyMap& map, const VoxelIndex& cell, const FailedViews& failed) {
+  return map.in_region(cell) && map.at(cell) == Occupancy::Unknown && !failed.gave_up(cell);
 }
 
 bool near_contested(const OccupancyMap& map, const std::vector<VoxelIndex>& cluster) {
@@ -204,81 +163,108 @@ std::vector<FrontierTarget> large_clusters(const OccupancyMap& map, const Fronti
   return large;
 }
 
+// Cells that touch an occupied one, up to those just beyond what is known.
+detail::CellRows beside_surfaces(const OccupancyMap& map) {
+  detail::CellRows occupied(map.bounds().grown(1));
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
+        occupied.insert(Brick::first_cell(address) + Brick::cell_at(offset));
+      });
+    }
+  });
+  return detail::grown(occupied, 1);
+}
+
 // The targets beside a known surface; all of them if there is none.
 std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
+  const detail::CellRows near = beside_surfaces(map);
   std::vector<FrontierTarget> beside;
-  std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside), [&](const FrontierTarget& target) {
-    return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(),
-                       [&](const VoxelIndex& step) { return map.at(target.unknown + step) == Occupancy::Occupied; });
-  });
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside),
+               [&](const FrontierTarget& target) { return near.contains(target.unknown); });
   return beside.empty() ? std::move(targets) : beside;
 }
 
-// Where the platform comes close: some reachable cell lies within half its body, and one cell more.
-detail::CellRows near_body(const OccupancyMap& map, const Platform& platform, const detail::CellRows& reachable) {
+// The platform comes close to a cell if some reachable cell lies within half its body, and one cell more.
+void count_hidden(const OccupancyMap& map, const Platform& platform, const detail::CellRows& reachable,
+                  const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
+  if (hidden.empty()) {
+    return;
+  }
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
-  return detail::grown(reachable, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
+  const detail::CellRows near =
+      detail::grown(reachable, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
+  for (const VoxelIndex& cell : hidden) {
+    ++(near.contains(cell) ? leftover.unobservable : leftover.unreachable);
+  }
 }
 
 }  // namespace
 
-FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                                const Pose& current, const FrontierSurveyOptions& options,
-                                const FailedViews& failed) {
-  return survey_frontiers(map, platform, sensor, current, options, failed, frontier_cells(map));
+FrontierSurveyor::FrontierSurveyor(std::shared_ptr<const Platform> platform, const RangeSensor& sensor,
+                                   const FrontierSurveyOptions& options)
+    : platform_(std::move(platform)),
+      sensor_(sensor),
+      options_(options),
+      memory_(std::make_unique<detail::SightMemory>()) {}
+FrontierSurveyor::FrontierSurveyor(FrontierSurveyor&&) noexcept = default;
+FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&) noexcept = default;
+FrontierSurveyor::~FrontierSurveyor() = default;
+
+FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed) {
+  return survey(map, current, failed, frontier_cells(map));
+}
+
+FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed,
+                                        std::vector<VoxelIndex> frontier) {
+  FrontierSurvey survey{.reachable = ReachableSpace(map, *platform_, current)};
+  survey.frontier_cells = frontier.size();
+  if (frontier.empty() || !survey.reachable.start()) {
+    survey.leftover.unreachable = frontier.size();
+    return survey;
+  }
+  memory_->follow(map, survey.reachable, furthest_m(map, sensor_), options_.sight_directions);
+  ViewpointSearch search(map.frame(), *platform_, sensor_, survey.reachable, failed, *memory_);
+  const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex unknown = cell + step;
+      if (const auto viewpoint = is_sought(map, unknown, failed) ? find(unknown) : std::nullopt) {
+        survey.targets.push_back({cell, unknown, *viewpoint});
+        return true;
+      }
+    }
+    return false;
+  };
+  std::vector<VoxelIndex>& hidden = frontier;  // what is left of it
+  std::erase_if(hidden, [&](const VoxelIndex& cell) {
+    return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
+  });
+  memory_->forget_others();
+  std::vector<FrontierTarget> large = large_clusters(map, options_, survey.targets);
+  if (large.empty()) {
+    // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
+    std::size_t pairs = options_.exhaustive_pairs;
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
+    });
+    survey.exhausted = pairs > 0;
+    std::sort(survey.targets.begin(), survey.targets.end(),
+              [](const FrontierTarget& a, const FrontierTarget& b) { return RasterOrder{}(a.frontier, b.frontier); });
+    large = large_clusters(map, options_, survey.targets);
+  }
+  survey.leftover.too_small = survey.targets.size() - large.size();
+  survey.targets = options_.surfaces_first && !sensor_.reports_no_return ? surfaces_first(map, std::move(large))
+                                                                         : std::move(large);
+  survey.ray_operations = search.operations();
+  count_hidden(map, *platform_, memory_->reachable(), hidden, survey.leftover);
+  return survey;
 }
 
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                                const Pose& current, const FrontierSurveyOptions& options, const FailedViews& failed,
-                                std::vector<VoxelIndex> frontier) {
-  FrontierSurvey survey{.reachable = ReachableSpace(map, platform, current)};
-  survey.frontier_cells = frontier.size();
-
-  const detail::CellRows reachable = rows_of(survey.reachable, map.bounds());
-  std::vector<VoxelIndex> hidden;
-  if (!frontier.empty() && survey.reachable.start()) {
-    ViewpointSearch search(map, platform, sensor, survey.reachable, reachable, failed, options.sight_directions);
-    const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
-      for (const VoxelIndex& unknown : unknown_neighbours(map, cell, failed)) {
-        if (const std::optional<VoxelIndex> viewpoint = find(unknown)) {
-          survey.targets.push_back({cell, unknown, *viewpoint});
-          return true;
-        }
-      }
-      return false;
-    };
-    for (const VoxelIndex& cell : frontier) {
-      if (!try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); })) {
-        hidden.push_back(cell);
-      }
-    }
-    std::vector<FrontierTarget> large = large_clusters(map, options, survey.targets);
-    if (large.empty()) {
-      // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
-      std::size_t pairs = options.exhaustive_pairs;
-      std::erase_if(hidden, [&](const VoxelIndex& cell) {
-        return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
-      });
-      survey.exhausted = pairs > 0;
-      std::sort(survey.targets.begin(), survey.targets.end(), [](const FrontierTarget& a, const FrontierTarget& b) {
-        return RasterOrder{}(a.frontier, b.frontier);
-      });
-      large = large_clusters(map, options, survey.targets);
-    }
-    survey.leftover.too_small = survey.targets.size() - large.size();
-    survey.targets = options.surfaces_first && !sensor.reports_no_return ? surfaces_first(map, std::move(large))
-                                                                         : std::move(large);
-    survey.ray_operations = search.operations();
-  } else {
-    hidden = std::move(frontier);
-  }
-  if (!hidden.empty()) {
-    const detail::CellRows near = near_body(map, platform, reachable);
-    for (const VoxelIndex& cell : hidden) {
-      ++(near.contains(cell) ? survey.leftover.unobservable : survey.leftover.unreachable);
-    }
-  }
-  return survey;
+                                const Pose& current, const FrontierSurveyOptions& options,
+                                const FailedViews& failed) {
+  const std::shared_ptr<const Platform> borrowed(std::shared_ptr<void>(), &platform);
+  return FrontierSurveyor(borrowed, sensor, options).survey(map, current, failed);
 }
 
 bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,

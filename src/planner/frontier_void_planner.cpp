@@ -74,7 +74,7 @@ std::size_t least_cells(double volume_dm3, double cell_m) {
 }  // namespace
 
 FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options)
-    : setup_(setup), options_(options) {
+    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
   detail::validate(setup);
   validate(options);
   options_.clusters.seed = setup.seed;
@@ -83,7 +83,7 @@ FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setup, const Fronti
 
 Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
   follow(map);
-  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_, frontier_->cells());
+  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_, frontier_->cells());
   PlanStatistics& statistics = cycle.plan().statistics;
   statistics.void_cells = void_cells_->cell_count();
   search_ = {};

@@ -88,7 +88,7 @@ std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const P
 }  // namespace
 
 HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options)
-    : setup_(setup), options_(options) {
+    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
   detail::validate(setup);
   detail::validate(options.survey);
   relaxation_options(options).validate();
@@ -103,7 +103,7 @@ HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOption
 
 Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   field_.reset();
-  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_);
+  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
   if (cycle.over()) {
     return cycle.plan();
   }

@@ -9,14 +9,14 @@
 namespace vantage {
 
 NearestFrontierPlanner::NearestFrontierPlanner(const PlannerSetup& setup, const FrontierSurveyOptions& options)
-    : setup_(setup), options_(options) {
+    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options) {
   detail::validate(setup);
   detail::validate(options);
   failed_ = FailedViews(options.patience);
 }
 
 Plan NearestFrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  detail::FrontierCycle cycle(map, current, setup_, options_, failed_);
+  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
   if (cycle.over()) {
     return cycle.plan();
   }

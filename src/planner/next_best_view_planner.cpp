@@ -105,7 +105,7 @@ std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Platform&
 }  // namespace
 
 NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options)
-    : setup_(setup), options_(options) {
+    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
   detail::validate(setup);
   validate(options);
   failed_ = FailedViews(options.survey.patience);
@@ -322,7 +322,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
 }
 
 Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) {
-  detail::FrontierCycle cycle(map, current, setup_, options_.survey, failed_);
+  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
   if (cycle.over()) {
     return cycle.plan();
   }

@@ -2,9 +2,12 @@
 // plan/<planner>/rooms: a whole plan, from the map's frontier to the way there, after every scan of one and the same
 // run of `harmonic` through the paper's world; `frontier-gain` weighs 200 hypotheses. Operations are cells visited
 // along rays plus cell updates of the field.
+// plan/<planner>/rooms-stereo: the same with a narrow sensor, after every scan of the first of the planner's own run.
 #include <benchmark/benchmark.h>
 
+#include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -19,8 +22,6 @@ namespace vantage {
 namespace {
 
 constexpr double kCellM = 0.2;
-constexpr std::size_t kMostScans = 100;
-constexpr benchmark::IterationCount kPlans = 60;  // about three runs
 
 // What a sensor measured on its way, and the place from which it left.
 struct RoomsRun {
@@ -38,9 +39,26 @@ struct RoomsRun {
   [[nodiscard]] PlannerSetup setup() const { return {.sensor = sensor, .platform = robot}; }
 };
 
-// Scans at goals only, until all is explored.
-RoomsRun explore_rooms() {
+// `stereo` with every fourth pixel both ways: neighbours are 5 cm apart where the range ends.
+RangeSensor thin_stereo() {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  return RangeSensor::pinhole(128, 96, 65.0 * kDegree, 51.0771935 * kDegree, 0.5, 5.0);
+}
+
+// What is asked of a planner: where it plans, and after how many scans at most.
+struct PlanCase {
+  std::string planner;
+  PlannerSettings settings = {};
+  std::string explorer = "harmonic";  // whose run it is
+  RangeSensor sensor = RangeSensor::preset("panoramic");
+  std::size_t most_scans = 100;
+  benchmark::IterationCount plans = 60;
+};
+
+// Scans at goals only, until all is explored or there are enough.
+RoomsRun explore_rooms(const PlanCase& what) {
   RoomsRun run;
+  run.sensor = what.sensor;
   const std::optional<Pose> start = Truth(run.world, kCellM, run.world.region).draw_start(*run.robot, 1);
   if (!start) {
     throw std::runtime_error("rooms: the robot fits nowhere");
@@ -48,9 +66,10 @@ RoomsRun explore_rooms() {
   run.start = *start;
   SimulatedSensor sensor(TriangleScene(run.world.mesh), run.sensor);
   OccupancyMap map = run.map_at_start();
-  const auto planner = make_planner("harmonic", run.setup());
+  const auto planner =
+      make_planner(what.explorer, run.setup(), what.explorer == what.planner ? what.settings : PlannerSettings{});
   Pose pose = run.start;
-  while (run.scans.size() < kMostScans) {
+  while (run.scans.size() < what.most_scans) {
     run.scans.push_back(sensor.scan(pose));
     map.insert(run.scans.back());
     const Plan plan = planner->plan(map, pose);
@@ -63,13 +82,15 @@ RoomsRun explore_rooms() {
   return run;
 }
 
-const RoomsRun& rooms_run() {
-  static const RoomsRun run = explore_rooms();
-  return run;
+const RoomsRun& rooms_run(const PlanCase& what, const std::string& scene) {
+  static std::map<std::string, RoomsRun> runs;
+  const std::string key = scene + "/" + what.explorer;
+  const auto known = runs.find(key);
+  return known != runs.end() ? known->second : runs.emplace(key, explore_rooms(what)).first->second;
 }
 
-void plan_in_rooms(benchmark::State& state, const std::string& name, const PlannerSettings& settings) {
-  const RoomsRun& run = rooms_run();
+void plan_in_rooms(benchmark::State& state, const std::string& scene, const PlanCase& what) {
+  const RoomsRun& run = rooms_run(what, scene);
   PlanStatistics sum;
   std::size_t plans = 0;
   std::size_t next = run.scans.size();
@@ -80,7 +101,7 @@ void plan_in_rooms(benchmark::State& state, const std::string& name, const Plann
     if (next == run.scans.size()) {
       next = 0;
       map.emplace(run.map_at_start());
-      planner = make_planner(name, run.setup(), settings);
+      planner = make_planner(what.planner, run.setup(), what.settings);
     }
     const Scan& scan = run.scans[next++];
     map->insert(scan);
@@ -101,14 +122,17 @@ void plan_in_rooms(benchmark::State& state, const std::string& name, const Plann
 }
 
 const bool registered = [] {
-  const auto add = [](const std::string& name, const PlannerSettings& settings) {
-    benchmark::RegisterBenchmark(("plan/" + name + "/rooms").c_str(),
-                                 [name, settings](benchmark::State& state) { plan_in_rooms(state, name, settings); })
+  const auto add = [](const std::string& scene, const PlanCase& what) {
+    benchmark::RegisterBenchmark(("plan/" + what.planner + "/" + scene).c_str(),
+                                 [scene, what](benchmark::State& state) { plan_in_rooms(state, scene, what); })
         ->Unit(benchmark::kMillisecond)
-        ->Iterations(kPlans);
+        ->Iterations(what.plans);
   };
-  add("harmonic", {});
-  add("frontier-gain", {{"hypotheses", "200"}});
+  add("rooms", {"harmonic"});
+  add("rooms", {"frontier-gain", {{"hypotheses", "200"}}});
+  for (const std::string planner : {"harmonic", "nearest-frontier"}) {
+    add("rooms-stereo", {planner, {}, planner, thin_stereo(), 300, 300});
+  }
   return true;
 }();
 

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/robot/free_flyer.hpp>
 
 namespace vantage {
@@ -204,6 +207,139 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   EXPECT_GT(targets, 30'000U);
   EXPECT_GT(hidden, 30'000U);
   EXPECT_GT(failed, 1'000U);
+}
+
+FrontierSurvey survey_from_nothing(const SurveyedWorld& world) {
+  return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.failed);
+}
+
+// Throws out of some survey, where it is asked how to face.
+class FailingFlyer final : public Platform {
+ public:
+  explicit FailingFlyer(const FreeFlyer& flyer) : flyer_(flyer) {}
+  bool admits(const OccupancyMap& map, const Pose& pose) const override { return flyer_.admits(map, pose); }
+  bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override {
+    return flyer_.admits_cell(map, cell);
+  }
+  bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override {
+    return flyer_.admits_motion(map, from, to);
+  }
+  Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override {
+    if (left > 0 && --left == 0) {
+      throw std::runtime_error("it cannot face there");
+    }
+    return flyer_.facing(position_m, direction);
+  }
+  double distance_m(const Pose& from, const Pose& to) const override { return flyer_.distance_m(from, to); }
+  std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from, const Pose& to) const override {
+    return flyer_.path(map, from, to);
+  }
+  Box body_box(const Pose& pose) const override { return flyer_.body_box(pose); }
+  bool can_tilt() const override { return flyer_.can_tilt(); }
+
+  mutable int left = 0;  // calls until it throws; 0: it never does
+
+ private:
+  FreeFlyer flyer_;
+};
+
+// What a scan may do, and what no scan does: a box of cells that become free, occupied, contested or unknown.
+void change_some_cells(OccupancyMap& map, std::mt19937& engine) {
+  const std::int32_t furthest = engine() % 8 == 0 ? 2 * kExtent : kExtent;
+  std::uniform_int_distribution<std::int32_t> coordinate(-furthest, furthest);
+  std::uniform_int_distribution<std::int32_t> edge(1, 5);
+  const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
+  const VoxelBox box{lo, lo + VoxelIndex{edge(engine), edge(engine), edge(engine)}};
+  switch (engine() % 5) {
+    case 0:
+      map.set_log_odds(box, 3.0);
+      break;
+    case 1:
+      map.set_log_odds(box, 0.85 - 3 * 0.4);
+      break;
+    case 2:
+      for_each_cell(box, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
+      break;
+    default:
+      map.set_log_odds(box, -2.0);
+  }
+  map.set_log_odds(VoxelBox{{-1, -1, -1}, {2, 2, 2}}, -2.0);  // where the sensor is
+}
+
+// Walls the sensor in, or tears the walls down: what is reachable comes and goes far from any cell that changes.
+void wall_in(OccupancyMap& map, bool closed) {
+  map.set_log_odds(VoxelBox{{-3, -3, -3}, {4, 4, 4}}, closed ? 3.0 : -2.0);
+  map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);
+}
+
+void expect_equal(const FrontierSurvey& survey, const FrontierSurvey& expected) {
+  EXPECT_EQ(survey.frontier_cells, expected.frontier_cells);
+  EXPECT_EQ(survey.exhausted, expected.exhausted);
+  EXPECT_EQ(survey.leftover.unreachable, expected.leftover.unreachable);
+  EXPECT_EQ(survey.leftover.unobservable, expected.leftover.unobservable);
+  EXPECT_EQ(survey.leftover.too_small, expected.leftover.too_small);
+  EXPECT_EQ(survey.reachable.cells(), expected.reachable.cells());
+  ASSERT_EQ(survey.targets.size(), expected.targets.size());
+  for (std::size_t i = 0; i < expected.targets.size(); ++i) {
+    ASSERT_EQ(survey.targets[i].frontier, expected.targets[i].frontier);
+    ASSERT_EQ(survey.targets[i].unknown, expected.targets[i].unknown);
+    ASSERT_EQ(survey.targets[i].viewpoint, expected.targets[i].viewpoint);
+  }
+}
+
+TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
+  std::mt19937 engine(89);
+  std::size_t compared = 0;
+  std::size_t targets = 0;
+  std::size_t failed = 0;
+  std::size_t thrown = 0;
+  std::uint64_t operations = 0;
+  std::uint64_t operations_from_nothing = 0;
+  for (int i = 0; i < 12; ++i) {
+    SurveyedWorld world = random_world(engine);
+    world.options.surfaces_first = i % 2 == 0;
+    world.options.min_contested_cluster_cells = i % 3 == 0 ? 32 : 1;
+    const auto flyer = std::make_shared<FailingFlyer>(world.flyer);
+    FrontierSurveyor surveyor(flyer, world.sensor, world.options);
+    OccupancyMap elsewhere = random_rooms(engine, world.map.resolution_m());
+    for (int step = 0; step < 18; ++step) {
+      change_some_cells(world.map, engine);
+      if (step % 6 == 2 || step % 6 == 4) {
+        wall_in(world.map, step % 6 == 2);
+      }
+      if (step % 8 == 3) {
+        fail_some(world, survey_from_nothing(world));
+        failed += world.failed.size();
+      }
+      if (step % 8 == 5) {
+        world.failed = FailedViews();
+      }
+      if (step % 8 == 7) {
+        std::swap(world.map, elsewhere);
+      }
+      if (step % 6 == 5) {
+        flyer->left = 20;
+        try {
+          (void)surveyor.survey(world.map, world.current, world.failed);
+        } catch (const std::runtime_error&) {
+          ++thrown;
+        }
+        flyer->left = 0;
+      }
+      const FrontierSurvey survey = surveyor.survey(world.map, world.current, world.failed);
+      const FrontierSurvey expected = survey_from_nothing(world);
+      ASSERT_NO_FATAL_FAILURE(expect_equal(survey, expected)) << "world " << i << ", step " << step;
+      ++compared;
+      targets += expected.targets.size();
+      operations += survey.ray_operations;
+      operations_from_nothing += expected.ray_operations;
+    }
+  }
+  EXPECT_EQ(compared, 12U * 18U);
+  EXPECT_GT(targets, 50'000U);
+  EXPECT_GT(failed, 300U);
+  EXPECT_GT(thrown, 5U);
+  EXPECT_LT(3 * operations, 2 * operations_from_nothing);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 
 namespace vantage {
@@ -38,6 +38,7 @@ class FrontierGainPlanner final : public ExplorationPlanner {
   PlannerSetup setup_;
   FrontierGainOptions options_;
   FailedViews failed_;
+  FrontierSurveyor surveyor_;
 };
 
 }  // namespace vantage

@@ -57,15 +57,11 @@ struct FrontierSurvey {
   std::uint64_t ray_operations = 0;  ///< cells visited while looking for lines of sight
 };
 
-/// Surveys the map from `current`. Targets that `failed` has given up count as unobservable.
+/// Surveys the map from `current`. Targets that `failed` has given up count as unobservable. Whoever surveys a map
+/// again and again does it cheaper by a FrontierSurveyor.
 [[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
                                               const RangeSensor& sensor, const Pose& current,
                                               const FrontierSurveyOptions& options, const FailedViews& failed);
-/// The same for those who know the frontier cells of the map already (FrontierTracker), in raster order.
-[[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
-                                              const RangeSensor& sensor, const Pose& current,
-                                              const FrontierSurveyOptions& options, const FailedViews& failed,
-                                              std::vector<VoxelIndex> frontier);
 
 /// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free
 /// and not contested.

@@ -10,7 +10,7 @@
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vantage/raytrace/following_caster.hpp>
@@ -155,6 +155,7 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   PlannerSetup setup_;
   FrontierVoidOptions options_;
   FailedViews failed_;
+  FrontierSurveyor surveyor_;
   VoidSearch search_;
   // Of the map that was planned in last:
   FollowingCaster looking_;

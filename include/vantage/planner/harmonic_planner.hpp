@@ -11,7 +11,7 @@
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vantage/raytrace/following_caster.hpp>
@@ -130,6 +130,7 @@ class HarmonicPlanner final : public ExplorationPlanner {
   PlannerSetup setup_;
   HarmonicOptions options_;
   FailedViews failed_;
+  FrontierSurveyor surveyor_;
   std::optional<HarmonicField> field_;
   FollowingCaster looking_;  // in the map in which it last chose a direction
 };

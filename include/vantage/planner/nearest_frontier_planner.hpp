@@ -3,7 +3,7 @@
 
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 
 namespace vantage {
@@ -23,6 +23,7 @@ class NearestFrontierPlanner final : public ExplorationPlanner {
   PlannerSetup setup_;
   FrontierSurveyOptions options_;
   FailedViews failed_;
+  FrontierSurveyor surveyor_;
 };
 
 }  // namespace vantage

@@ -8,7 +8,7 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/aimed_views.hpp>
@@ -113,6 +113,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   PlannerSetup setup_;
   NextBestViewOptions options_;
   FailedViews failed_;
+  FrontierSurveyor surveyor_;
   FollowingCaster looking_;  // in the map that was planned in last
 };
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vantage/planner/frontier_survey.hpp>
+#include <vector>
+
+namespace vantage {
+
+namespace detail {
+class SightMemory;
+}
+
+/// Surveys a map again and again, as it changes.
+///
+/// A survey is that of `survey_frontiers`, whatever was surveyed before: the same targets, seen from the same places.
+/// Only its price differs, and its `ray_operations` with it: what looking around an unknown cell has found stands
+/// until something changes where it was looked for.
+class FrontierSurveyor {
+ public:
+  /// For a platform, which must not be null, that always admits and faces alike.
+  FrontierSurveyor(std::shared_ptr<const Platform> platform, const RangeSensor& sensor,
+                   const FrontierSurveyOptions& options);
+  /// Takes the memory along.
+  FrontierSurveyor(FrontierSurveyor&& other) noexcept;
+  /// Takes the memory along.
+  FrontierSurveyor& operator=(FrontierSurveyor&& other) noexcept;
+  ~FrontierSurveyor();
+
+  /// Surveys the map from `current`. Targets that `failed` has given up count as unobservable.
+  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed);
+  /// The same for those who know the frontier cells of the map already (FrontierTracker), in raster order.
+  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed,
+                                      std::vector<VoxelIndex> frontier);
+
+ private:
+  std::shared_ptr<const Platform> platform_;
+  RangeSensor sensor_;
+  FrontierSurveyOptions options_;
+  std::unique_ptr<detail::SightMemory> memory_;
+};
+
+}  // namespace vantage
