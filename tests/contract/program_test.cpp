@@ -14,14 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "support/read_all.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_all(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // The names under "Commands" of the help.
 std::vector<std::string> commands_of(const std::string& help) {
@@ -77,7 +74,7 @@ class Program : public testing::Test {
     const std::string command =
         "'" VANTAGE_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, vantage::test::read_all(out), vantage::test::read_all(err)};
   }
   /// The message is one line, `vantage: ...`, that names the thing; the code is 2 and nothing is written.
   void expect_refused(const std::string& arguments, const std::string& names,
@@ -237,7 +234,7 @@ TEST_F(Program, ExploresAndReports) {
   EXPECT_GE(report["coverage"].get<double>(), 0.95);
   EXPECT_EQ(report["cycles"][0]["pose"].size(), 7U);
   EXPECT_NE(ran.err.find("view    1"), std::string::npos) << ran.err;
-  EXPECT_EQ(nlohmann::json::parse(read_all(fs::path(out()) / "report.json")), report);
+  EXPECT_EQ(nlohmann::json::parse(vantage::test::read_all(fs::path(out()) / "report.json")), report);
   for (const char* name : {"report.json", "map.ot", "floor_plan.png", "coverage.png"}) {
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
     EXPECT_NE(ran.err.find(name), std::string::npos) << "the program names what it wrote: " << name;
@@ -252,7 +249,7 @@ TEST_F(Program, CompletesInBash) {
     const std::string command =
         "bash -c \"$(cat '" + file("script.sh", script) + "')\" >'" + (folder_ / "words.txt").string() + "'";
     EXPECT_EQ(std::system(command.c_str()), 0) << script;
-    return read_all(folder_ / "words.txt");
+    return vantage::test::read_all(folder_ / "words.txt");
   };
   EXPECT_EQ(completed("exp", 1), "explore ");
   EXPECT_EQ(completed("explore --reg", 2), "--region ");
@@ -312,7 +309,7 @@ TEST_F(Program, DrawsOneBarOnATerminal) {
   const std::string command = "script -qec \"'" VANTAGE_PROGRAM "' explore " + std::string(kTable) +
                               "--max-views 4\" '" + typed + "' >/dev/null </dev/null";
   EXPECT_EQ(std::system(command.c_str()), 3 << 8);
-  const std::string text = read_all(typed);
+  const std::string text = vantage::test::read_all(typed);
   EXPECT_EQ(text.find("view    1"), std::string::npos) << "no lines beside the bar\n" << text;
   std::size_t bars = 0;
   for (std::size_t at = text.find("\r["); at != std::string::npos; at = text.find("\r[", at + 1)) {

@@ -9,15 +9,12 @@
 #include <string>
 #include <vantage/arm/arm.hpp>
 
+#include "support/tracked_arm.hpp"
+
 namespace vantage {
 namespace {
 
 constexpr double kCell = 0.05;
-
-KinematicChain tracked_arm() {
-  return KinematicChain::from_urdf(std::filesystem::path(VANTAGE_EXAMPLES) / "tracked_arm.urdf", "base_link",
-                                   "sensor");
-}
 
 /// The tracked arm, off the origin and turned, with few postures: tests ask for laws, not for reach.
 ArmOptions few_postures() {
@@ -29,7 +26,7 @@ ArmOptions few_postures() {
 }
 
 const Arm& arm() {
-  static const Arm one(tracked_arm(), few_postures());
+  static const Arm one(test::tracked_arm(), few_postures());
   return one;
 }
 
@@ -116,7 +113,7 @@ TEST(Arm, AdmitsExactlyTheConfigurationsWhoseCapsulesTouchClearCellsOnly) {
 TEST(Arm, UnknownCellsAreObstaclesUnlessDeclaredClearAndOccupiedOnesAlwaysAre) {
   ArmOptions options = few_postures();
   options.declared_clear = {{{-1.6, -1.6, -1.0}, {1.6, 1.6, 1.8}}};
-  const Arm told(tracked_arm(), options);
+  const Arm told(test::tracked_arm(), options);
   const Joints up(5, 0.0);
   OccupancyMap map({.resolution_m = kCell});
   EXPECT_FALSE(arm().admits_joints(map, up));
@@ -209,7 +206,7 @@ TEST(Arm, PathsAreAdmittedAllTheWayAndTheSameEveryTime) {
   ArmOptions wary = few_postures();
   wary.margin_m = 0.02;
   wary.path_iterations = 200;
-  const Arm careful(tracked_arm(), wary);
+  const Arm careful(test::tracked_arm(), wary);
   std::mt19937_64 engine(5);
   std::size_t paths = 0;
   std::size_t around = 0;
@@ -296,7 +293,7 @@ TEST(Arm, BadOptionsAreNamed) {
     ArmOptions options = few_postures();
     change(options);
     try {
-      const Arm made(tracked_arm(), options);
+      const Arm made(test::tracked_arm(), options);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

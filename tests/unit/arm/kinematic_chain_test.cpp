@@ -10,14 +10,10 @@
 #include <vantage/arm/kinematic_chain.hpp>
 
 #include "arm/segment_distance.hpp"
+#include "support/tracked_arm.hpp"
 
 namespace vantage {
 namespace {
-
-KinematicChain tracked_arm() {
-  return KinematicChain::from_urdf(std::filesystem::path(VANTAGE_EXAMPLES) / "tracked_arm.urdf", "base_link",
-                                   "sensor");
-}
 
 Joints random_joints(const KinematicChain& chain, std::mt19937_64& engine) {
   Joints joints;
@@ -77,7 +73,7 @@ TEST(KinematicChain, DhChainsGoWhereTheProductOfTheirMatricesGoes) {
 }
 
 TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
-  const KinematicChain chain = tracked_arm();
+  const KinematicChain chain = test::tracked_arm();
   ASSERT_EQ(chain.joint_names(), (std::vector<std::string>{"turret", "shoulder", "elbow", "wrist", "pan"}));
   EXPECT_EQ(chain.ranges()[2].max, 2.6);
   std::mt19937_64 engine(2);
@@ -130,9 +126,9 @@ TEST(KinematicChain, TheBodyIsWhereTheLinksAre) {
   }
   EXPECT_GT(capsules_in_all, 500U);
   for (int i = 0; i < 300; ++i) {
-    compare(tracked_arm());
+    compare(test::tracked_arm());
   }
-  EXPECT_THROW((void)tracked_arm().body_at(Joints(4, 0.1)), std::invalid_argument);
+  EXPECT_THROW((void)test::tracked_arm().body_at(Joints(4, 0.1)), std::invalid_argument);
 }
 
 // Any number of joints, some of which slide.
@@ -165,7 +161,7 @@ TEST(KinematicChain, InverseKinematicsTakesAnyChain) {
 
 // Inverse kinematics leads back to the pose, from guesses that are off by up to 0.4 in every joint.
 TEST(KinematicChain, InverseKinematicsLeadsBackToThePose) {
-  const KinematicChain chain = tracked_arm();
+  const KinematicChain chain = test::tracked_arm();
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> off(-0.4, 0.4);
   for (const bool free_roll : {false, true}) {
@@ -230,7 +226,7 @@ TEST(SegmentDistance, IsTheLeastOverAllPairsOfPoints) {
 }
 
 TEST(KinematicChain, KnowsWhenItTouchesItself) {
-  const KinematicChain chain = tracked_arm();
+  const KinematicChain chain = test::tracked_arm();
   const auto touches = [&](const Joints& joints) { return chain.touches_itself(chain.link_poses(joints)); };
   EXPECT_FALSE(touches({0.0, 0.0, 0.0, 0.0, 0.0})) << "straight up";
   EXPECT_FALSE(touches({0.5, -0.5, 1.8, 0.2, 0.3})) << "bent over its base";

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::int32_t kExtent = 20;
+constexpr std::int32_t kHalfExtent = 20;
 
 VoxelIndex cell_at(const Eigen::Vector3d& corner) {
   const auto whole = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
@@ -20,7 +20,7 @@ VoxelIndex cell_at(const Eigen::Vector3d& corner) {
 // What happens to a map: scans come in, from ever further away, cells at the rim of all that is occupied become
 // free, and boxes become free or unknown again.
 void change(OccupancyMap& map, int step, std::mt19937& engine) {
-  std::uniform_int_distribution<std::int32_t> coordinate(-kExtent, kExtent);
+  std::uniform_int_distribution<std::int32_t> coordinate(-kHalfExtent, kHalfExtent);
   const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
   const std::size_t kind = engine() % 8;
   if (kind < 5) {

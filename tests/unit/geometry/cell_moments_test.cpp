@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-const VoxelFrame kFrame{0.1};
+const VoxelFrame kLattice{0.1};
 
 CellMoments moments_of(const std::vector<VoxelIndex>& cells, const VoxelIndex& origin) {
   CellMoments moments(origin);
@@ -52,8 +52,8 @@ TEST(CellMoments, TheEllipsoidOfABallIsTheBall) {
       cells.push_back(cell + VoxelIndex{3, 4, 5});
     }
   });
-  const Ellipsoid ball = moments_of(cells, {}).ellipsoid(kFrame);
-  EXPECT_TRUE(ball.centre_m.isApprox(kFrame.centre_of({3, 4, 5})));
+  const Ellipsoid ball = moments_of(cells, {}).ellipsoid(kLattice);
+  EXPECT_TRUE(ball.centre_m.isApprox(kLattice.centre_of({3, 4, 5})));
   EXPECT_TRUE(ball.semi_axes_m.isApprox(Eigen::Vector3d::Constant(2.0), 0.005));
   EXPECT_NEAR(ball.volume_m3(), 1e-3 * static_cast<double>(cells.size()), 0.005 * ball.volume_m3());
 }
@@ -61,7 +61,7 @@ TEST(CellMoments, TheEllipsoidOfABallIsTheBall) {
 TEST(Ellipsoid, LiesAlongItsCellsTheLongestAxisFirst) {
   std::vector<VoxelIndex> cells;
   for_each_cell({{0, 0, 0}, {4, 20, 10}}, [&](const VoxelIndex& cell) { cells.push_back(cell); });
-  const Ellipsoid box = moments_of(cells, {}).ellipsoid(kFrame);
+  const Ellipsoid box = moments_of(cells, {}).ellipsoid(kLattice);
   const double share = std::sqrt(5.0 / 12.0);  // of the side of a box: its variance is side^2 / 12
   EXPECT_TRUE(box.semi_axes_m.isApprox(share * Eigen::Vector3d(2.0, 1.0, 0.4), 1e-9));
   EXPECT_NEAR(std::abs(box.axes(1, 0)), 1.0, 1e-9);
@@ -78,11 +78,11 @@ TEST(Ellipsoid, LiesAlongItsCellsTheLongestAxisFirst) {
 }
 
 TEST(Ellipsoid, OneCellHasOne) {
-  const Ellipsoid one = moments_of({{2, 3, 4}}, {2, 3, 4}).ellipsoid(kFrame);
-  EXPECT_TRUE(one.centre_m.isApprox(kFrame.centre_of({2, 3, 4})));
+  const Ellipsoid one = moments_of({{2, 3, 4}}, {2, 3, 4}).ellipsoid(kLattice);
+  EXPECT_TRUE(one.centre_m.isApprox(kLattice.centre_of({2, 3, 4})));
   EXPECT_GT(one.volume_m3(), 1e-3);
-  EXPECT_TRUE(one.contains(kFrame.centre_of({2, 3, 4})));
-  EXPECT_FALSE(one.contains(kFrame.centre_of({3, 3, 4})));
+  EXPECT_TRUE(one.contains(kLattice.centre_of({2, 3, 4})));
+  EXPECT_FALSE(one.contains(kLattice.centre_of({3, 3, 4})));
 }
 
 }  // namespace

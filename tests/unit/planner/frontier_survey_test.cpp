@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-RangeSensor all_around() {
+RangeSensor rays_all_around() {
   return RangeSensor::spherical(120, 60, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0);
 }
 
@@ -23,7 +23,7 @@ OccupancyMap closed_room() {
 }
 
 FrontierSurvey survey_of(const OccupancyMap& map, const FrontierSurveyOptions& options = {}) {
-  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), all_around(), pose_looking({1.1, 1.1, 1.1}, 0.0),
+  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), rays_all_around(), pose_looking({1.1, 1.1, 1.1}, 0.0),
                           options, FailedViews());
 }
 
@@ -60,13 +60,13 @@ TEST(FrontierSurvey, WithoutNoReturnsTheRimOfAnOpeningComesFirst) {
     return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), sensor, pose_looking({1.1, 1.1, 1.1}, 0.0), {},
                             FailedViews());
   };
-  RangeSensor time_of_flight = all_around();
+  RangeSensor time_of_flight = rays_all_around();
   time_of_flight.reports_no_return = true;
   EXPECT_EQ(survey_by(time_of_flight).targets.size(), 36U);
 
   map = OccupancyMap({.resolution_m = 0.2});
   for_each_cell({{0, 0, 0}, {12, 12, 12}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
-  EXPECT_EQ(survey_by(all_around()).targets.size(), 12U * 12U * 12U - 10U * 10U * 10U);
+  EXPECT_EQ(survey_by(rays_all_around()).targets.size(), 12U * 12U * 12U - 10U * 10U * 10U);
 }
 
 // Hit once, missed three times: free by 0.35, which no number of misses makes.

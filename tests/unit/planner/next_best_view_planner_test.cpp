@@ -41,8 +41,8 @@ CellWorld table_world(std::uint32_t seed) {
 
 const Box kObject{{-0.3, -0.3, 0.7}, {0.3, 0.3, 1.15}};
 
-struct Robot {
-  explicit Robot(std::uint32_t seed)
+struct RobotAtTable {
+  explicit RobotAtTable(std::uint32_t seed)
       : world(table_world(seed)),
         map({.resolution_m = 0.05, .region = world.frame.box_of(world.solid.box())}),
         pose(pose_looking_along({-1.2, 0.1, 1.3}, {1.2, -0.1, -0.4})) {
@@ -75,7 +75,7 @@ struct Robot {
 };
 
 // The largest utility by uniform ray tracing of every candidate.
-double best_utility(const Robot& run, const NextBestViewOptions& options) {
+double best_utility(const RobotAtTable& run, const NextBestViewOptions& options) {
   const ViewRays rays(run.sensor.rays_for(0.05));
   const UniformRayTracer uniform(run.map);
   double best = 0.0;
@@ -93,7 +93,7 @@ double best_utility(const Robot& run, const NextBestViewOptions& options) {
 TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
   std::size_t plans = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    Robot run(seed);
+    RobotAtTable run(seed);
     const NextBestViewOptions options{.object = kObject,
                                       .radii_m = {0.8},
                                       .subdivisions = 1,
@@ -131,7 +131,7 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
 }
 
 TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
-  Robot run(2);
+  RobotAtTable run(2);
   NextBestViewOptions options{
       .object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
   const Plan exact = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
@@ -156,7 +156,7 @@ TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
 }
 
 // Runs to the end; how many views it took.
-std::size_t reconstruct(Robot& run, const PlannerSettings& settings) {
+std::size_t reconstruct(RobotAtTable& run, const PlannerSettings& settings) {
   PlannerSettings all = settings;
   all.merge(PlannerSettings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"},
                             {"radii_m", "0.8"},
@@ -180,9 +180,9 @@ TEST(NextBestViewPlanner, NeedsNoMoreViewsByACoverThanByGreed) {
   std::size_t by_cover = 0;
   std::size_t by_greed = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    Robot covering(seed);
+    RobotAtTable covering(seed);
     by_cover += reconstruct(covering, {{"choice", "cover"}});
-    Robot greedy(seed);
+    RobotAtTable greedy(seed);
     by_greed += reconstruct(greedy, {{"choice", "greedy"}});
     EXPECT_GT(covering.coverage(), 0.94);
   }
@@ -197,7 +197,7 @@ TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
   std::size_t views_aimed = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     const auto seen_by = [&](double& coverage, const PlannerSettings& settings) {
-      Robot run(seed);
+      RobotAtTable run(seed);
       const std::size_t views = reconstruct(run, settings);
       coverage += run.coverage() / 4.0;
       return views;
@@ -213,7 +213,7 @@ TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
 }
 
 TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
-  Robot run(2);
+  RobotAtTable run(2);
   NextBestViewOptions options{.object = kObject, .subdivisions = -1, .min_unknown_cells = 5};
   EXPECT_EQ(NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose).outcome, Outcome::Explored);
   options.aimed = {.count = 100, .min_distance_m = 0.4, .max_distance_m = 0.9};
@@ -234,7 +234,7 @@ TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
 }
 
 TEST(NextBestViewPlanner, TakesAViewOfTheCover) {
-  Robot run(4);
+  RobotAtTable run(4);
   const NextBestViewOptions options{.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_unknown_cells = 5};
   const Plan plan = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
   const ViewRays rays(run.sensor.rays_for(0.05));
@@ -266,7 +266,7 @@ TEST(NextBestViewPlanner, TakesAViewOfTheCover) {
 TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
   std::size_t gains = 0;
   for (const std::string_view name : ray_gain_names()) {
-    Robot run(3);
+    RobotAtTable run(3);
     EXPECT_LT(reconstruct(run, {{"gain", std::string(name)}, {"subdivisions", "0"}}), 20U) << name;
     EXPECT_GT(run.coverage(), 0.9) << name;
     ++gains;
@@ -275,7 +275,7 @@ TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
 }
 
 TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
-  Robot run(2);
+  RobotAtTable run(2);
   const NextBestViewOptions any{.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_unknown_cells = 5};
   NextBestViewOptions steep = any;
   steep.sensing = {.max_incidence_rad = 0.9, .min_depth_m = 0.5, .max_depth_m = 1.0};
@@ -296,7 +296,7 @@ TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
 }
 
 TEST(NextBestViewPlanner, NamesWhatIsWrong) {
-  const Robot run(1);
+  const RobotAtTable run(1);
   const auto complaint = [&](const PlannerSettings& settings) -> std::string {
     try {
       (void)make_planner("next-best-view", run.setup(), settings);

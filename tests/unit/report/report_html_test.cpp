@@ -12,15 +12,11 @@
 #include <vantage/report/run_recorder.hpp>
 
 #include "support/random_maps.hpp"
+#include "support/read_all.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace vantage {
 namespace {
-
-std::string read_all(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // The runs as the page's script will read them.
 std::vector<nlohmann::json> runs_in(const std::string& page) {
@@ -50,7 +46,7 @@ TEST(ReportHtml, HoldsTheReportAndTheReplay) {
   const test::TemporaryFolder folder;
   record_three_views(folder / "run");
   write_report_html(folder / "run", folder / "run.html");
-  const std::string page = read_all(folder / "run.html");
+  const std::string page = test::read_all(folder / "run.html");
   EXPECT_EQ(page.find("{{style.css}}"), std::string::npos) << "everything is filled in";
   EXPECT_NE(page.find("THREE"), std::string::npos);
   const std::vector<nlohmann::json> runs = runs_in(page);
@@ -75,7 +71,7 @@ TEST(ReportHtml, DoesWithoutARecordAndWithOneOfAnotherRun) {
   other.views.resize(5);
   const std::vector<ReportedRun> runs{{report_json(other), {}}, {report_json(other), folder / "run"}};
   write_report_html(runs, folder / "two.html");
-  const std::vector<nlohmann::json> shown = runs_in(read_all(folder / "two.html"));
+  const std::vector<nlohmann::json> shown = runs_in(test::read_all(folder / "two.html"));
   ASSERT_EQ(shown.size(), 2U);
   EXPECT_FALSE(shown[0].contains("replay"));
   EXPECT_FALSE(shown[1].contains("replay")) << "it has another number of views";

@@ -13,15 +13,11 @@
 #include <vantage/report/run_recorder.hpp>
 
 #include "support/random_maps.hpp"
+#include "support/read_all.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace vantage {
 namespace {
-
-std::string read_all(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write_all(const std::filesystem::path& file, std::string_view bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
@@ -181,7 +177,7 @@ TEST(RunRecorder, OpensHoweverItWasCut) {
     recorder.finish(RunOutcome::Explored, "done");
     ends.push_back(recorder.bytes());
   }
-  const std::string whole = read_all(file);
+  const std::string whole = test::read_all(file);
   ASSERT_EQ(whole.size(), ends.back());
   std::size_t refused = 0;
   std::size_t opened = 0;
@@ -227,7 +223,7 @@ TEST(RunRecorder, NoticesDamage) {
     rehearsal.step();
     rehearsal.record_into(recorder);
   }
-  const std::string whole = read_all(file);
+  const std::string whole = test::read_all(file);
   std::mt19937 engine(1);
   std::uniform_int_distribution<std::size_t> place(first_end, whole.size() - 1);
   std::uniform_int_distribution<int> bit(0, 7);

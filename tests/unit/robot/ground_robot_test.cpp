@@ -10,12 +10,12 @@
 namespace vantage {
 namespace {
 
-constexpr double kCell = 0.1;
+constexpr double kFloorCell = 0.1;
 constexpr std::int32_t kLayer = 4;
 
 /// A layer of known-free cells with single cells knocked out of it.
 OccupancyMap random_plane(std::mt19937& engine, std::int32_t side, double blocked_share) {
-  OccupancyMap map({.resolution_m = kCell});
+  OccupancyMap map({.resolution_m = kFloorCell});
   std::uniform_real_distribution<double> share(0.0, 1.0);
   for_each_cell({{0, 0, kLayer}, {side, side, kLayer + 1}}, [&](const VoxelIndex& cell) {
     const double draw = share(engine);
@@ -34,8 +34,8 @@ bool disc_is_free(const OccupancyMap& map, const Eigen::Vector3d& centre, double
   bool free = home.z == kLayer;
   for (std::int32_t y = home.y - 6; y <= home.y + 6; ++y) {
     for (std::int32_t x = home.x - 6; x <= home.x + 6; ++x) {
-      const Eigen::Vector3d nearest(std::clamp(centre.x(), x * kCell, (x + 1) * kCell),
-                                    std::clamp(centre.y(), y * kCell, (y + 1) * kCell), centre.z());
+      const Eigen::Vector3d nearest(std::clamp(centre.x(), x * kFloorCell, (x + 1) * kFloorCell),
+                                    std::clamp(centre.y(), y * kFloorCell, (y + 1) * kFloorCell), centre.z());
       if ((x == home.x && y == home.y) || (nearest - centre).norm() < radius_m - 1e-9) {
         free = free && map.at({x, y, kLayer}) == Occupancy::Free;
       }
@@ -53,7 +53,7 @@ TEST(GroundRobot, AdmitsExactlyWhereItsDiscTouchesFreeCellsOnly) {
     const GroundRobot robot({.radius_m = radius_m});
     const OccupancyMap map = random_plane(engine, 32, 0.03);
     for (int i = 0; i < 3000; ++i) {
-      const Eigen::Vector3d position(metre(engine), metre(engine), (kLayer + 0.3) * kCell);
+      const Eigen::Vector3d position(metre(engine), metre(engine), (kLayer + 0.3) * kFloorCell);
       const bool expected = disc_is_free(map, position, radius_m);
       ASSERT_EQ(robot.admits(map, pose_looking(position, 1.0)), expected) << radius_m;
       ++(expected ? admitted : refused);
@@ -90,7 +90,7 @@ TEST(GroundRobot, AMotionIsAdmittedExactlyWhenEveryPoseOfItIs) {
   const GroundRobot robot({.radius_m = 0.12});
   const OccupancyMap map = random_plane(engine, 32, 0.02);
   for (int i = 0; i < 600; ++i) {
-    const double height_m = (kLayer + 0.5) * kCell;
+    const double height_m = (kLayer + 0.5) * kFloorCell;
     const Pose from = pose_looking({metre(engine), metre(engine), height_m}, 0.0);
     const Pose to = pose_looking({metre(engine), metre(engine), height_m}, 2.0);
     if (!robot.admits(map, from)) {
@@ -111,7 +111,7 @@ TEST(GroundRobot, AMotionIsAdmittedExactlyWhenEveryPoseOfItIs) {
 }
 
 TEST(GroundRobot, StaysLevelAndInItsLayer) {
-  OccupancyMap map({.resolution_m = kCell});
+  OccupancyMap map({.resolution_m = kFloorCell});
   map.set_log_odds(VoxelBox{{0, 0, 0}, {20, 20, 10}}, -2.0);
   const GroundRobot robot({.radius_m = 0.15});
   EXPECT_FALSE(robot.can_tilt());
