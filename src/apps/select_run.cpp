@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <stdexcept>
@@ -18,6 +20,7 @@
 #include <vantage/vision/line_plot.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/named_goals.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 
@@ -34,8 +37,9 @@ struct Contender {
   ViewOrderCurve curve;
   double above_random_volume = 0.0;  // share of the random orders with a smaller area
   double above_random_surface = 0.0;
-  double above_random_void = 0.0;  // with a larger one: more void is left
-  double choose_ms = 0.0;          // per view; 0 where nothing was chosen
+  double above_random_void = 0.0;     // with a larger one: more void is left
+  double choose_ms = 0.0;             // per view; 0 where nothing was chosen
+  std::optional<NamedGoals> goals{};  // where views were chosen by them
 };
 
 struct Comparison {
@@ -142,13 +146,17 @@ void add_choosers(const ReplayRequest& request, const Recording& recording, cons
   // What a planner asks for, by the view nearest to it; and the views judged by what it looks for with its next view,
   // and by all that it looks for.
   std::vector<std::pair<std::string, ChooseView>> choosers{{"expected cells", most_expected_cells(views, sensor)}};
+  std::map<std::string, NamedGoals> goals;
   for (const auto& planner : planners) {
     const std::string name(planner->name());
     if (name == "next-best-view") {
       choosers.emplace_back(name, most_unknown_cells(views, sensor, threads));
       continue;
     }
-    choosers.emplace_back(name, nearest_to_goal(views, *planner, kMetresPerRadian));
+    const auto tally = [&views, &named = goals[name]](const Plan& plan, std::size_t last, std::size_t chosen) {
+      named.add(plan, views.scans()[last].world_from_sensor, views.scans()[chosen].world_from_sensor);
+    };
+    choosers.emplace_back(name, nearest_to_goal(views, *planner, kMetresPerRadian, tally));
     choosers.emplace_back(name + ", by aim", most_for_what_is_sought(views, sensor, sought_next(views, *planner)));
     choosers.emplace_back(
         name + ", by all it seeks",
@@ -158,6 +166,9 @@ void add_choosers(const ReplayRequest& request, const Recording& recording, cons
   ChoosingPrinter printer(told, choosers.size() * (views.size() - 1));
   for (const auto& [name, choose] : choosers) {
     contenders.push_back(chosen(views, name, choose, printer));
+    if (const auto named = goals.find(name); named != goals.end()) {
+      contenders.back().goals = named->second;
+    }
   }
   printer.finish();
 }
@@ -221,6 +232,11 @@ void print_table(std::ostream& out, const Comparison& comparison) {
   out << text
       << "\nAreas under the curves of what is known over the number of views, as shares of what all views know;\n"
          "> random: of 100 random orders, those it is above; greedy: who has seen all views already.\n";
+  for (const Contender& contender : comparison.contenders) {
+    if (contender.goals) {
+      contender.goals->print(out, contender.curve.name);
+    }
+  }
 }
 
 // Up to eight numbers of views, evenly spread, the first and the last among them.
@@ -291,6 +307,9 @@ std::string selection_json(const ReplayRequest& request, const Comparison& compa
     order["above_random_surface"] = contender.above_random_surface;
     order["above_random_void"] = contender.above_random_void;
     order["choose_ms"] = contender.choose_ms;
+    if (contender.goals) {
+      order["goals"] = contender.goals->json();
+    }
     orders.push_back(std::move(order));
   }
   SelectionJson skipped = SelectionJson::array();

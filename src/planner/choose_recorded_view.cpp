@@ -255,10 +255,11 @@ ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor
   };
 }
 
-ChooseView nearest_to_goal(const RecordedViews& views, ExplorationPlanner& planner, double metres_per_radian) {
+ChooseView nearest_to_goal(const RecordedViews& views, ExplorationPlanner& planner, double metres_per_radian,
+                           GoalObserver observer) {
   const auto taken = std::make_shared<std::vector<std::size_t>>();
-  return [&views, &planner, metres_per_radian, taken](const OccupancyMap& map, std::size_t last,
-                                                      std::span<const std::size_t> left) {
+  return [&views, &planner, metres_per_radian, observer = std::move(observer), taken](
+             const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left) {
     taken->push_back(last);
     const auto pose = [&](std::size_t view) -> const Pose& { return views.scans()[view].world_from_sensor; };
     const Plan plan = planner.plan(map, pose(last));
@@ -272,8 +273,12 @@ ChooseView nearest_to_goal(const RecordedViews& views, ExplorationPlanner& plann
       }
       return nearest;
     };
-    return *std::max_element(left.begin(), left.end(),
-                             [&](std::size_t a, std::size_t b) { return worth(a) < worth(b); });
+    const std::size_t chosen = *std::max_element(left.begin(), left.end(),
+                                                 [&](std::size_t a, std::size_t b) { return worth(a) < worth(b); });
+    if (observer) {
+      observer(plan, last, chosen);
+    }
+    return chosen;
   };
 }
 

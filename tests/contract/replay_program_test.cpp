@@ -168,8 +168,16 @@ TEST_F(ReplayProgram, ComparesOrdersOfViews) {
               selection.at("greedy_volume").at("volume_area").get<double>() + 0.05);
     EXPECT_EQ(order.at("void_cells").size(), 5U) << order.at("name");
     EXPECT_LE(order.at("void_cells").back(), selection.at("void_cells")) << order.at("name");
+    EXPECT_EQ(order.contains("goals"), order.at("name") == "nearest-frontier") << order.at("name");
+    if (order.contains("goals")) {
+      const auto& goals = order.at("goals");
+      EXPECT_EQ(goals.at("plans"), 4);
+      EXPECT_LE(goals.at("from_last").size(), 4U);
+      EXPECT_EQ(goals.at("from_chosen").size(), goals.at("from_last").size());
+    }
   }
   EXPECT_NE(err_.find("expected cells"), std::string::npos);
+  EXPECT_NE(err_.find("nearest-frontier named a place to look from in "), std::string::npos) << err_;
   EXPECT_TRUE(fs::exists(out / "selection.png"));
 }
 

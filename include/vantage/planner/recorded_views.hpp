@@ -120,10 +120,13 @@ using SoughtCells = std::function<std::vector<VoxelIndex>(const OccupancyMap& ma
 [[nodiscard]] ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
                                                  SoughtCells sought);
 
+/// Is told what a planner asked for behind the view `last`, and which view was chosen for it.
+using GoalObserver = std::function<void(const Plan& plan, std::size_t last, std::size_t chosen)>;
+
 /// The view nearest to where `planner` wants to look from, a radian off the direction counting as
-/// `metres_per_radian`. Where it wants nothing more, the view furthest, by the same measure, from all that were
-/// taken.
+/// `metres_per_radian`. Where it names no place, the view furthest, by the same measure, from all that were taken:
+/// `observer`, if there is one, can tell how often.
 [[nodiscard]] ChooseView nearest_to_goal(const RecordedViews& views, ExplorationPlanner& planner,
-                                         double metres_per_radian);
+                                         double metres_per_radian, GoalObserver observer = {});
 
 }  // namespace vantage
