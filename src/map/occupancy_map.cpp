@@ -150,12 +150,17 @@ VoxelBox OccupancyMap::bounds() const {
   constexpr std::int32_t kFar = kFurthestVoxel;
   VoxelBox bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    const auto holds = [&](const VoxelIndex& from, std::int32_t edge) {
+      return bounds.contains(from) && bounds.contains(from + VoxelIndex{edge - 1, edge - 1, edge - 1});
+    };
     const VoxelIndex first = Brick::first_cell(address);
-    const VoxelIndex last = Brick::first_cell(address + VoxelIndex{1, 1, 1}) - VoxelIndex{1, 1, 1};
-    if (bounds.contains(first) && bounds.contains(last)) {
+    if (holds(first, Brick::kSide)) {
       return;
     }
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      if (holds(first + Brick::cell_at(64 * word), Brick::kSide / 2)) {
+        continue;
+      }
       for_each_offset(brick.known[word], word, [&](std::size_t offset) {
         const VoxelIndex cell = first + Brick::cell_at(offset);
         bounds.lo = {std::min(bounds.lo.x, cell.x), std::min(bounds.lo.y, cell.y), std::min(bounds.lo.z, cell.z)};

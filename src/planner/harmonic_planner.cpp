@@ -120,10 +120,15 @@ Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
   std::vector<VoxelIndex> way{*survey.reachable.start()};
   std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
   if (!wanted) {  // else look from where the sensor is
-    solve(map, survey, statistics);
-    way = way_down(map, current, survey);
-    if (strategy.shortest_way) {
-      way = GridPaths(survey.reachable).to(way.back());
+    const std::vector<VoxelIndex> drawing = sinks(map, survey);
+    if (strategy.shortest_way && drawing.size() == 1) {  // then every way down the field would end there
+      way = GridPaths(survey.reachable).to(drawing.front());
+    } else {
+      solve(survey, drawing, statistics);
+      way = way_down(map, current, survey);
+      if (strategy.shortest_way) {
+        way = GridPaths(survey.reachable).to(way.back());
+      }
     }
     wanted = strategy.look_early ? first_look(map, survey, way, statistics.ray_operations)
                                  : target_seen_from(survey, way.back());
@@ -225,21 +230,23 @@ std::vector<VoxelIndex> HarmonicPlanner::sinks(const OccupancyMap& map, const Fr
              : GridPaths(survey.reachable).nearest_within(cells, options_.strategy.detour_m, map.resolution_m());
 }
 
-void HarmonicPlanner::solve(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics) {
-  solve(survey, sinks(map, survey), statistics);
+// The field that leads where the strategy wants to go.
+void HarmonicPlanner::solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks,
+                            PlanStatistics& statistics) {
+  solve_once(survey, sinks, statistics);
   if (options_.strategy.sink_choice == SinkChoice::LargestFlux && field_->followed) {
     const std::vector<SinkCluster> clusters = sink_clusters(field_->problem, field_->phi);
     if (clusters.size() > 1) {  // the way to the largest is that of a field of its own
       const auto largest =
           std::max_element(clusters.begin(), clusters.end(),
                            [](const SinkCluster& a, const SinkCluster& b) { return a.flux < b.flux; });
-      solve(survey, largest->sinks, statistics);
+      solve_once(survey, largest->sinks, statistics);
     }
   }
 }
 
-void HarmonicPlanner::solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks,
-                            PlanStatistics& statistics) {
+void HarmonicPlanner::solve_once(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks,
+                                 PlanStatistics& statistics) {
   field_.emplace(
       HarmonicField{LaplaceProblem(survey.reachable.cells(), sinks, *survey.reachable.start()), {}, {}, {}, 0, true});
   if (options_.solver == FieldSolver::Multigrid) {

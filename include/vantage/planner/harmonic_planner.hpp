@@ -106,11 +106,12 @@ class HarmonicPlanner final : public ExplorationPlanner {
 
   /// The options it was made with.
   [[nodiscard]] const HarmonicOptions& options() const { return options_; }
-  /// The field of the last plan; none where it needed none (nothing left, or the sensor looks from where it is).
+  /// The field of the last plan; none where it needed none: nothing is left, the sensor looks from where it is, or
+  /// there is one place to go and the shortest way is taken.
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
 
  private:
-  void solve(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
+  void solve_once(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
   void solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
   void solve_by_multigrid();
   void relax();

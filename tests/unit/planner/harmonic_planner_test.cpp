@@ -187,12 +187,33 @@ TEST(HarmonicPlanner, GoesWhereMostFlows) {
   EXPECT_GE(other_ways, 1U) << "where the streamline would have led to the smaller";
 }
 
+// By whatever field, the way down would end there.
+TEST(HarmonicPlanner, OnePlaceToGoNeedsNoField) {
+  OccupancyMap map({.resolution_m = 0.2});
+  for_each_cell({{-1, -1, -1}, {21, 17, 13}}, [&](const VoxelIndex& cell) {
+    const bool inside = VoxelBox{{0, 0, 0}, {20, 16, 12}}.contains(cell);
+    map.set(cell, inside || cell == VoxelIndex{20, 11, 5} ? Occupancy::Free : Occupancy::Occupied);
+  });
+  const Pose current = pose_looking({0.5, 0.5, 0.5}, 0.0);
+  const PlannerSetup setup = setup_with(all_around());
+  HarmonicStrategy strategy;
+  for (const bool shortest_way : {true, false}) {
+    strategy.shortest_way = shortest_way;
+    HarmonicPlanner planner(setup, {.strategy = strategy});
+    const Plan plan = planner.plan(map, current);
+    ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
+    expect_admitted(map, *setup.platform, current, plan);
+    EXPECT_EQ(plan.sought, std::vector<VoxelIndex>({{21, 11, 5}}));
+    EXPECT_EQ(planner.field().has_value(), !shortest_way);
+  }
+}
+
 TEST(HarmonicPlanner, APlatformThatKeepsItsHeightSolvesInThePlane) {
   const OccupancyMap map = box_with_opening();
   const Pose current = pose_looking({0.5, 0.5, 1.1}, 0.0);
   const PlannerSetup setup =
       setup_with(all_around(), {.radius_m = 0.15, .min_height_m = 1.05, .max_height_m = 1.15, .yaw_only = true});
-  HarmonicPlanner planner(setup);
+  HarmonicPlanner planner(setup, {.strategy = HarmonicStrategy::faithful()});
   const Plan plan = planner.plan(map, current);
   ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
   expect_admitted(map, *setup.platform, current, plan);
