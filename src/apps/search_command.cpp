@@ -2,24 +2,22 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <unordered_set>
 #include <vantage/arm/arm.hpp>
-#include <vantage/frontier/void_cells.hpp>
-#include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/make_planner.hpp>
-#include <vantage/raytrace/cell_set.hpp>
-#include <vantage/raytrace/ray_caster.hpp>
-#include <vantage/raytrace/view_rays.hpp>
 #include <vantage/sim/exploration_run.hpp>
+#include <vantage/sim/truth.hpp>
+#include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/exhaustive_planner.hpp"
+#include "apps/exhaustive_search.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
 #include "apps/progress_stream.hpp"
@@ -33,6 +31,7 @@ namespace vantage::apps {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+constexpr double kLeastViewDm3 = 1.6;  // the least that the paper's tables show is 1.61
 
 // `vantage search` as it was typed.
 struct SearchRequest {
@@ -42,7 +41,8 @@ struct SearchRequest {
   std::string joints;
   double clear_m = 0.25;
   bool exhaustive = false;
-  ExploreRequest run;  // what the commands share
+  std::size_t bound = 0;  // poses
+  ExploreRequest run;     // what the commands share
 
   SearchRequest() {
     run.planner = "frontier-void";
@@ -115,15 +115,31 @@ Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pos
 PlannerSettings settings_for(const SearchRequest& request) {
   PlannerSettings settings;
   if (request.run.planner == "frontier-void") {  // a search ends where no view sees a void
-    // Reach is short and views are dear: many are weighed. The least that the paper's tables show is 1.61 dm^3.
-    settings = {{"beyond_voids", "false"}, {"cost_per_m", "0"},        {"least_view_dm3", "1.6"},
-                {"views", "400"},          {"place_spacing_m", "0.1"}, {"orientations_per_place", "8"},
-                {"finalists", "30"},       {"sought_chance", "0"}};
+    // Reach is short and views are dear: many are weighed.
+    settings = {
+        {"beyond_voids", "false"}, {"cost_per_m", "0"},        {"least_view_dm3", std::to_string(kLeastViewDm3)},
+        {"views", "400"},          {"place_spacing_m", "0.1"}, {"orientations_per_place", "8"},
+        {"finalists", "30"},       {"sought_chance", "0"}};
   }
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
   }
   return settings;
+}
+
+std::unique_ptr<ExplorationPlanner> planner_of(const SearchRequest& request, const std::shared_ptr<const Arm>& arm,
+                                               const PlannerSetup& setup) {
+  if (request.run.planner != ExhaustivePlanner::kName) {
+    return make_planner(request.run.planner, setup, settings_for(request));
+  }
+  double least_view_dm3 = kLeastViewDm3;
+  for (const auto& [name, value] : settings_of(request.run)) {
+    if (name != "least_view_dm3") {
+      throw std::invalid_argument("the planner exhaustive has one setting, least_view_dm3, not '" + name + "'");
+    }
+    least_view_dm3 = numbers_of("--set least_view_dm3", value).at(0);
+  }
+  return std::make_unique<ExhaustivePlanner>(arm, setup, least_view_dm3);
 }
 
 double litres(double cells, double cell_m) { return cells * std::pow(10.0 * cell_m, 3); }
@@ -136,44 +152,21 @@ void print_view(std::ostream& out, const ViewRecord& view, double cell_m) {
   out << line << std::flush;
 }
 
-// What the drawn postures that the map admits, every n-th of them, would see of the voids that are left: void cells
-// in which a ray of the sensor ends and whose centre is in plain sight, so that nothing counts that shows through a
-// worn surface only.
-void print_exhaustive(std::ostream& out, const Arm& arm, const RangeSensor& sensor, const OccupancyMap& map) {
-  const std::vector<VoxelIndex> voids = void_cells(map);
-  if (voids.empty()) {
-    out << "  exhaustive   no void cell is left\n";
-    return;
-  }
-  const std::unordered_set<VoxelIndex> is_void(voids.begin(), voids.end());
-  const RayCaster caster(map);
-  const ViewRays rays(sensor.rays_for(map.resolution_m()));
-  std::unordered_set<VoxelIndex> by_any;
-  std::size_t best = 0;
-  constexpr std::size_t kMostPoses = 8000;
-  const std::vector<Pose> poses = arm.admitted_poses(map);
-  const std::size_t stride = poses.size() / kMostPoses + 1;
-  for (std::size_t i = 0; i < poses.size(); i += stride) {
-    const Pose& pose = poses[i];
-    std::size_t seen = 0;
-    std::uint64_t operations = 0;
-    caster.visible_cells(pose, rays, map.bounds()).for_each([&](const VoxelIndex& cell) {
-      if (is_void.contains(cell) && in_plain_sight(map, pose.translation(), cell, operations)) {
-        ++seen;
-        by_any.insert(cell);
-      }
-    });
-    best = std::max(best, seen);
-  }
-  char line[240];
-  std::snprintf(line, sizeof line,
-                "  exhaustive   of %zu void cells left (%.2f dm^3), %zu poses of the arm see %zu (%.2f dm^3) in all, "
-                "the best of them %zu (%.2f dm^3)\n",
-                voids.size(), litres(static_cast<double>(voids.size()), map.resolution_m()),
-                (poses.size() + stride - 1) / stride, by_any.size(),
-                litres(static_cast<double>(by_any.size()), map.resolution_m()), best,
-                litres(static_cast<double>(best), map.resolution_m()));
-  out << line << std::flush;
+ExplorationRunOptions options_of(const ExploreRequest& shared, const World& world,
+                                 const std::vector<Box>& declared_clear) {
+  ExplorationRunOptions options;
+  options.map.resolution_m = shared.resolution_m;
+  options.map.region = region_of(shared).value_or(world.region);
+  check_cell_count(*options.map.region, shared.resolution_m);
+  options.max_views = shared.max_views;
+  options.scan_spacing_m = 0.0;
+  options.seed = shared.seed;
+  options.noise = noise_of(shared);
+  options.threads = shared.threads;
+  options.measure_coverage = false;
+  options.unknown_box = world.searched;
+  options.declared_clear = declared_clear;
+  return options;
 }
 
 int search(const SearchRequest& request) {
@@ -188,23 +181,11 @@ int search(const SearchRequest& request) {
   arm_options.declared_clear = {body_at(request, chain, arm_options.world_from_base, joints)};
   arm_options.seed = shared.seed;
   const auto arm = std::make_shared<const Arm>(chain, arm_options);
-  const auto planner = make_planner(
-      shared.planner, {.sensor = sensor, .platform = arm, .seed = shared.seed, .threads = shared.threads},
-      settings_for(request));
+  const PlannerSetup setup{.sensor = sensor, .platform = arm, .seed = shared.seed, .threads = shared.threads};
+  const auto planner = planner_of(request, arm, setup);
   const World world = world_of(shared);
 
-  ExplorationRunOptions options;
-  options.map.resolution_m = shared.resolution_m;
-  options.map.region = region_of(shared).value_or(world.region);
-  check_cell_count(*options.map.region, shared.resolution_m);
-  options.max_views = shared.max_views;
-  options.scan_spacing_m = 0.0;
-  options.seed = shared.seed;
-  options.noise = noise_of(shared);
-  options.threads = shared.threads;
-  options.measure_coverage = false;
-  options.unknown_box = world.searched;
-  options.declared_clear = arm_options.declared_clear;
+  const ExplorationRunOptions options = options_of(shared, world, arm_options.declared_clear);
   ExplorationRun run(world, sensor, arm, options);
 
   ProgressStream told(shared);
@@ -212,6 +193,7 @@ int search(const SearchRequest& request) {
   RunPrinter printer(progress, told.is_terminal(), {.count = shared.max_views, .at_most = true});
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "search", shared.world, sensor));
   PlanPictures pictures;
+  std::optional<OccupancyMap> first_map;
   const auto on_view = [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       printer.head(shared.planner, shared.world, shared.sensor, shared.resolution_m, shared.seed);
@@ -222,6 +204,9 @@ int search(const SearchRequest& request) {
       print_view(progress, view, shared.resolution_m);
     }
     recording.look(view, map);
+    if (request.bound > 0 && !first_map) {
+      first_map = map;
+    }
     if (view.plan_ms > 0.0 && !shared.out.empty()) {
       pictures.look(*planner, map, view);
     }
@@ -233,6 +218,12 @@ int search(const SearchRequest& request) {
   recording.finish(record);
   if (request.exhaustive) {
     print_exhaustive(progress, *arm, sensor, run.map());
+  }
+  if (first_map) {
+    const Truth truth(world, shared.resolution_m, *options.map.region);
+    const ViewsNeeded needed =
+        views_needed(*arm, sensor, *first_map, truth.map(), TriangleScene(world.mesh), request.bound, shared.threads);
+    print_views_needed(progress, needed, shared.resolution_m);
   }
   write_outputs(shared.out, shared.json, record, run.map(), sensor, pictures.pictures(), progress, recording.file());
   return record.outcome == RunOutcome::Budget ? kBudget : kDone;
@@ -267,7 +258,9 @@ void add_search_command(CLI::App& app, int& exit_code) {
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("World");
   add_arm_options(*command, *request);
-  command->add_option("--planner", run.planner, "By name (vantage list)")
+  command
+      ->add_option("--planner", run.planner,
+                   "By name (vantage list), or exhaustive, which weighs thousands of poses for every view")
       ->type_name("NAME")
       ->capture_default_str()
       ->group("Run");
@@ -276,6 +269,12 @@ void add_search_command(CLI::App& app, int& exit_code) {
   command
       ->add_flag("--exhaustive", request->exhaustive,
                  "At the end, tell what thousands of poses of the arm would still see of the voids; slow")
+      ->group("Run");
+  command
+      ->add_option("--bound", request->bound,
+                   "At the end, tell how few views could have seen what was to be seen after the first, all known, "
+                   "among so many poses of the arm; slow")
+      ->type_name("POSES")
       ->group("Run");
   add_output_options(*command, run);
   command->footer(

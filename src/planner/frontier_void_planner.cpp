@@ -221,6 +221,7 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     candidates.resize(options_.strategy.finalists);
   }
   candidates = rank(std::move(candidates), looking_.rays(), current);
+  refine(map, current, survey, candidates, statistics);
   const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
   std::optional<Choice> best;
   double best_value = 0.0;

@@ -177,4 +177,29 @@ std::vector<Pose> FrontierVoidPlanner::near_views(const OccupancyMap& map, const
   return views_of(near, options_.strategy.near_views, map, survey, statistics);
 }
 
+// What is sampled is seldom the best of its surroundings: the best view climbs, one draw after the other.
+void FrontierVoidPlanner::refine(const OccupancyMap& map, const Pose& current, const FrontierSurvey& survey,
+                                 std::vector<Candidate>& candidates, PlanStatistics& statistics) const {
+  constexpr double kMostTurn = 0.5;  // radians, nearly
+  Dice dice(setup_.seed, ~map.revision());
+  for (std::size_t i = 0; i < options_.strategy.refinements && !candidates.empty(); ++i) {
+    const Pose& best = candidates.front().pose;
+    const Eigen::Vector3d shift = options_.strategy.place_spacing_m * dice.share() * dice.direction();
+    const Eigen::Vector3d direction = optical_axis(best) + kMostTurn * dice.share() * dice.direction();
+    const VoxelIndex cell = map.frame().cell_of(best.translation() + shift);
+    if (!survey.reachable.contains(cell)) {
+      continue;
+    }
+    const Pose view = setup_.platform->facing(map.frame().centre_of(cell), direction);
+    if (!setup_.platform->admits(map, view)) {
+      continue;
+    }
+    ++statistics.views_scored;
+    const std::vector<Candidate> counted = rank({Candidate{view}}, looking_.rays(), current);
+    if (counted.front().value > candidates.front().value) {
+      candidates.insert(candidates.begin(), counted.front());
+    }
+  }
+}
+
 }  // namespace vantage

@@ -183,6 +183,7 @@ std::unique_ptr<ExplorationPlanner> make_frontier_void(const PlannerSetup& setup
       .number("cost_per_m", options.strategy.cost_per_m)
       .flag("along_way", options.strategy.along_way)
       .number("near_views", options.strategy.near_views)
+      .number("refinements", options.strategy.refinements)
       .number("finalists", options.strategy.finalists)
       .number("opaque_share", options.strategy.opaque_share)
       .number("opaque_beside_surface", options.strategy.opaque_beside_surface)

@@ -73,6 +73,24 @@ TEST_F(SearchProgram, MovesTheArmFromViewToViewTheSameEveryTime) {
   }
 }
 
+// The peer that weighs all poses, and how few views could do: in large cells, to be quick.
+TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
+  const std::string arguments =
+      "--world crates-open --resolution 0.1 --planner exhaustive --max-views 3 --bound 60 --exhaustive --json -";
+  ASSERT_NE(run(arguments), 2) << err_;
+  const nlohmann::json report = nlohmann::json::parse(out_);
+  EXPECT_EQ(report["planner"], "exhaustive");
+  EXPECT_EQ(report["collisions"], 0);
+  EXPECT_GT(report["cycles"][0]["utility"].get<double>(), 5.0);
+  EXPECT_NE(err_.find("  exhaustive   of "), std::string::npos) << err_;
+  EXPECT_NE(err_.find("  bound        after the first view "), std::string::npos) << err_;
+  EXPECT_NE(err_.find("  left         dm^3 after each view of the greedy choice: "), std::string::npos) << err_;
+  const std::string told = err_.substr(err_.find("  exhaustive"));
+  ASSERT_NE(run(arguments + " --threads 3"), 2) << err_;
+  EXPECT_EQ(told, err_.substr(err_.find("  exhaustive"))) << "the same for any number of threads";
+  expect_refused("--world crates-open --planner exhaustive --set views=3", "has one setting, least_view_dm3");
+}
+
 TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {
   expect_refused("--world crates-open --arm /nowhere/arm.urdf", "/nowhere/arm.urdf: cannot be opened");
   expect_refused("--world crates-open --links base_link", "--links 'base_link' must be BASE,SENSOR");

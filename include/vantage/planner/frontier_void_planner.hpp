@@ -43,6 +43,9 @@ struct FrontierVoidStrategy {
   std::size_t near_views = 0;
   /// All views are counted by a sixteenth of the rays first, and the best so many of them by all, >= 1.
   std::size_t finalists = 5;
+  /// So many views like the best of them, moved by up to `place_spacing_m` and turned by up to half a radian, are
+  /// counted, too, >= 0; a better one takes its place at once.
+  std::size_t refinements = 0;
   /// UnknownSightOptions::opaque_share of void cells: what a view is expected to learn behind the first void cell of
   /// a ray counts, too. 1: the first alone.
   double opaque_share = 0.05;
@@ -141,6 +144,8 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
   [[nodiscard]] double discounted(double utility, double way_m) const;
   [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
                                             const Pose& current) const;
+  void refine(const OccupancyMap& map, const Pose& current, const FrontierSurvey& survey,
+              std::vector<Candidate>& candidates, PlanStatistics& statistics) const;
   [[nodiscard]] std::optional<Choice> choose(const OccupancyMap& map, const Pose& current,
                                              const FrontierSurvey& survey, const std::vector<Pose>& views,
                                              PlanStatistics& statistics) const;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "apps/exhaustive_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vantage/frontier/void_cells.hpp>
+#include <vantage/raytrace/ray_caster.hpp>
+#include <vantage/raytrace/view_rays.hpp>
+
+#include "apps/exhaustive_search.hpp"
+#include "raytrace/shared_work.hpp"
+
+namespace vantage::apps {
+namespace {
+
+// As frontier-void's by default.
+constexpr UnknownSightOptions kLikeFrontierVoid{.opaque_share = 0.05, .opaque_beside_surface = 0.5};
+constexpr double kFewRays = 4.0;         // times the distance between rays, for the first count of all
+constexpr std::size_t kFinalists = 100;  // counted with all rays
+constexpr int kPatience = 2;             // views that fail to see a cell until none hopes to any more
+
+}  // namespace
+
+ExhaustivePlanner::ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_dm3)
+    : arm_(std::move(arm)), setup_(setup), least_view_dm3_(least_view_dm3) {
+  if (setup.threads < 1) {
+    throw std::invalid_argument("PlannerSetup::threads is " + std::to_string(setup.threads) + ", must be >= 1");
+  }
+  setup.sensor.validate();
+}
+
+// Cells that the last view hoped to make known and that are still unknown have failed once more.
+void ExhaustivePlanner::review(const OccupancyMap& map) {
+  if (map.revision() == planned_at_) {
+    return;
+  }
+  for (const VoxelIndex& cell : std::exchange(hoped_, {})) {
+    if (map.at(cell) == Occupancy::Unknown) {
+      ++failures_[cell];
+    }
+  }
+}
+
+void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const UnknownSight& sight, const RayCaster& caster,
+                              const ViewRays& rays) const {
+  detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
+    views[i].void_cells = 0.0;
+    views[i].hoped.clear();
+    for (const SightedCell& seen : sight.look(caster, views[i].pose, rays)) {
+      const auto failed = failures_.find(seen.cell);
+      if (failed == failures_.end() || failed->second < kPatience) {
+        views[i].void_cells += seen.chance;
+        views[i].hoped.push_back(seen.cell);
+      }
+    }
+  });
+  std::stable_sort(views.begin(), views.end(),
+                   [](const Weighed& a, const Weighed& b) { return a.void_cells > b.void_cells; });
+  views.resize(std::min(views.size(), kFinalists));
+}
+
+Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
+  review(map);
+  planned_at_ = map.revision();
+  const std::vector<VoxelIndex> voids = void_cells(map);
+  Plan plan;
+  plan.statistics.void_cells = voids.size();
+  plan.reason = "no void cell is left";
+  if (voids.empty()) {
+    return plan;
+  }
+  UnknownSightOptions options = kLikeFrontierVoid;
+  options.reports_no_return = setup_.sensor.reports_no_return;
+  const UnknownSight sight(map, voids, options);
+  const RayCaster caster(map);
+  std::vector<Weighed> views;
+  for (const Pose& pose : exhaustive_poses(*arm_, map)) {
+    views.push_back({pose});
+  }
+  plan.statistics.views_scored = views.size();
+  weigh(views, sight, caster, ViewRays(setup_.sensor.rays_for(kFewRays * map.resolution_m())));
+  weigh(views, sight, caster, ViewRays(setup_.sensor.rays_for(map.resolution_m())));
+  const double least_cells = std::max(1.0, least_view_dm3_ / std::pow(10.0 * map.resolution_m(), 3));
+  for (Weighed& view : views) {
+    if (std::round(view.void_cells) < std::ceil(least_cells)) {
+      break;
+    }
+    if (auto path = arm_->path(map, current, view.pose)) {
+      plan.outcome = Outcome::Move;
+      plan.goal = {view.pose, std::round(view.void_cells)};
+      plan.path = std::move(*path);
+      plan.reason = "the best of " + std::to_string(plan.statistics.views_scored) + " poses";
+      hoped_ = std::move(view.hoped);
+      return plan;
+    }
+  }
+  plan.reason = "no pose of the arm is expected to see " + std::to_string(std::llround(least_cells)) + " void cells";
+  return plan;
+}
+
+}  // namespace vantage::apps
