@@ -15,6 +15,7 @@
 
 #include "geometry/box_around.hpp"
 #include "geometry/dice.hpp"
+#include "geometry/prefetch.hpp"
 #include "map/instruction_set.hpp"
 #include "map/option_rule.hpp"
 
@@ -64,12 +65,12 @@ class Starts {
     drawn_.clear();
     for (std::size_t left = left_.size(); left > 0 && drawn_.size() < kAhead; --left) {
       drawn_.push_back(dice_.below(left));
-      __builtin_prefetch(&left_[drawn_.back()], 1);
+      detail::prefetch_to_write(&left_[drawn_.back()]);
     }
     for (std::size_t& drawn : drawn_) {
       drawn = std::exchange(left_[drawn], left_.back());
       left_.pop_back();
-      __builtin_prefetch(&numbers_[drawn]);
+      detail::prefetch(&numbers_[drawn]);
     }
   }
 

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map/instruction_set.hpp>
-#include <string_view>
+#include <stdexcept>
+#include <string>
 
 namespace vantage {
 
@@ -21,15 +22,21 @@ std::vector<InstructionSet> instruction_sets() {
   return sets;
 }
 
+InstructionSet best_instruction_set_within(std::string_view limit) {
+  if (!limit.empty() && limit != "baseline" && limit != "avx2" && limit != "avx512") {
+    throw std::invalid_argument(
+        std::string("VANTAGE_INSTRUCTION_SET is ").append(limit).append(", must be baseline, avx2 or avx512"));
+  }
+  const InstructionSet most = limit == "baseline" ? InstructionSet::Baseline
+                              : limit == "avx2"   ? InstructionSet::Avx2
+                                                  : InstructionSet::Avx512;
+  return std::min(most, instruction_sets().back());
+}
+
 InstructionSet best_instruction_set() {
   static const InstructionSet best = [] {
-    const std::vector<InstructionSet> all = instruction_sets();
     const char* const limit = std::getenv("VANTAGE_INSTRUCTION_SET");
-    const std::string_view name = limit == nullptr ? "" : limit;
-    const InstructionSet most = name == "baseline" ? InstructionSet::Baseline
-                                : name == "avx2"   ? InstructionSet::Avx2
-                                                   : InstructionSet::Avx512;
-    return std::min(most, all.back());
+    return best_instruction_set_within(limit == nullptr ? "" : limit);
   }();
   return best;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace vantage {
@@ -12,8 +13,11 @@ enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 
 /// Those this processor has, the fastest last.
 [[nodiscard]] std::vector<InstructionSet> instruction_sets();
-/// The fastest of them; none beyond VANTAGE_INSTRUCTION_SET of the environment, `baseline` or `avx2`, for timing
-/// those.
+/// The fastest of them, none beyond `limit`: `baseline`, `avx2` or `avx512`, or nothing for no limit. Throws
+/// std::invalid_argument for any other name.
+[[nodiscard]] InstructionSet best_instruction_set_within(std::string_view limit);
+/// The fastest of them within VANTAGE_INSTRUCTION_SET of the environment, if that is set, for timing the others.
+/// Throws as `best_instruction_set_within`.
 [[nodiscard]] InstructionSet best_instruction_set();
 
 /// \cond

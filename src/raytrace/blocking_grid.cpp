@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/box_around.hpp"
+#include "geometry/prefetch.hpp"
 
 namespace vantage {
 namespace {
@@ -32,12 +33,8 @@ Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t 
 }
 
 void prefetch_planes(const Brick& brick) {
-#if defined(__GNUC__)
-  __builtin_prefetch(brick.known.data());
-  __builtin_prefetch(brick.occupied.data());
-#else
-  (void)brick;
-#endif
+  detail::prefetch(brick.known.data());
+  detail::prefetch(brick.occupied.data());
 }
 
 // Rows of words along x, as bits, of a page and kFurthest words around it; rows of a plane side by side.

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vantage/raytrace/ray_caster.hpp>
 
+#include "geometry/prefetch.hpp"
 #include "map/option_rule.hpp"
 
 namespace vantage {
@@ -22,15 +23,11 @@ constexpr VoxelBox kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 // Has memory that is needed soon brought near.
 template <class T>
 void prefetch(const T& object) {
-#if defined(__GNUC__)
   constexpr std::size_t kLine = 64;
   const auto* const bytes = reinterpret_cast<const char*>(&object);
   for (std::size_t at = 0; at < sizeof(T); at += kLine) {
-    __builtin_prefetch(bytes + at);
+    detail::prefetch(bytes + at);
   }
-#else
-  (void)object;
-#endif
 }
 
 RayCasterOptions validated(const RayCasterOptions& options) {
@@ -85,7 +82,7 @@ void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays, std::s
     const RayTile& tile = rays.tiles()[n];
     prefetch(rays.tiles()[std::min(n + 1, rays.tiles().size() - 1)]);
     for (std::size_t i = 0; i < RayTile::kRays; i += 4) {  // of which ends share a line
-      __builtin_prefetch(&ends[tile.ray[i]], 1);
+      detail::prefetch_to_write(&ends[tile.ray[i]]);
     }
     placer.place_ends(tile, block);
     hits.stopped = 0;

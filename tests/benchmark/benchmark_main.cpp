@@ -50,14 +50,16 @@ class RatioReporter : public benchmark::ConsoleReporter {
     std::string_view ours;
     std::vector<std::string_view> theirs;
   };
-  static inline const std::vector<Peers> kPeers{{"/vantage", {"/octomap"}},
-                                                {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}},
-                                                {"/incremental", {"/full", "/full_cells"}},
-                                                {"/record", {"/cycle"}},
-                                                {"/harmonic", {"/frontier-gain"}},
-                                                {"/default/vantage",
-                                                 {"/uniform/octomap", "/culled/octomap", "/hierarchical/octomap",
-                                                  "/uniform/vantage", "/hierarchical/vantage"}}};
+  static inline const std::vector<Peers> kPeers{
+      {"/vantage", {"/octomap"}},
+      {"/multigrid", {"/gauss_seidel", "/eigen_iccg", "/hypre_boomeramg"}},
+      {"/incremental", {"/full", "/full_cells"}},
+      {"/record", {"/cycle"}},
+      {"/harmonic", {"/frontier-gain"}},
+      {"/default/vantage",
+       {"/uniform/octomap", "/culled/octomap", "/hierarchical_from_12/octomap", "/hierarchical_from_13/octomap",
+        "/hierarchical_from_14/octomap", "/hierarchical_from_15/octomap", "/uniform/vantage",
+        "/hierarchical_from_13/vantage"}}};
 
   void add(const std::string& name, double time) {
     const auto [entry, is_new] = least_times_.try_emplace(name, time);

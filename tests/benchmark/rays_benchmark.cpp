@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <benchmark/benchmark.h>
-#include <octomap/octomap.h>
-
+#include <array>
 #include <benchmark/benchmark_scenes.hpp>
+#include <benchmark/octree_rays.hpp>
+#include <benchmark/pixel_tree.hpp>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -95,20 +96,6 @@ void rays_vantage(benchmark::State& state, const Stage& stage, const Density& de
 // castRay finds what it finds in single precision: so much of it may be something else.
 constexpr double kRoundedShare = 0.01;
 
-octomap::point3d to_octomap(const Eigen::Vector3d& point) {
-  const Eigen::Vector3f p = point.cast<float>();
-  return {p.x(), p.y(), p.z()};
-}
-
-// What castRay met: it tells unknown cells from the end of its range only on being asked again.
-Occupancy cast_octomap(const octomap::OcTree& tree, const Eigen::Vector3d& from, const Eigen::Vector3d& along,
-                       double range_m, octomap::point3d& end) {
-  if (tree.castRay(to_octomap(from), to_octomap(along), end, false, range_m)) {
-    return Occupancy::Occupied;
-  }
-  return tree.search(end) == nullptr ? Occupancy::Unknown : Occupancy::Free;
-}
-
 void rays_octomap(benchmark::State& state, const Stage& stage, const Density& density) {
   const std::vector<Eigen::Vector3f> directions = density.image(stage.resolution_m()).directions;
   std::vector<Occupancy> found(directions.size());
@@ -160,8 +147,18 @@ ViewEvaluation evaluate_each_view(benchmark::State& state, const Stage& stage, c
   return {unknown, occupied};
 }
 
-// Puts an end to the benchmark of a peer that has counted, in the same views, other cells than vantage, more than a
-// share of them.
+// Puts an end to a benchmark that has counted something else than it should, more than a share of it.
+void require_same(benchmark::State& state, const ViewEvaluation& counted, const ViewEvaluation& expected,
+                  double share) {
+  const auto differ = [share](std::size_t a, std::size_t b) {
+    return std::abs(static_cast<double>(a) - static_cast<double>(b)) > share * static_cast<double>(b);
+  };
+  if (differ(counted.unknown, expected.unknown) || differ(counted.occupied, expected.occupied)) {
+    state.SkipWithError("vantage counts other cells");
+  }
+}
+
+// The same for one that should count, in the same views, the cells that vantage counts.
 void require_counts(benchmark::State& state, const Stage& stage, const ViewRays& rays, const ViewEvaluation& counted,
                     double share) {
   ViewEvaluation expected;
@@ -170,12 +167,7 @@ void require_counts(benchmark::State& state, const Stage& stage, const ViewRays&
     expected.unknown += of_view.unknown;
     expected.occupied += of_view.occupied;
   }
-  const auto differ = [share](std::size_t a, std::size_t b) {
-    return std::abs(static_cast<double>(a) - static_cast<double>(b)) > share * static_cast<double>(b);
-  };
-  if (differ(counted.unknown, expected.unknown) || differ(counted.occupied, expected.occupied)) {
-    state.SkipWithError("vantage counts other cells");
-  }
+  require_same(state, counted, expected, share);
 }
 
 void default_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
@@ -192,12 +184,6 @@ void uniform_vantage(benchmark::State& state, const Stage& stage, const Density&
   const ViewEvaluation counted = evaluate_each_view(
       state, stage, [&](const Pose& pose) { return tracer.evaluate(pose, rays, stage.scene().object); });
   require_counts(state, stage, rays, counted, 0.0);
-}
-
-bool meets(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
-  const Eigen::Array3d a = (box.min - from).array() / along.array();
-  const Eigen::Array3d b = (box.max - from).array() / along.array();
-  return std::max(a.min(b).maxCoeff(), 0.0) <= a.max(b).minCoeff();
 }
 
 // Every ray by castRay; or only those that meet the object box.
@@ -225,44 +211,61 @@ void uniform_octomap(benchmark::State& state, const Stage& stage, const Density&
   require_counts(state, stage, density.rays(stage.resolution_m()), counted, kRoundedShare);
 }
 
-constexpr int kLevels = 4;  // start depth 13 of 16
+constexpr std::array kStartDepths{12, 13, 14, 15};  // of 16
 
-void hierarchical_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
-  const HierarchicalRayTracer tracer(stage.scene().map, density.sensor, {.levels = kLevels});
+// The levels of Algorithm 2 that begin at a depth of an octree of depth 16.
+int levels_from(int start_depth) { return 17 - start_depth; }
+
+void hierarchical_vantage(benchmark::State& state, const Stage& stage, const Density& density, int start_depth) {
+  const HierarchicalRayTracer tracer(stage.scene().map, density.sensor, {.levels = levels_from(start_depth)});
   evaluate_each_view(state, stage, [&](const Pose& pose) { return tracer.evaluate(pose, stage.scene().object); });
 }
 
-// An octree as a map of cells of 2^level finest ones.
-struct OctreeLevel {
-  const octomap::OcTree& tree;
-  int level;
-
-  [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
-    constexpr std::int32_t kOrigin = 32768;
-    const auto key = [this](std::int32_t c) { return static_cast<octomap::key_type>((c << level) + kOrigin); };
-    const octomap::OcTreeNode* node =
-        tree.search(octomap::OcTreeKey(key(cell.x), key(cell.y), key(cell.z)), 16U - static_cast<unsigned>(level));
-    return node == nullptr ? Occupancy::Unknown : tree.isNodeOccupied(node) ? Occupancy::Occupied : Occupancy::Free;
+// Algorithm 2 over the octree's own inner nodes, refining inside the object box only. Counts as over vantage's maps.
+template <class Tree>
+void trace_octree(benchmark::State& state, const Stage& stage, double range_m, const Tree& rays, int levels) {
+  std::vector<RayCaster> casters;
+  for (int level = levels; level-- > 0;) {
+    casters.emplace_back(stage.scene().map, RayCasterOptions{.level = level});
   }
-};
-
-// Algorithm 2 over the octree's own inner nodes, refining inside the object box only.
-void hierarchical_octomap(benchmark::State& state, const Stage& stage, const Density& density) {
-  const RayTree rays(density.sensor, stage.resolution_m(), kLevels);
   const Box box = stage.scene().map.frame().box_of(stage.scene().object);
-  stage.tree();
-  evaluate_each_view(state, stage, [&](const Pose& pose) {
+  const auto trace = [&](const Pose& pose, const auto& cast) {
     return trace_hierarchically(rays, [&](int level, const Eigen::Vector3f& direction) {
-      const OctreeLevel map{stage.tree(), kLevels - 1 - level};
-      const VoxelFrame frame{stage.resolution_m() * (1 << map.level)};
-      const Eigen::Vector3d& from = pose.translation();
-      const RayEnd end = first_not_free(
-          map, frame, from, from + density.sensor.max_range_m * (pose.linear() * direction.cast<double>()));
-      const Box cell = frame.box_of(end.cell);
-      const bool inside = (cell.min.array() < box.max.array()).all() && (cell.max.array() > box.min.array()).all();
-      return inside ? end.occupancy : Occupancy::Free;
+      const RayCaster& caster = casters[static_cast<std::size_t>(level)];
+      const Eigen::Vector3d along = pose.linear() * direction.cast<double>();
+      return counted_inside(box, caster.frame(), cast(caster, pose.translation(), along));
     });
+  };
+  std::size_t casts = 0;
+  stage.tree();
+  const ViewEvaluation counted = evaluate_each_view(state, stage, [&](const Pose& pose) {
+    const HierarchicalCounts counts = trace(pose, [&](const RayCaster& caster, const auto& from, const auto& along) {
+      return cast_octomap_at(stage.tree(), caster.options().level, from, along, range_m);
+    });
+    casts += counts.casts;
+    return counts;
   });
+  ViewEvaluation expected;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(state.iterations()); ++i) {
+    const HierarchicalCounts counts =
+        trace(stage.view(i), [&](const RayCaster& caster, const auto& from, const auto& along) {
+          return caster.cast(from, from + range_m * along);
+        });
+    expected.unknown += counts.unknown;
+    expected.occupied += counts.occupied;
+  }
+  state.counters["casts"] = static_cast<double>(casts) / static_cast<double>(state.iterations());
+  require_same(state, counted, expected, kRoundedShare);
+}
+
+void hierarchical_octomap(benchmark::State& state, const Stage& stage, const Density& density, int start_depth) {
+  const int levels = levels_from(start_depth);
+  if (density.equal_angles) {
+    trace_octree(state, stage, density.sensor.max_range_m, RayTree(density.sensor, stage.resolution_m(), levels),
+                 levels);
+  } else {
+    trace_octree(state, stage, density.sensor.max_range_m, PixelTree(density.sensor, levels), levels);
+  }
 }
 
 // All views, by one thread or more.
@@ -351,9 +354,15 @@ void add_visibility(const Stage& stage, const Density& density) {
   add("visibility/uniform/vantage/" + name, of(uniform_vantage), density)->Iterations(kSample);
   add("visibility/uniform/octomap/" + name, of(uniform_octomap), density, false)->Iterations(kSample);
   add("visibility/culled/octomap/" + name, of(uniform_octomap), density, true)->Iterations(4 * kSample);
+  for (const int depth : kStartDepths) {
+    add("visibility/hierarchical_from_" + std::to_string(depth) + "/octomap/" + name, of(hierarchical_octomap),
+        density, depth)
+        ->Iterations(4 * kSample);
+  }
   if (density.equal_angles) {
-    add("visibility/hierarchical/vantage/" + name, of(hierarchical_vantage), density)->Iterations(4 * kSample);
-    add("visibility/hierarchical/octomap/" + name, of(hierarchical_octomap), density)->Iterations(4 * kSample);
+    constexpr int kMiddle = 13;
+    add("visibility/hierarchical_from_13/vantage/" + name, of(hierarchical_vantage), density, kMiddle)
+        ->Iterations(4 * kSample);
   }
   for (const std::size_t threads : {1U, 2U}) {
     add("visibility/all_views/vantage/" + name + "/" + std::to_string(threads) +

@@ -26,9 +26,9 @@ struct HierarchicalCounts {
 ///
 /// `cast(level, direction)` casts a ray of a level of the tree, by its direction in the sensor frame, in the map of
 /// that level. It returns what the ray ends in as far as that is to count: Free otherwise, which is neither counted
-/// nor refined.
-template <class Cast>
-[[nodiscard]] HierarchicalCounts trace_hierarchically(const RayTree& tree, const Cast& cast);
+/// nor refined. A tree is a RayTree, or anything with its `rays`, `children` and `leaves`.
+template <class Tree, class Cast>
+[[nodiscard]] HierarchicalCounts trace_hierarchically(const Tree& tree, const Cast& cast);
 
 /// How a HierarchicalRayTracer works.
 struct HierarchicalRayTracerOptions {
@@ -67,8 +67,8 @@ class HierarchicalRayTracer {
 
 namespace detail {
 // Lines 1 to 10: the children of a ray, or of the root, in the map of their level.
-template <class Cast, class Rays>
-void trace_rays(const RayTree& tree, int level, const Rays& rays, const Cast& cast, HierarchicalCounts& counts) {
+template <class Tree, class Cast, class Rays>
+void trace_rays(const Tree& tree, int level, const Rays& rays, const Cast& cast, HierarchicalCounts& counts) {
   for (const std::uint32_t ray : rays) {
     ++counts.casts;
     switch (cast(level, tree.rays(level).directions[ray])) {
@@ -89,8 +89,8 @@ void trace_rays(const RayTree& tree, int level, const Rays& rays, const Cast& ca
 }
 }  // namespace detail
 
-template <class Cast>
-HierarchicalCounts trace_hierarchically(const RayTree& tree, const Cast& cast) {
+template <class Tree, class Cast>
+HierarchicalCounts trace_hierarchically(const Tree& tree, const Cast& cast) {
   std::vector<std::uint32_t> first(tree.rays(0).directions.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     first[i] = static_cast<std::uint32_t>(i);

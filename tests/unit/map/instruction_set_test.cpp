@@ -2,6 +2,7 @@
 // Every instruction set that this processor has gives the bits that plain C++ gives.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -9,6 +10,8 @@
 #include <map/ray_block.hpp>
 #include <map/ray_lanes.hpp>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vector>
 
@@ -19,6 +22,22 @@ TEST(InstructionSet, PlainCodeComesFirst) {
   ASSERT_FALSE(instruction_sets().empty());
   EXPECT_EQ(instruction_sets().front(), InstructionSet::Baseline);
   EXPECT_EQ(instruction_sets().back(), best_instruction_set());
+}
+
+TEST(InstructionSet, MayBeLimitedToOneThatHasAName) {
+  EXPECT_EQ(best_instruction_set_within(""), instruction_sets().back());
+  EXPECT_EQ(best_instruction_set_within("avx512"), instruction_sets().back());
+  EXPECT_EQ(best_instruction_set_within("avx2"), std::min(InstructionSet::Avx2, instruction_sets().back()));
+  EXPECT_EQ(best_instruction_set_within("baseline"), InstructionSet::Baseline);
+  for (const char* const name : {"sse", "AVX2", "avx", "avx512 "}) {
+    try {
+      (void)best_instruction_set_within(name);
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(),
+                "VANTAGE_INSTRUCTION_SET is " + std::string(name) + ", must be baseline, avx2 or avx512");
+    }
+  }
 }
 
 // Eight rays on the lattice of a window of 512 cells an edge, whose positions are plain coordinates side by side.
