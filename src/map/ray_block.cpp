@@ -68,18 +68,19 @@ void RayPlacer::place_ends(const RayBlock::Points& directions, RayBlock& block, 
   compiled_for(set, [&] { ends<Given::Directions>(*this, directions, block); });
 }
 
-void RayPlacer::place_ends(const RayBlock::Points& directions, const RayBlock::PerRay<double>& stretch,
-                           RayBlock& block, InstructionSet set) const {
-  compiled_for(set, [this, &block, in = directions.data(), by = stretch.data()] {
+void RayPlacer::place_ends(const std::array<RayBlock::PerRay<float>, 3>& directions,
+                           const RayBlock::PerRay<double>& stretch, RayBlock& block, InstructionSet set) const {
+  compiled_for(set, [this, &block, in_x = directions[0].data(), in_y = directions[1].data(),
+                     in_z = directions[2].data(), by = stretch.data()] {
     const SensorFrame frame = sensor;
     double* const x_end = block.end[0].data();
     double* const y_end = block.end[1].data();
     double* const z_end = block.end[2].data();
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      const double x = in[3 * i] * by[i];
-      const double y = in[3 * i + 1] * by[i];
-      const double z = in[3 * i + 2] * by[i];
+      const double x = in_x[i] * by[i];
+      const double y = in_y[i] * by[i];
+      const double z = in_z[i] * by[i];
       x_end[i] = frame.world(0, x, y, z);
       y_end[i] = frame.world(1, x, y, z);
       z_end[i] = frame.world(2, x, y, z);

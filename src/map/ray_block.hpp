@@ -55,9 +55,10 @@ struct RayPlacer {
   /// The same for directions that lie elsewhere.
   void place_ends(const RayBlock::Points& directions, RayBlock& block,
                   InstructionSet set = best_instruction_set()) const;
-  /// The ends alone of directions that are all usable; each is made as long as rays reach by its `stretch`.
-  void place_ends(const RayBlock::Points& directions, const RayBlock::PerRay<double>& stretch, RayBlock& block,
-                  InstructionSet set = best_instruction_set()) const;
+  /// The ends alone of directions that are all usable, x of all of them first, then y, then z; each is made as long
+  /// as rays reach by its `stretch`.
+  void place_ends(const std::array<RayBlock::PerRay<float>, 3>& directions, const RayBlock::PerRay<double>& stretch,
+                  RayBlock& block, InstructionSet set = best_instruction_set()) const;
   /// From `end` to `cell`.
   void place_cells(RayBlock& block, InstructionSet set = best_instruction_set()) const;
 };

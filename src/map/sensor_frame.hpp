@@ -17,9 +17,13 @@ struct SensorFrame {
     }
   }
 
+  /// A coordinate in the world of a direction in the sensor frame.
+  [[nodiscard]] double rotated(std::size_t axis, double x, double y, double z) const {
+    return rotation[axis][0] * x + (rotation[axis][1] * y + rotation[axis][2] * z);
+  }
   /// A coordinate in the world of a point in the sensor frame.
   [[nodiscard]] double world(std::size_t axis, double x, double y, double z) const {
-    return rotation[axis][0] * x + (rotation[axis][1] * y + rotation[axis][2] * z) + translation[axis];
+    return rotated(axis, x, y, z) + translation[axis];
   }
   /// The square of the distance of a point from the sensor. Of a finite point in float it is finite, and zero only
   /// there.

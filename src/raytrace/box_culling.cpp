@@ -4,23 +4,6 @@
 #include <raytrace/lane_queries.hpp>
 
 namespace vantage {
-namespace {
-
-// The part of a ray, of which 1 is all, that lies between two planes across an axis.
-struct Share {
-  Share(double lo, double hi, double extent, double parallel) {
-    const double per_unit = 1.0 / (std::abs(extent) < parallel ? parallel : extent);
-    const double to_lo = lo * per_unit;
-    const double to_hi = hi * per_unit;
-    enters = to_lo < to_hi ? to_lo : to_hi;
-    leaves = to_lo < to_hi ? to_hi : to_lo;
-  }
-  double enters;
-  double leaves;
-};
-
-}  // namespace
-
 BoxCulling::BoxCulling(const Pose& world_from_sensor, const Box& box, InstructionSet set)
     : set_(set), origin_(world_from_sensor.translation()), box_(box) {
   // Far more than rounding can move a ray, far less than a cell.
@@ -68,28 +51,28 @@ Meeting BoxCulling::meeting(const RayCone& cone) const {
   return meeting;
 }
 
-std::uint64_t BoxCulling::meeting(const RayBlock& block) const {
+// A ray passes through the box where it is on the inner side of all planes through the origin and an edge of the
+// outline.
+std::uint64_t BoxCulling::meeting(const RayTile& tile) const {
+  std::uint64_t meeting = tile.rays;
   RayBlock::PerRay<std::int32_t> flags;
-  const double* const end_x = block.end[0].data();
-  const double* const end_y = block.end[1].data();
-  const double* const end_z = block.end[2].data();
-  compiled_for(set_, [=, &flags, lo = Eigen::Vector3d(box_.min - origin_), hi = Eigen::Vector3d(box_.max - origin_),
-                      origin = origin_, parallel = 1e-12] {
-    std::int32_t* const meets = flags.data();
-    VANTAGE_INDEPENDENT
-    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      const Share x(lo.x(), hi.x(), end_x[i] - origin.x(), parallel);
-      const Share y(lo.y(), hi.y(), end_y[i] - origin.y(), parallel);
-      const Share z(lo.z(), hi.z(), end_z[i] - origin.z(), parallel);
-      const double enters_xy = x.enters > y.enters ? x.enters : y.enters;
-      const double leaves_xy = x.leaves < y.leaves ? x.leaves : y.leaves;
-      const double enters = enters_xy > z.enters ? enters_xy : z.enters;
-      const double leaves = leaves_xy < z.leaves ? leaves_xy : z.leaves;
-      meets[i] = static_cast<std::int32_t>(enters <= leaves) & static_cast<std::int32_t>(enters <= 1.0) &
-                 static_cast<std::int32_t>(leaves >= 0.0);
-    }
-  });
-  return equal_to(flags, 1, set_);
+  const float* const x = tile.directions[0].data();
+  const float* const y = tile.directions[1].data();
+  const float* const z = tile.directions[2].data();
+  for (std::size_t edge = 0; edge < edges_; ++edge) {
+    compiled_for(set_, [=, &flags, outwards = Eigen::Vector3f(outwards_[edge].cast<float>())] {
+      constexpr float kFlat = 1e-6F;  // more than the rounding of single precision
+      std::int32_t* const inside = flags.data();
+      VANTAGE_INDEPENDENT
+      for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+        const float out = outwards.x() * x[i] + (outwards.y() * y[i] + outwards.z() * z[i]);
+        const float slack = kFlat * (std::abs(x[i]) + (std::abs(y[i]) + std::abs(z[i])));
+        inside[i] = out <= slack ? 1 : 0;
+      }
+    });
+    meeting &= equal_to(flags, 1, set_);
+  }
+  return meeting;
 }
 
 // The edges at which a side of the box that looks at the origin meets one that does not.

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map/instruction_set.hpp>
-#include <map/ray_block.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/raytrace/view_rays.hpp>
@@ -23,8 +22,8 @@ class BoxCulling {
 
   /// Of the rays of a cone.
   [[nodiscard]] Meeting meeting(const RayCone& cone) const;
-  /// The rays of a block, of which the ends are placed, that pass through the box.
-  [[nodiscard]] std::uint64_t meeting(const RayBlock& block) const;
+  /// The rays of a tile that may pass through the box.
+  [[nodiscard]] std::uint64_t meeting(const RayTile& tile) const;
   /// No point of the box is further from the sensor than this, metres.
   [[nodiscard]] double furthest_m() const { return furthest_m_; }
 

@@ -8,6 +8,7 @@
 #include <raytrace/single_walk.hpp>
 #include <raytrace/tile_walk.hpp>
 #include <raytrace/view_placer.hpp>
+#include <raytrace/view_walk.hpp>
 #include <stdexcept>
 #include <vantage/raytrace/ray_caster.hpp>
 
@@ -34,6 +35,14 @@ RayCasterOptions validated(const RayCasterOptions& options) {
   detail::require_option(options.level >= 0 && options.level <= 16, "RayCasterOptions::level", options.level,
                          "in [0, 16]");
   return options;
+}
+
+// How far nothing stops rays of a group, metres; no less than the furthest of the box if none of them may meet a cell
+// of it that does.
+double free_way(const ViewRays& rays, const TileGroup& group, Meeting meeting, const BoxCulling& culling,
+                FreeCone& free_cone) {
+  return meeting == Meeting::None ? culling.furthest_m()
+                                  : free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
 }
 
 }  // namespace
@@ -122,30 +131,33 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
   const ViewPlacer placer(world_from_sensor, rays, frame_);
   const BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
   FreeCone free_cone(*grid_, frame_, world_from_sensor);
-  TileWalk walk(*grid_, frame_, world_from_sensor.translation(), set);
+  ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
+  TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
   CellStamps stamps(seen, set);
   RayBlock block;
+  constexpr double kLooseness = 1e-5;  // of rotations
+  const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
   for (const TileGroup& group : rays.groups()) {
     const Meeting of_group = culling.meeting(group.cone);
-    if (of_group == Meeting::None) {
-      continue;
-    }
-    const double free_m = free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
+    const double free_m = free_way(rays, group, of_group, culling, free_cone);
     if (free_m >= culling.furthest_m()) {
       continue;
     }
-    const double free_share = std::min(free_m / rays.max_range_m(), 1.0);
     for (std::size_t i = group.first; i < group.last; ++i) {
-      const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(rays.cones()[i]);
+      const RayCone& cone = rays.cones()[i];
+      const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(cone);
       if (meeting == Meeting::None) {
         continue;
       }
       const RayTile& tile = rays.tiles()[i];
-      prefetch(rays.tiles()[std::min(i + 1, group.last - 1)]);
-      placer.place_ends(tile, block);
-      const std::uint64_t of_box = meeting == Meeting::All ? tile.rays : culling.meeting(block) & tile.rays;
-      if (of_box != 0) {
-        walk.walk(block, of_box, box, free_share, stamps);
+      prefetch(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
+      std::uint64_t left = meeting == Meeting::All ? tile.rays : culling.meeting(tile);
+      if (end_behind) {
+        left = together.walk(tile, cone, left, free_m, stamps);
+      }
+      if (left != 0) {
+        placer.place_ends(tile, block);
+        by_tile.walk(block, left, box, std::min(free_m / rays.max_range_m(), 1.0), stamps);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <raytrace/clamped.hpp>
 #include <raytrace/lane_queries.hpp>
 #include <raytrace/single_walk.hpp>
 #include <raytrace/sliced_word.hpp>
@@ -32,17 +33,6 @@ inline std::uint64_t reversed(std::uint64_t slices) {
   slices = slices << 32U | slices >> 32U;
   return (slices & 0x0000FFFF0000FFFFU) << 16U | (slices >> 16U & 0x0000FFFF0000FFFFU);
 }
-
-struct Limits {
-  double least;
-  double most;
-
-  // The nearest value between them; of what is no number, the least.
-  [[nodiscard]] double of(double value) const {
-    const double no_less = value > least ? value : least;
-    return no_less < most ? no_less : most;
-  }
-};
 
 }  // namespace
 
@@ -268,15 +258,15 @@ void TileWalk::place_lanes(double enters, double through) {
     std::int32_t* const at = (lateral == 0 ? lanes_.u : lanes_.v).data();
     std::int32_t* const step = (lateral == 0 ? lanes_.step_u : lanes_.step_v).data();
     const double from = within_first_[axis] + (first_cell_[axis] - (lateral == 0 ? place_.first_u : place_.first_v));
-    // Rays that are not active may be anywhere. (g++ 12 makes a vector of limits only if it does not know them.)
-    const Limits places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
-    const Limits steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
+    // Rays that are not active may be anywhere.
+    const Clamped places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
+    const Clamped steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
     compiled_for(set_, [=, first = from * SliceLanes::kCell, by = enters * SliceLanes::kCell,
                         through = through * SliceLanes::kCell] {
       VANTAGE_INDEPENDENT
       for (std::size_t i = 0; i < kRays; ++i) {
-        at[i] = static_cast<std::int32_t>(places.of(first + slope[i] * by));
-        step[i] = static_cast<std::int32_t>(steps.of(slope[i] * through));
+        at[i] = static_cast<std::int32_t>(places(first + slope[i] * by));
+        step[i] = static_cast<std::int32_t>(steps(slope[i] * through));
       }
     });
   }

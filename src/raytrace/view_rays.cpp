@@ -22,8 +22,7 @@ RayCone cone_around(std::span<const RayTile> tiles) {
   const auto for_each_direction = [&](auto&& visit) {
     for (const RayTile& tile : tiles) {
       for (std::size_t place = 0; place < RayTile::kRays; ++place) {
-        const float* const of_ray = &tile.directions[3 * place];
-        visit(Eigen::Vector3d(of_ray[0], of_ray[1], of_ray[2]).normalized());
+        visit(tile.direction(place).cast<double>().normalized());
       }
     }
   };
@@ -88,7 +87,9 @@ void ViewRays::add_tile(const std::vector<Eigen::Vector3f>& directions, std::siz
     const Eigen::Vector3f& direction = directions[ray];
     tile.ray[place] = static_cast<std::uint32_t>(ray);
     tile.rays |= std::uint64_t{holds} << place;
-    std::copy_n(direction.data(), 3, &tile.directions[3 * place]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      tile.directions[axis][place] = direction[static_cast<Eigen::Index>(axis)];
+    }
     tile.stretch[place] = max_range_m_ / std::sqrt(SensorFrame::squared(direction.x(), direction.y(), direction.z()));
   }
   cones_.push_back(cone_around({&tile, 1}));

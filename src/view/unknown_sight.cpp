@@ -128,11 +128,7 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
       if (end.occupancy != Occupancy::Unknown || contents_.value_or(end.cell, Content::Open) == Content::Open) {
         continue;
       }
-      const Eigen::Vector3d direction =
-          (world_from_sensor.linear() *
-           Eigen::Vector3f(tile.directions[3 * i], tile.directions[3 * i + 1], tile.directions[3 * i + 2])
-               .cast<double>())
-              .normalized();
+      const Eigen::Vector3d direction = (world_from_sensor.linear() * tile.direction(i).cast<double>()).normalized();
       follow({sensor, direction, end.cell, rays.max_range_m()}, chances);
     }
   }

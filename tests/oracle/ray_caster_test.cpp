@@ -2,6 +2,7 @@
 // The first cell that is not free along a ray: every fast path against the walk that looks at every cell.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map/ray_block.hpp>
 #include <random>
 #include <raytrace/blocking_grid.hpp>
@@ -103,6 +104,12 @@ struct Compared {
   std::size_t differing = 0;
 };
 
+void place_points(const RayTile& tile, RayBlock& block) {
+  for (std::size_t i = 0; i < RayTile::kRays; ++i) {
+    std::copy_n(tile.direction(i).data(), 3, &block.point[3 * i]);
+  }
+}
+
 // All rays of one view by `set`, against the slow walk from the same origin to the same ends; and the cells of a box
 // that they meet.
 void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose& pose, const ViewRays& rays,
@@ -116,7 +123,7 @@ void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose&
   CellStamps stamps(seen, set);
   for (const RayTile& tile : rays.tiles()) {
     RayBlock block;
-    block.point = tile.directions;
+    place_points(tile, block);
     placer.place_ends(false, block, set);
     placer.place_cells(block, set);
     TileHits hits(set);
@@ -148,7 +155,7 @@ std::vector<RayEnd> slow_view(const OccupancyMap& map, const Pose& pose, const V
   std::vector<RayEnd> ends(rays.size());
   for (const RayTile& tile : rays.tiles()) {
     RayBlock block;
-    block.point = tile.directions;
+    place_points(tile, block);
     placer.place_ends(false, block, InstructionSet::Baseline);
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       ends[tile.ray[i]] =

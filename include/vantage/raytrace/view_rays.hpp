@@ -14,12 +14,17 @@ namespace vantage {
 struct RayTile {
   static constexpr std::size_t kRays = 64;  ///< most rays
 
-  /// Directions in the sensor frame, x y z of one ray after the other; neighbours are close in the list too (the bits
-  /// of column and row alternate). A place without a ray repeats the first.
-  std::array<float, 3 * kRays> directions{};
+  /// Directions in the sensor frame: x of all rays, then y, then z. Neighbours are close in the list too (the bits of
+  /// column and row alternate). A place without a ray repeats the first.
+  std::array<std::array<float, kRays>, 3> directions{};
   std::array<double, kRays> stretch{};     ///< what makes each direction as long as rays reach
   std::array<std::uint32_t, kRays> ray{};  ///< number of each ray in the image, row by row
   std::uint64_t rays = 0;                  ///< a bit for each place that holds a ray
+
+  /// Direction of the ray at a place.
+  [[nodiscard]] Eigen::Vector3f direction(std::size_t place) const {
+    return {directions[0][place], directions[1][place], directions[2][place]};
+  }
 };
 
 /// A cone around directions in the sensor frame.

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <raytrace/clamped.hpp>
+#include <raytrace/lane_queries.hpp>
+#include <raytrace/view_walk.hpp>
+#include <tuple>
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kLanes = RayBlock::kRays;
+
+// The rays of a cone that are as far from the sensor are no further from its axis than that distance times this: the
+// chord of its half angle.
+double chord_of(const RayCone& cone) {
+  constexpr double kLooseness = 1e-5;  // of rotations
+  return std::sqrt(2.0 * (1.0 - cone.cos_half_angle)) + kLooseness;
+}
+
+// The lateral spread of all that a box shows to the origin of a beam; as wide as a class of rays is, if it is not all
+// in front.
+void spread_over(SliceBeam& beam, const VoxelBox& box) {
+  constexpr double kSlack = 1e-4;  // more than rounding and what culling lets pass
+  const VoxelIndex origin = beam.axes.at(beam.first_along, beam.first[0], beam.first[1]);
+  const VoxelIndex lo = box.lo - origin;
+  const VoxelIndex hi = box.hi - origin;
+  const auto along = [](const VoxelIndex& cell, std::size_t axis) {
+    return static_cast<double>(axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z);
+  };
+  const double upper = along(hi, beam.axes.major) - beam.within_major();
+  const double lower = along(lo, beam.axes.major) - beam.within_major();
+  const double nearest = beam.axes.up ? lower : -upper;
+  const double furthest = beam.axes.up ? upper : -lower;
+  if (nearest < 1.0) {
+    return;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t axis = i == 0 ? beam.axes.u : beam.axes.v;
+    const double least = along(lo, axis) - beam.within[i];
+    const double most = along(hi, axis) - beam.within[i];
+    beam.least[i] = std::max(least / (least < 0.0 ? nearest : furthest) - kSlack, -1.0);
+    beam.most[i] = std::min(most / (most > 0.0 ? nearest : furthest) + kSlack, 1.0);
+  }
+}
+
+}  // namespace
+
+ViewWalk::ViewWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor,
+                   const VoxelBox& box, InstructionSet set)
+    : grid_(grid),
+      frame_(frame),
+      sensor_(world_from_sensor),
+      origin_(world_from_sensor.translation()),
+      box_(box),
+      distance_(frame.box_of(box).distance_to(origin_) / frame.size_m),
+      set_(set) {}
+
+// Class by class; nearly all tiles are of one.
+std::uint64_t ViewWalk::walk(const RayTile& tile, const RayCone& cone, std::uint64_t rays, double free_m,
+                             HitSink& hits) {
+  constexpr double kWidest = 8.0;  // cells: wider tiles have hardly a word in common
+  if (2.0 * chord_of(cone) * distance_ > kWidest) {
+    return rays;
+  }
+  std::uint64_t others = 0;
+  Eigen::Vector3d direction = cone.axis;
+  for (bool is_of_ray = false; rays != 0; is_of_ray = true) {
+    Class& of = class_of(direction);
+    const std::uint64_t of_class = of.is_narrow ? measure(tile, of.beam.axes) & rays : 0;
+    constexpr int kFew = 4;
+    if (std::popcount(of_class) < kFew) {
+      others |= of_class;
+    } else {
+      beam_ = of.beam;
+      others |= follow(of, of_class, first_slice(of, cone, free_m), hits);
+    }
+    rays &= ~of_class;
+    if (rays == 0 || (of_class == 0 && is_of_ray)) {
+      break;
+    }
+    direction = tile.direction(static_cast<std::size_t>(std::countr_zero(rays))).cast<double>();
+  }
+  return others | rays;
+}
+
+ViewWalk::Class& ViewWalk::class_of(const Eigen::Vector3d& direction) {
+  const auto along = [&](std::size_t axis) {
+    return sensor_.rotated(axis, direction.x(), direction.y(), direction.z());
+  };
+  const auto faster = [&](std::size_t a, std::size_t b) { return std::abs(along(b)) > std::abs(along(a)) ? b : a; };
+  const std::size_t major = faster(faster(0, 1), 2);
+  const bool up = along(major) > 0.0;
+  std::optional<Class>& of = classes_[2 * major + (up ? 1 : 0)];
+  if (!of) {
+    of.emplace(made(major, up));
+  }
+  return *of;
+}
+
+ViewWalk::Class ViewWalk::made(std::size_t major, bool up) const {
+  Class of{SliceBeam(frame_, origin_, major, up), ViewSlices(grid_, set_)};
+  of.last = of.beam.last_slice_of(box_);
+  spread_over(of.beam, box_);
+  of.is_narrow = of.slices.begin(of.beam, of.last);
+  return of;
+}
+
+std::int64_t ViewWalk::first_slice(const Class& of, const RayCone& cone, double free_m) const {
+  constexpr double kSlowest = 0.577;  // less than 1 / sqrt(3): a slower ray is of another class
+  const double forwards = std::abs(sensor_.rotated(of.beam.axes.major, cone.axis.x(), cone.axis.y(), cone.axis.z()));
+  const double free_cells = std::max(forwards - chord_of(cone), kSlowest) * free_m / frame_.size_m;
+  return static_cast<std::int64_t>(std::max(free_cells + of.beam.from_entry - SliceBeam::kRounding, 0.0));
+}
+
+// Slopes and steps of all rays of a tile. Returns those that are of the class.
+std::uint64_t ViewWalk::measure(const RayTile& tile, const SlicePlace& axes) {
+  RayBlock::PerRay<std::int32_t> flags;
+  const float* const x = tile.directions[0].data();
+  const float* const y = tile.directions[1].data();
+  const float* const z = tile.directions[2].data();
+  double* const slope_u = slope_[0].data();
+  double* const slope_v = slope_[1].data();
+  compiled_for(set_, [=, &flags, sensor = sensor_, major = axes.major, lateral_u = axes.u, lateral_v = axes.v,
+                      sign = axes.up ? 1.0 : -1.0] {
+    std::int32_t* const flag = flags.data();
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double forwards = sign * sensor.rotated(major, x[i], y[i], z[i]);
+      const double per_cell = 1.0 / forwards;
+      const double u = sensor.rotated(lateral_u, x[i], y[i], z[i]) * per_cell;
+      const double v = sensor.rotated(lateral_v, x[i], y[i], z[i]) * per_cell;
+      slope_u[i] = u;
+      slope_v[i] = v;
+      flag[i] = static_cast<std::int32_t>(forwards > 0.0) & static_cast<std::int32_t>(std::abs(u) <= 1.0) &
+                static_cast<std::int32_t>(std::abs(v) <= 1.0);
+    }
+  });
+  place_steps(1.0);
+  return equal_to(flags, 1, set_);
+}
+
+// How far all rays go on their way through a slice, of `through` cells.
+void ViewWalk::place_steps(double through) {
+  const Clamped steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
+  const double* const slope_u = slope_[0].data();
+  const double* const slope_v = slope_[1].data();
+  std::int32_t* const u = lanes_.step_u.data();
+  std::int32_t* const v = lanes_.step_v.data();
+  compiled_for(set_, [=, by = through * SliceLanes::kCell] {
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      u[i] = static_cast<std::int32_t>(steps(slope_u[i] * by));
+      v[i] = static_cast<std::int32_t>(steps(slope_v[i] * by));
+    }
+  });
+}
+
+// Puts the beam around these rays.
+void ViewWalk::tighten(std::uint64_t active) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::tie(beam_.least[i], beam_.most[i]) = range_of(slope_[i], active, set_);
+  }
+}
+
+// Follows rays as one beam from this slice on; returns those that are left to others.
+std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, std::int64_t slice, HitSink& hits) {
+  std::uint64_t others = 0;
+  tighten(active);
+  place_ = beam_.axes;
+  while (active != 0 && slice <= of.last) {
+    if (const std::int32_t free = of.slices.free_layers(slice); free > 0) {
+      slice += beam_.left_in_layer(slice) + std::int64_t{4} * (free - 1);
+      continue;
+    }
+    const std::int64_t next = slice == 0 ? 1 : slice + beam_.left_in_layer(slice);
+    const LateralCells cells = beam_.cells_in(slice, next - 1);
+    if (!of.slices.hold(slice, cells)) {
+      return others | active;
+    }
+    if (!of.slices.any_stops(slice, cells)) {
+      slice = next;
+      continue;
+    }
+    if (cells.hi[0] - (cells.lo[0] & ~3) >= SliceWindows::kWidth ||
+        cells.hi[1] - (cells.lo[1] & ~3) >= SliceWindows::kHeight) {
+      return others | follow_quarters(of, active, slice, hits);
+    }
+    place_.first_u = cells.lo[0] & ~3;
+    place_.first_v = cells.lo[1] & ~3;
+    const ViewSlices::Slices slices = of.slices.cut(slice, next, cells, place_, windows_);
+    slice = next;
+    if (windows_.count == 0) {
+      continue;
+    }
+    place_.along = beam_.along(slices.first);
+    place_lanes(beam_.entered_at(slices.first));
+    if (slices.first == 0) {  // of which they pass a part
+      place_steps(beam_.entered_at(1));
+    }
+    SliceHits met;
+    met.where.fill(-1);
+    walk_slices(lanes_, windows_, active, met, set_);
+    if (slices.first == 0) {
+      place_steps(1.0);
+    }
+    if (met.stopped != 0) {
+      hits.take(met, place_);
+    }
+    others |= met.doubtful;
+    if (const std::uint64_t gone = met.stopped | met.doubtful; gone != 0) {
+      active &= ~gone;
+      tighten(active);
+    }
+  }
+  return others;
+}
+
+std::uint64_t ViewWalk::follow_quarters(Class& of, std::uint64_t active, std::int64_t slice, HitSink& hits) {
+  constexpr int kFew = 16;
+  if (std::popcount(active) <= kFew) {
+    return active;
+  }
+  std::uint64_t others = 0;
+  for (unsigned quarter = 0; quarter < 4; ++quarter) {
+    if (const std::uint64_t some = active & std::uint64_t{0xFFFF} << 16U * quarter; some != 0) {
+      others |= follow(of, some, slice, hits);
+    }
+  }
+  return others;
+}
+
+// Puts all rays where they are `enters` cells from the origin.
+void ViewWalk::place_lanes(double enters) {
+  const Clamped places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
+  const double from_u = (beam_.within[0] + (beam_.first[0] - place_.first_u)) * SliceLanes::kCell;
+  const double from_v = (beam_.within[1] + (beam_.first[1] - place_.first_v)) * SliceLanes::kCell;
+  const double* const slope_u = slope_[0].data();
+  const double* const slope_v = slope_[1].data();
+  std::int32_t* const u = lanes_.u.data();
+  std::int32_t* const v = lanes_.v.data();
+  compiled_for(set_, [=, by = enters * SliceLanes::kCell] {
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      u[i] = static_cast<std::int32_t>(places(from_u + slope_u[i] * by));
+      v[i] = static_cast<std::int32_t>(places(from_v + slope_v[i] * by));
+    }
+  });
+}
+
+}  // namespace vantage
