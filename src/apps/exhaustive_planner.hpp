@@ -32,7 +32,7 @@ class ExhaustivePlanner final : public ExplorationPlanner {
   struct Weighed {
     Pose pose;
     double void_cells = 0.0;
-    std::vector<VoxelIndex> hoped;
+    std::vector<VoxelIndex> hoped = {};
   };
   void review(const OccupancyMap& map);
   void weigh(std::vector<Weighed>& views, const UnknownSight& sight, const RayCaster& caster,
