@@ -11,16 +11,16 @@
 namespace vantage {
 namespace {
 
-constexpr VoxelBox kBox{{-3, 0, 2}, {3, 5, 4}};
+constexpr VoxelBox kBoundBox{{-3, 0, 2}, {3, 5, 4}};
 
 CellSet whole_box() {
-  CellSet all(kBox);
-  for_each_cell(kBox, [&](const VoxelIndex& cell) { all.insert(cell); });
+  CellSet all(kBoundBox);
+  for_each_cell(kBoundBox, [&](const VoxelIndex& cell) { all.insert(cell); });
   return all;
 }
 
 CellSet holding(std::initializer_list<int> columns) {
-  CellSet set(kBox);
+  CellSet set(kBoundBox);
   for (const int x : columns) {
     set.insert({x - 3, 1, 2});
   }
@@ -57,10 +57,10 @@ TEST(CoverBound, NeverExceedsTheFewestAndIsRarelyFarFromThem) {
   std::size_t compared = 0;
   std::size_t tight = 0;
   for (int round = 0; round < 60; ++round) {
-    std::vector<CellSet> sets(2 + engine() % 8, CellSet(kBox));
+    std::vector<CellSet> sets(2 + engine() % 8, CellSet(kBoundBox));
     const std::uint64_t one_in = 2 + engine() % 5;
-    CellSet wanted(kBox);
-    for_each_cell(kBox, [&](const VoxelIndex& cell) {
+    CellSet wanted(kBoundBox);
+    for_each_cell(kBoundBox, [&](const VoxelIndex& cell) {
       if (engine() % 4 != 0) {
         wanted.insert(cell);
       }
@@ -100,7 +100,7 @@ TEST(CoverBound, KnowsWhatIsKnown) {
                                   holding({4, 0})};
   EXPECT_NEAR(fewest_views_bound(ring, all), 2.5, 0.1);
   EXPECT_LE(fewest_views_bound(ring, all), 2.5 + 1e-9);
-  EXPECT_EQ(fewest_views_bound(ring, CellSet(kBox)), 0.0);
+  EXPECT_EQ(fewest_views_bound(ring, CellSet(kBoundBox)), 0.0);
   EXPECT_EQ(fewest_views_bound({}, all), 0.0);
 }
 
