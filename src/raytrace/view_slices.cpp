@@ -32,10 +32,11 @@ void ViewSlices::read(std::size_t number, std::int64_t slice) {
   layer.first_v = cells.lo[1] & ~3;
   layer.end_u = (cells.hi[0] | 3) + 1;
   layer.end_v = (cells.hi[1] | 3) + 1;
-  const auto columns = static_cast<std::size_t>((layer.end_u - layer.first_u + kColumn - 1) / kColumn);
-  layer.rows = static_cast<std::size_t>(layer.end_v - layer.first_v + SliceWindows::kHeight);
+  const std::int32_t columns = (layer.end_u - layer.first_u + kColumn - 1) / kColumn;
+  const std::int32_t rows = layer.end_v - layer.first_v + SliceWindows::kHeight;
+  layer.rows = static_cast<std::size_t>(rows);
   layer.first = rows_.size();
-  rows_.resize(rows_.size() + kPlanes * columns * layer.rows);
+  rows_.resize(rows_.size() + kPlanes * static_cast<std::size_t>(columns) * layer.rows);
   const std::int32_t along = beam_.along(slice) >> 2;
   if (!read_rows(layer, along)) {
     rows_.resize(layer.first);

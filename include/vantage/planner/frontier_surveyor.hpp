@@ -21,6 +21,10 @@ class FrontierSurveyor {
   /// For a platform, which must not be null, that always admits and faces alike.
   FrontierSurveyor(std::shared_ptr<const Platform> platform, const RangeSensor& sensor,
                    const FrontierSurveyOptions& options);
+  /// One memory, one owner.
+  FrontierSurveyor(const FrontierSurveyor&) = delete;
+  /// One memory, one owner.
+  FrontierSurveyor& operator=(const FrontierSurveyor&) = delete;
   /// Takes the memory along.
   FrontierSurveyor(FrontierSurveyor&& other) noexcept;
   /// Takes the memory along.
