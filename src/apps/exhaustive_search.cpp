@@ -51,7 +51,7 @@ CellSet revealed(const Looking& looking, const Pose& pose) {
   for (const RayTile& tile : looking.rays.tiles()) {
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
-      const Eigen::Vector3f ray(tile.directions[3 * i], tile.directions[3 * i + 1], tile.directions[3 * i + 2]);
+      const Eigen::Vector3f ray = tile.direction(i);
       const Eigen::Vector3d direction = (pose.linear() * ray.cast<double>()).normalized();
       const auto [enters_m, leaves_m] = way_in(looking.around, from, direction);
       if (!(enters_m < leaves_m)) {
