@@ -19,7 +19,6 @@ namespace {
 constexpr UnknownSightOptions kLikeFrontierVoid{.opaque_share = 0.05, .opaque_beside_surface = 0.5};
 constexpr double kFewRays = 4.0;         // times the distance between rays, for the first count of all
 constexpr std::size_t kFinalists = 100;  // counted with all rays
-constexpr int kPatience = 2;             // views that fail to see a cell until none hopes to any more
 
 }  // namespace
 
@@ -31,26 +30,14 @@ ExhaustivePlanner::ExhaustivePlanner(std::shared_ptr<const Arm> arm, const Plann
   setup.sensor.validate();
 }
 
-// Cells that the last view hoped to make known and that are still unknown have failed once more.
-void ExhaustivePlanner::review(const OccupancyMap& map) {
-  if (map.revision() == planned_at_) {
-    return;
-  }
-  for (const VoxelIndex& cell : std::exchange(hoped_, {})) {
-    if (map.at(cell) == Occupancy::Unknown) {
-      ++failures_[cell];
-    }
-  }
-}
-
-void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const UnknownSight& sight, const RayCaster& caster,
-                              const ViewRays& rays) const {
+void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const OccupancyMap& map, const UnknownSight& sight,
+                              const RayCaster& caster, const ViewRays& rays) const {
   detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
     views[i].void_cells = 0.0;
     views[i].hoped.clear();
+    const VoxelIndex place = map.frame().cell_of(views[i].pose.translation());
     for (const SightedCell& seen : sight.look(caster, views[i].pose, rays)) {
-      const auto failed = failures_.find(seen.cell);
-      if (failed == failures_.end() || failed->second < kPatience) {
+      if (!failed_.gave_up(seen.cell) && !failed_.failed_from(seen.cell, place)) {
         views[i].void_cells += seen.chance;
         views[i].hoped.push_back(seen.cell);
       }
@@ -62,13 +49,13 @@ void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const UnknownSight& s
 }
 
 Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
-  review(map);
-  planned_at_ = map.revision();
+  failed_.review(map, current);
   const std::vector<VoxelIndex> voids = void_cells(map);
   Plan plan;
   plan.statistics.void_cells = voids.size();
-  plan.reason = "no void cell is left";
   if (voids.empty()) {
+    plan.outcome = Outcome::Explored;
+    plan.reason = "no void cell is left";
     return plan;
   }
   UnknownSightOptions options = kLikeFrontierVoid;
@@ -80,11 +67,18 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
     views.push_back({pose});
   }
   plan.statistics.views_scored = views.size();
-  weigh(views, sight, caster, ViewRays(setup_.sensor.rays_for(kFewRays * map.resolution_m())));
-  weigh(views, sight, caster, ViewRays(setup_.sensor.rays_for(map.resolution_m())));
+  weigh(views, map, sight, caster, ViewRays(setup_.sensor.rays_for(kFewRays * map.resolution_m())));
+  weigh(views, map, sight, caster, ViewRays(setup_.sensor.rays_for(map.resolution_m())));
   const double least_cells = std::max(1.0, least_view_dm3_ / std::pow(10.0 * map.resolution_m(), 3));
+  const auto worth_it = [&](const Weighed& view) { return std::round(view.void_cells) >= std::ceil(least_cells); };
+  if (views.empty() || !worth_it(views.front())) {
+    plan.outcome = Outcome::Explored;
+    plan.reason = "no pose of the arm is expected to see " + std::to_string(std::llround(std::ceil(least_cells))) +
+                  " void cells";
+    return plan;
+  }
   for (Weighed& view : views) {
-    if (std::round(view.void_cells) < std::ceil(least_cells)) {
+    if (!worth_it(view)) {
       break;
     }
     if (auto path = arm_->path(map, current, view.pose)) {
@@ -92,11 +86,11 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
       plan.goal = {view.pose, std::round(view.void_cells)};
       plan.path = std::move(*path);
       plan.reason = "the best of " + std::to_string(plan.statistics.views_scored) + " poses";
-      hoped_ = std::move(view.hoped);
+      failed_.expect(map, view.pose, std::move(view.hoped));
       return plan;
     }
   }
-  plan.reason = "no pose of the arm is expected to see " + std::to_string(std::llround(least_cells)) + " void cells";
+  plan.reason = "there is no way to the best poses of the arm";
   return plan;
 }
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <memory>
 #include <string_view>
-#include <unordered_map>
 #include <vantage/arm/arm.hpp>
 #include <vantage/planner/exploration_planner.hpp>
+#include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vector>
@@ -34,16 +34,13 @@ class ExhaustivePlanner final : public ExplorationPlanner {
     double void_cells = 0.0;
     std::vector<VoxelIndex> hoped = {};
   };
-  void review(const OccupancyMap& map);
-  void weigh(std::vector<Weighed>& views, const UnknownSight& sight, const RayCaster& caster,
+  void weigh(std::vector<Weighed>& views, const OccupancyMap& map, const UnknownSight& sight, const RayCaster& caster,
              const ViewRays& rays) const;
 
   std::shared_ptr<const Arm> arm_;
   PlannerSetup setup_;
   double least_view_dm3_;
-  std::vector<VoxelIndex> hoped_;                 // of the view that was planned last
-  OccupancyMap::Revision planned_at_ = 0;         // the revision then
-  std::unordered_map<VoxelIndex, int> failures_;  // views that hoped to see a cell and did not
+  FailedViews failed_;
 };
 
 }  // namespace vantage::apps

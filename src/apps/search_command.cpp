@@ -137,7 +137,11 @@ std::unique_ptr<ExplorationPlanner> planner_of(const SearchRequest& request, con
     if (name != "least_view_dm3") {
       throw std::invalid_argument("the planner exhaustive has one setting, least_view_dm3, not '" + name + "'");
     }
-    least_view_dm3 = numbers_of("--set least_view_dm3", value).at(0);
+    const std::vector<double> numbers = numbers_of("--set least_view_dm3", value);
+    if (numbers.size() != 1 || numbers.front() < 0.0) {
+      throw std::invalid_argument("--set least_view_dm3=" + value + ": must be one number >= 0");
+    }
+    least_view_dm3 = numbers.front();
   }
   return std::make_unique<ExhaustivePlanner>(arm, setup, least_view_dm3);
 }

@@ -15,11 +15,6 @@
 
 namespace vantage {
 
-bool Arm::declared(const Eigen::Vector3d& point_m) const {
-  return std::any_of(options_.declared_clear.begin(), options_.declared_clear.end(),
-                     [&](const Box& box) { return box.contains(point_m); });
-}
-
 // Those that are clear or declared so, of all that the arm can touch.
 VoxelGrid<std::uint8_t> Arm::passable_cells(const OccupancyMap& map) const {
   const VoxelFrame& frame = map.frame();

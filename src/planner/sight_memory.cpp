@@ -53,6 +53,7 @@ void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachabl
 
 void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
   answers_.clear();
+  cell_size_m_ = 0.0;  // begins again if what follows throws
   tree_.emplace(map.frame(), spread_directions(direction_count), furthest_m);
   cell_size_m_ = map.resolution_m();
   furthest_m_ = furthest_m;
@@ -61,6 +62,7 @@ void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t 
 
 void SightMemory::make_room(const OccupancyMap& map) {
   answers_.clear();
+  cells_ = {};  // makes room again if what follows throws
   const VoxelBox cells = with_room(map);
   const VoxelBox blocks{block_of(cells.lo), block_of(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   clear_ = CellRows(cells);

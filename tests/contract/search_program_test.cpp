@@ -88,7 +88,10 @@ TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
   const std::string told = err_.substr(err_.find("  exhaustive"));
   ASSERT_NE(run(arguments + " --threads 3"), 2) << err_;
   EXPECT_EQ(told, err_.substr(err_.find("  exhaustive"))) << "the same for any number of threads";
+  EXPECT_EQ(run("--world crates-open --resolution 0.1 --planner exhaustive --json -"), 0) << err_;
+  EXPECT_EQ(nlohmann::json::parse(out_).at("outcome"), "explored");
   expect_refused("--world crates-open --planner exhaustive --set views=3", "has one setting, least_view_dm3");
+  expect_refused("--world crates-open --planner exhaustive --set least_view_dm3=-1", "must be one number >= 0");
 }
 
 TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {

@@ -97,7 +97,6 @@ class Arm final : public Platform {
  private:
   class Postures;
   class Memory;
-  [[nodiscard]] bool declared(const Eigen::Vector3d& point_m) const;
   [[nodiscard]] VoxelGrid<std::uint8_t> passable_cells(const OccupancyMap& map) const;
   [[nodiscard]] std::shared_ptr<const detail::ClearSpace> clear_space(const OccupancyMap& map) const;
   [[nodiscard]] std::shared_ptr<const detail::ClearSpace> clear_space_from(const OccupancyMap& map,
