@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -143,6 +144,7 @@ std::unique_ptr<vantage::ExplorationPlanner> planner_of(const Setup& setup, cons
 struct Score {
   std::array<std::size_t, 4> found{};  // after each quarter of the views
   std::array<double, 4> metres{};
+  std::size_t places = 0;  // from which views were taken: turning on the spot costs views and no metres
 
   [[nodiscard]] double per_10_m() const {
     return metres[3] > 0.0 ? 10.0 * static_cast<double>(found[3]) / metres[3] : 0.0;
@@ -160,10 +162,15 @@ Score search(const Setup& setup, const std::string& name, std::uint64_t seed) {
                                        [&](const Victim& one) { return within_reach.contains(one.before); });
 
   Score score;
+  Eigen::Vector3d place = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   std::vector<bool> found(setup.victims.size(), false);
   const auto planner = planner_of(setup, name, seed);
   const vantage::RunRecord record =
       run.run(*planner, start, [&](const vantage::ViewRecord& view, const vantage::OccupancyMap& map) {
+        if ((view.pose.translation() - place).norm() > kCellM) {
+          place = view.pose.translation();
+          ++score.places;
+        }
         for (std::size_t i = 0; i < found.size(); ++i) {
           found[i] = found[i] || is_found(setup.victims[i], map);
         }
@@ -178,8 +185,9 @@ Score search(const Setup& setup, const std::string& name, std::uint64_t seed) {
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     std::printf(" %zu in %.1f m |", score.found[quarter], score.metres[quarter]);
   }
-  std::printf(" %.2f | %zu | %zu, %s | %lld |\n", score.per_10_m(), record.collisions, record.views.size(),
-              std::string(vantage::to_string(record.outcome)).c_str(), static_cast<long long>(reachable));
+  std::printf(" %.2f | %zu | %zu, %s | %zu | %lld |\n", score.per_10_m(), record.collisions, record.views.size(),
+              std::string(vantage::to_string(record.outcome)).c_str(), score.places,
+              static_cast<long long>(reachable));
   std::fflush(stdout);
   return score;
 }
@@ -204,8 +212,9 @@ std::vector<std::uint64_t> seeds_of(const std::string& text) {
 void compare(const Setup& setup, const std::vector<std::string>& planners, const std::vector<std::uint64_t>& seeds) {
   std::printf("%zu victims; found after each quarter of at most %zu views\n\n", setup.victims.size(),
               setup.most_views);
-  std::printf("| planner | start | 1/4 | 1/2 | 3/4 | all views | per 10 m | collisions | views | within reach |\n");
-  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| planner | start | 1/4 | 1/2 | 3/4 | all views | per 10 m | collisions | views | places | in reach |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::vector<std::string> medians;
   for (const std::string& planner : planners) {
     std::vector<double> per_10_m;
