@@ -7,6 +7,7 @@
 #include <raytrace/clamped.hpp>
 #include <raytrace/lane_queries.hpp>
 #include <raytrace/single_walk.hpp>
+#include <raytrace/slice_beam.hpp>
 #include <raytrace/sliced_word.hpp>
 #include <raytrace/tile_walk.hpp>
 #include <raytrace/word_rows.hpp>
@@ -17,16 +18,6 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kRays = RayBlock::kRays;
-
-std::int32_t round_down(double value) {
-  const auto towards_zero = static_cast<std::int32_t>(value);
-  return towards_zero - (towards_zero > value ? 1 : 0);
-}
-
-// Lateral places of rays differ from those of a walk by less than this, in cells: far more than its clock and sums of
-// doubles can.
-constexpr double kRoundingCells = 1e-6;
-static_assert(kRoundingCells * SliceLanes::kCell + 10 < SliceLanes::kDoubt);
 
 // The slices of a word (in_slices) in the opposite order.
 inline std::uint64_t reversed(std::uint64_t slices) {
@@ -126,12 +117,12 @@ void TileWalk::walk_class(std::uint64_t rays, HitSink& hits) {
   });
   const auto [least, most] = range_of(extent_[place_.major], rays, set_);
   nearest_end_ = place_.up ? least : -most;
-  if (!(nearest_end_ > kRoundingCells)) {
+  if (!(nearest_end_ > SliceBeam::kRounding)) {
     singly_ |= rays;
     return;
   }
   furthest_end_ = place_.up ? most : -least;
-  const double free_cells = free_share_ * nearest_end_ - kRoundingCells;
+  const double free_cells = free_share_ * nearest_end_ - SliceBeam::kRounding;
   const auto first = static_cast<std::int64_t>(std::max(free_cells + from_entry_, 0.0));
   follow(rays, free_cells > 0.0 ? first : 0, hits);
 }
@@ -176,9 +167,9 @@ bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, HitSink& hits) {
   const double leaves = entered_at(slice + static_cast<std::int64_t>(windows_.count));
   const std::uint64_t before = active;
   std::uint64_t ending = 0;
-  if (nearest_end_ <= leaves + kRoundingCells) {
-    active &= ~ending_by(enters - kRoundingCells);
-    ending = active & ending_by(leaves + kRoundingCells);
+  if (nearest_end_ <= leaves + SliceBeam::kRounding) {
+    active &= ~ending_by(enters - SliceBeam::kRounding);
+    ending = active & ending_by(leaves + SliceBeam::kRounding);
   }
   place_lanes(enters, slice == 0 ? leaves : 1.0);
   SliceHits of_slices;
@@ -201,10 +192,10 @@ void TileWalk::end_rays(std::uint64_t ending, std::int64_t slice, SliceHits& of_
     const std::uint64_t ray = std::uint64_t{1} << i;
     const double end = std::abs(extent_[place_.major][i]) + from_entry_ - static_cast<double>(slice);
     const std::int32_t met = of_slices.where[i] >> 9;
-    if (static_cast<double>(met + 1) > end - kRoundingCells) {
+    if (static_cast<double>(met + 1) > end - SliceBeam::kRounding) {
       of_slices.stopped &= ~ray;
       of_slices.where[i] = -1;
-      of_slices.doubtful |= static_cast<double>(met) < end + kRoundingCells ? ray : 0;
+      of_slices.doubtful |= static_cast<double>(met) < end + SliceBeam::kRounding ? ray : 0;
     }
   }
 }
@@ -227,7 +218,7 @@ std::int64_t TileWalk::last_slice() const {
   const std::array<std::int32_t, 3> hi{within_.hi.x, within_.hi.y, within_.hi.z};
   const std::int64_t of_box =
       place_.up ? std::int64_t{hi[place_.major]} - 1 - first : std::int64_t{first} - lo[place_.major];
-  return std::min(of_box, static_cast<std::int64_t>(furthest_end_ + from_entry_ + kRoundingCells));
+  return std::min(of_box, static_cast<std::int64_t>(furthest_end_ + from_entry_ + SliceBeam::kRounding));
 }
 
 // The rays that end within this many cells along the major axis.
@@ -280,7 +271,6 @@ TileWalk::Spread TileWalk::spread_of(std::uint64_t active) const {
 
 // The lateral cells that rays of this spread may be in from the first to the last slice.
 TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, std::int64_t last) const {
-  constexpr auto kFurthest = static_cast<double>(kFurthestVoxel);
   const double enters = entered_at(first);
   const double leaves = entered_at(last + 1);
   Window window{};
@@ -289,10 +279,10 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
     const double least = spread.least[lateral];
     const double most = spread.most[lateral];
     const double from = within_first_[axes[lateral]];
-    const double lo = from + least * (least < 0.0 ? leaves : enters) - kRoundingCells;
-    const double hi = from + most * (most > 0.0 ? leaves : enters) + kRoundingCells;
-    window.lo[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(lo, -kFurthest, kFurthest));
-    window.hi[lateral] = first_cell_[axes[lateral]] + round_down(std::clamp(hi, -kFurthest, kFurthest));
+    const double lo = from + least * (least < 0.0 ? leaves : enters) - SliceBeam::kRounding;
+    const double hi = from + most * (most > 0.0 ? leaves : enters) + SliceBeam::kRounding;
+    window.lo[lateral] = first_cell_[axes[lateral]] + SliceBeam::cell_at(lo);
+    window.hi[lateral] = first_cell_[axes[lateral]] + SliceBeam::cell_at(hi);
   }
   return window;
 }

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
 #include <random>
 #include <thread>
 #include <vantage/arm/arm.hpp>
 #include <vector>
+
+#include "support/tracked_arm.hpp"
 
 namespace vantage {
 namespace {
@@ -22,17 +23,7 @@ Arm new_arm() {
   options.capability.samples = 4'000;
   options.capability.cell_m = 0.1;
   options.path_iterations = 50;
-  return Arm(
-      KinematicChain::from_urdf(std::filesystem::path(VANTAGE_EXAMPLES) / "tracked_arm.urdf", "base_link", "sensor"),
-      options);
-}
-
-Joints drawn_joints(const Arm& arm, std::mt19937_64& engine) {
-  Joints joints;
-  for (const JointRange& range : arm.chain().ranges()) {
-    joints.push_back(std::uniform_real_distribution<double>(range.min, range.max)(engine));
-  }
-  return joints;
+  return Arm(test::tracked_arm(), options);
 }
 
 // Cells become occupied, free, unknown or contested, more or less of them free with every round.
@@ -63,12 +54,12 @@ void expect_same(const Arm& used, const OccupancyMap& map, std::mt19937_64& engi
   ASSERT_EQ(used.admitted_poses(map).size(), fresh.admitted_poses(map).size());
   const Arm other = new_arm();
   for (int i = 0; i < 60; ++i) {
-    const Joints joints = drawn_joints(used, engine);
+    const Joints joints = test::random_joints(used.chain(), engine);
     ASSERT_EQ(used.admits_joints(map, joints), other.admits_joints(map, joints));
     admitted += other.admits_joints(map, joints) ? 1U : 0U;
   }
-  const Pose from = used.sensor_pose(drawn_joints(used, engine));
-  const Pose to = used.sensor_pose(drawn_joints(used, engine));
+  const Pose from = used.sensor_pose(test::random_joints(used.chain(), engine));
+  const Pose to = used.sensor_pose(test::random_joints(used.chain(), engine));
   ASSERT_EQ(used.joint_path(map, from, to), new_arm().joint_path(map, from, to));
   ASSERT_EQ(used.admits_motion(map, from, to), other.admits_motion(map, from, to));
 }

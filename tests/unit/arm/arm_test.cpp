@@ -30,14 +30,6 @@ const Arm& arm() {
   return one;
 }
 
-Joints random_joints(std::mt19937_64& engine) {
-  Joints joints;
-  for (const JointRange& range : arm().chain().ranges()) {
-    joints.push_back(std::uniform_real_distribution<double>(range.min, range.max)(engine));
-  }
-  return joints;
-}
-
 /// All free around the arm.
 OccupancyMap free_space() {
   OccupancyMap map({.resolution_m = kCell});
@@ -95,7 +87,7 @@ TEST(Arm, AdmitsExactlyTheConfigurationsWhoseCapsulesTouchClearCellsOnly) {
   for (int round = 0; round < 6; ++round) {
     const OccupancyMap map = littered_space(engine, 400);
     for (int i = 0; i < 300; ++i) {
-      const Joints joints = random_joints(engine);
+      const Joints joints = test::random_joints(arm().chain(), engine);
       if (arm().chain().touches_itself(arm().chain().link_poses(joints))) {
         EXPECT_FALSE(arm().admits_joints(map, joints));
         continue;
@@ -130,7 +122,7 @@ TEST(Arm, APoseStandsForOneConfigurationThatBringsTheSensorThere) {
   std::size_t same = 0;
   std::size_t tried = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Joints joints = random_joints(engine);
+    const Joints joints = test::random_joints(arm().chain(), engine);
     if (arm().chain().touches_itself(arm().chain().link_poses(joints))) {
       continue;
     }
@@ -161,7 +153,7 @@ TEST(Arm, FacesWhereItIsToldIfItCan) {
   std::size_t exact = 0;
   std::size_t admitted = 0;
   for (int i = 0; i < 300; ++i) {
-    const Joints joints = random_joints(engine);
+    const Joints joints = test::random_joints(arm().chain(), engine);
     if (!arm().admits_joints(map, joints)) {
       continue;
     }
@@ -215,7 +207,7 @@ TEST(Arm, PathsAreAdmittedAllTheWayAndTheSameEveryTime) {
     const OccupancyMap map = littered_space(engine, 60);
     std::vector<Pose> ends;
     while (ends.size() < 6) {
-      const Joints joints = random_joints(engine);
+      const Joints joints = test::random_joints(arm().chain(), engine);
       if (careful.admits_joints(map, joints) && careful.admits(map, careful.sensor_pose(joints))) {
         ends.push_back(careful.sensor_pose(joints));
       }
@@ -253,8 +245,8 @@ TEST(Arm, ThePosesOfAPathJoinItsEndsByAdmittedMotions) {
   std::size_t motions = 0;
   std::size_t admitted = 0;
   for (int i = 0; i < 12; ++i) {
-    const Pose from = arm().sensor_pose(random_joints(engine));
-    const Pose to = arm().sensor_pose(random_joints(engine));
+    const Pose from = arm().sensor_pose(test::random_joints(arm().chain(), engine));
+    const Pose to = arm().sensor_pose(test::random_joints(arm().chain(), engine));
     if (!arm().admits(map, from) || !arm().admits(map, to)) {
       continue;
     }

@@ -15,14 +15,6 @@
 namespace vantage {
 namespace {
 
-Joints random_joints(const KinematicChain& chain, std::mt19937_64& engine) {
-  Joints joints;
-  for (const JointRange& range : chain.ranges()) {
-    joints.push_back(std::uniform_real_distribution<double>(range.min, range.max)(engine));
-  }
-  return joints;
-}
-
 Eigen::Matrix4d turn(int axis, double angle_rad) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   const int u = (axis + 1) % 3;
@@ -51,7 +43,7 @@ TEST(KinematicChain, DhChainsGoWhereTheProductOfTheirMatricesGoes) {
     const KinematicChain chain = KinematicChain::from_dh(rows, Pose(shift(0.1, 0.2, 0.3)));
     ASSERT_EQ(chain.joint_count(), rows.size());
     for (int i = 0; i < 20; ++i) {
-      const Joints joints = random_joints(chain, engine);
+      const Joints joints = test::random_joints(chain, engine);
       Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
       const std::vector<Pose> links = chain.link_poses(joints);
       ASSERT_EQ(links.size(), rows.size() + 2);
@@ -78,7 +70,7 @@ TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
   EXPECT_EQ(chain.ranges()[2].max, 2.6);
   std::mt19937_64 engine(2);
   for (int i = 0; i < 1000; ++i) {
-    const Joints q = random_joints(chain, engine);
+    const Joints q = test::random_joints(chain, engine);
     Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();  // z forward, x right, y down on a head with x forward
     camera.topLeftCorner<3, 3>() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
     const Eigen::Matrix4d expected = shift(0, 0, 0.25) * turn(2, q[0]) * shift(0, 0, 0.15) * turn(1, q[1]) *
@@ -97,7 +89,7 @@ TEST(KinematicChain, TheBodyIsWhereTheLinksAre) {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> any(-1.5, 1.5);
   const auto compare = [&](const KinematicChain& chain) {
-    const Joints joints = random_joints(chain, engine);
+    const Joints joints = test::random_joints(chain, engine);
     const std::vector<Pose> links = chain.link_poses(joints);
     const std::vector<Capsule> body = chain.body_at(joints);
     ASSERT_EQ(body.size(), chain.capsules().size());
@@ -144,7 +136,7 @@ TEST(KinematicChain, InverseKinematicsTakesAnyChain) {
         row = {any(engine), any(engine), any(engine), any(engine), {-2.0, 2.0}, engine() % 4 == 0};
       }
       const KinematicChain chain = KinematicChain::from_dh(rows, Pose(shift(0.1, 0.2, 0.3)));
-      Joints guess = random_joints(chain, engine);
+      Joints guess = test::random_joints(chain, engine);
       const Pose target = chain.sensor_pose(guess);
       for (double& value : guess) {
         value += off(engine);
@@ -167,7 +159,7 @@ TEST(KinematicChain, InverseKinematicsLeadsBackToThePose) {
   for (const bool free_roll : {false, true}) {
     std::size_t found = 0;
     for (int i = 0; i < 2000; ++i) {
-      const Joints joints = random_joints(chain, engine);
+      const Joints joints = test::random_joints(chain, engine);
       Joints guess = joints;
       for (double& value : guess) {
         value += off(engine);
