@@ -38,7 +38,8 @@ VANTAGE_INLINE void store(T* to, const Lanes<T>& lanes) {
 }
 template <class T>
 VANTAGE_INLINE Lanes<T> all(T value) {
-  return Lanes<T>{value, value, value, value, value, value, value, value};
+  const Lanes<T> first{value};  // of a list of eight, gcc 12 makes eight insertions
+  return __builtin_shufflevector(first, first, 0, 0, 0, 0, 0, 0, 0, 0);
 }
 /// Eight numbers of four bits, and of those the bits of `mask`.
 template <class T>

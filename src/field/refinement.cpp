@@ -27,20 +27,55 @@ struct Load {
   }
 };
 
-// 1 for each cell that has no strictly lower neighbour once all values are divided by `at_source`, else 0. A value of
-// 0 is that of a sink, a lower neighbour that `faces` knows of, or stands behind a closed face.
-VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours,
-                                         std::uint32_t faces, double at_source) {
+// The lowest neighbour of each cell. A value of 0 is that of a sink, a lower neighbour that `faces` knows of, or
+// stands behind a closed face.
+VANTAGE_INLINE Lanes<double> lowest_of(const SixNeighbours<double>& neighbours, std::uint32_t faces) {
   const Lanes<double> none = all(std::numeric_limits<double>::max());
   Lanes<double> lowest = none;
   for (const Lanes<double>& neighbour : neighbours.at) {
     const Lanes<double> there = neighbour > 0.0 ? neighbour : none;
     lowest = there < lowest ? there : lowest;
   }
-  const Lanes<double> beside_sink = widen<double>(faces, kBesideSink);
-  lowest = beside_sink > 0.0 ? Lanes<double>{} : lowest;
+  return lowest * (1.0 - 0.125 * widen<double>(faces, kBesideSink));
+}
+
+// 1 for each cell that has no strictly lower neighbour once all values are divided by `at_source`, else 0.
+VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours,
+                                         std::uint32_t faces, double at_source) {
+  const Lanes<double> lowest = lowest_of(neighbours, faces);
   const Lanes<double> stuck = lowest / at_source < own / at_source ? Lanes<double>{} : all(1.0);
   return widen<double>(faces, kDegree) > 0.0 ? stuck : Lanes<double>{};
+}
+
+// The same without a division, for all cells but the few that are as good as level with their lowest neighbour: those
+// are in doubt. A quotient is rounded by less than 2^-52 of itself; below `least`, where that is not so, every cell
+// is in doubt.
+class Doubt {
+ public:
+  explicit Doubt(double at_source)
+      : least_(at_source > 0.0 ? 1e-290 * at_source : std::numeric_limits<double>::infinity()) {}
+  // At least 0 for cells in doubt.
+  [[nodiscard]] VANTAGE_INLINE Lanes<double> about(const Lanes<double>& own, const Lanes<double>& degree,
+                                                   const SixNeighbours<double>& neighbours,
+                                                   std::uint32_t faces) const {
+    const Lanes<double> lowest = lowest_of(neighbours, faces);
+    const Lanes<double> bound = lowest > least_ ? lowest : all(least_);
+    const Lanes<double> doubt = bound - own * (1.0 - 0x1p-50);
+    return degree > 0.0 ? doubt : all(-1.0);
+  }
+
+ private:
+  double least_;
+};
+
+// The larger of two, lane by lane; and the largest of all lanes.
+VANTAGE_INLINE Lanes<double> larger(const Lanes<double>& a, const Lanes<double>& b) { return a > b ? a : b; }
+VANTAGE_INLINE double largest_of(const Lanes<double>& lanes) {
+  double largest = lanes[0];
+  for (std::size_t lane = 1; lane < kLanes; ++lane) {
+    largest = lanes[lane] > largest ? lanes[lane] : largest;
+  }
+  return largest;
 }
 
 template <bool checked>
@@ -49,21 +84,21 @@ struct RedUpdate {
   Around<double> black;
   double* red;
   Load load_of;
-  double at_source;
-  double* stuck;
+  Doubt doubt;
+  double* doubtful;
 
   VANTAGE_INLINE void operator()() const {
-    Lanes<double> count{};
+    Lanes<double> most_doubt = all(-1.0);
     for (std::size_t row = 0; row < kBrickRows; ++row) {
       const Lanes<double> degree = widen<double>(faces[row], kDegree);
       const SixNeighbours<double> beside = neighbours<kRed>(black, row);
       const Lanes<double> solved = degree > 0.0 ? (beside.sum() + load_of.at(row)) / degree : Lanes<double>{};
       store<double>(red + row * 8, solved);
       if constexpr (checked) {
-        count += stuck_cells(solved, beside, faces[row], at_source);
+        most_doubt = larger(most_doubt, doubt.about(solved, degree, beside, faces[row]));
       }
     }
-    *stuck = sum_of<double>(count);
+    *doubtful = largest_of(most_doubt);
   }
 };
 
@@ -73,17 +108,17 @@ struct BlackDefect {
   const double* black;
   Around<double> red;
   Load load_of;
-  double at_source;
+  Doubt doubt;
   double scale;
   float* out;  // the residual, times `scale`
   double* square;
   double* largest;
-  double* stuck;
+  double* doubtful;
 
   VANTAGE_INLINE void operator()() const {
     Lanes<double> sum{};
     Lanes<double> most{};
-    Lanes<double> count{};
+    Lanes<double> most_doubt = all(-1.0);
     for (std::size_t row = 0; row < kBrickRows; ++row) {
       const Lanes<double> degree = widen<double>(faces[row], kDegree);
       const Lanes<double> own = load(black + row * 8);
@@ -92,17 +127,14 @@ struct BlackDefect {
       const Lanes<double> residual = degree > 0.0 ? all_cells : Lanes<double>{};
       store<float>(out + row * 8, __builtin_convertvector(scale * residual, Lanes<float>));
       sum += residual * residual;
-      most = residual > most ? residual : most;
+      most = larger(most, residual);
       if constexpr (checked) {
-        count += stuck_cells(own, beside, faces[row], at_source);
+        most_doubt = larger(most_doubt, doubt.about(own, degree, beside, faces[row]));
       }
     }
     *square = sum_of<double>(sum);
-    *largest = most[0];
-    for (std::size_t lane = 1; lane < kLanes; ++lane) {
-      *largest = most[lane] > *largest ? most[lane] : *largest;
-    }
-    *stuck += sum_of<double>(count);
+    *largest = largest_of(most);
+    *doubtful = largest_of(most_doubt);
   }
 };
 
@@ -143,20 +175,22 @@ struct CountStuckOf {
   VANTAGE_INLINE void operator()() const { count.over<colour>(other); }
 };
 
+// How many cells of one colour in a brick are stuck.
+template <std::size_t colour>
+double stuck_in(const FineLevel& fine, const CellValues& values, std::size_t brick) {
+  double stuck = 0.0;
+  run(CountStuckOf<colour>{{fine.faces[colour].data() + brick * kBrickRows,
+                            values.u[colour].data() + brick * kHalfBrick, values.at_source, &stuck},
+                           Around<double>(fine, values.u[1 - colour], brick)});
+  return stuck;
+}
+
 }  // namespace
 
 std::size_t count_stuck(const FineLevel& fine, const CellValues& values) {
   double stuck = 0.0;
-  const auto count_in = [&](std::size_t colour, std::size_t b, double& found) {
-    return CountStuck{fine.faces[colour].data() + b * kBrickRows, values.u[colour].data() + b * kHalfBrick,
-                      values.at_source, &found};
-  };
   for (std::size_t b = 1; b < fine.brick_count; ++b) {
-    double red = 0.0;
-    double black = 0.0;
-    run(CountStuckOf<kRed>{count_in(kRed, b, red), Around<double>(fine, values.u[kBlack], b)});
-    run(CountStuckOf<kBlack>{count_in(kBlack, b, black), Around<double>(fine, values.u[kRed], b)});
-    stuck += red + black;
+    stuck += stuck_in<kRed>(fine, values, b) + stuck_in<kBlack>(fine, values, b);
   }
   return static_cast<std::size_t>(stuck);
 }
@@ -169,7 +203,7 @@ CellPlace CellPlace::of(const LaplaceDomain& domain, const VoxelIndex& cell) {
 
 Refinement::Refinement(const FineLevel& fine, const CellPlace& source, double uniform)
     : source_(source), uniform_(uniform), partial_(fine.brick_count, Partial{}) {
-  clear(fine, values_.u[kRed], kHalfBrick);
+  make_room(fine, values_.u[kRed], kHalfBrick);
   clear(fine, values_.u[kBlack], kHalfBrick);
 }
 
@@ -198,22 +232,26 @@ double Refinement::source_value(const FineLevel& fine, const Step& step) const {
 
 template <bool checked>
 void Refinement::pass(const FineLevel& fine, const Step& step, const Remainder& remainder) {
+  const Doubt doubt(values_.at_source);
   in_waves(
       fine,
       [&](std::size_t b) {
         run(Add{step.correction.data() + b * kHalfBrick, step.unit, values_.u[kBlack].data() + b * kHalfBrick});
       },
       [&](std::size_t b) {
+        double doubtful = -1.0;
         run(RedUpdate<checked>{fine.faces[kRed].data() + b * kBrickRows, Around<double>(fine, values_.u[kBlack], b),
-                               values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_),
-                               values_.at_source, &partial_[b].stuck});
+                               values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_), doubt,
+                               &doubtful});
+        partial_[b].stuck = doubtful >= 0.0 ? stuck_in<kRed>(fine, values_, b) : 0.0;
       },
       [&](std::size_t b) {
-        run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows,
-                                 values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
-                                 Load(source_, b, kBlack, uniform_), values_.at_source, 1.0 / remainder.unit,
-                                 remainder.residual.data() + b * kHalfBrick, &partial_[b].square,
-                                 &partial_[b].largest, &partial_[b].stuck});
+        double doubtful = -1.0;
+        run(BlackDefect<checked>{
+            fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
+            Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_), doubt, 1.0 / remainder.unit,
+            remainder.residual.data() + b * kHalfBrick, &partial_[b].square, &partial_[b].largest, &doubtful});
+        partial_[b].stuck += doubtful >= 0.0 ? stuck_in<kBlack>(fine, values_, b) : 0.0;
       });
 }
 
@@ -232,6 +270,9 @@ Defect Refinement::update(const FineLevel& fine, const Step& step, const Remaind
   }
   defect.norm = std::sqrt(defect.norm);
   defect.checked = check;
+  if (check && !std::isfinite(defect.norm)) {
+    defect.stuck = count_stuck(fine, values_);  // what is not a number is in no doubt
+  }
   return defect;
 }
 
