@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <utility>
+#include <vector>
 
 namespace vantage::detail {
 namespace {
@@ -42,85 +42,121 @@ std::uint32_t piece_of(const std::uint32_t* packed, const Octet& octet, std::siz
   return piece;
 }
 
-// Renumbers so that nodes of even parity come first, the order kept otherwise.
-std::vector<VoxelIndex> even_first(const std::vector<VoxelIndex>& at, std::vector<std::uint32_t>& node) {
-  std::vector<std::uint32_t> number(at.size() + 1);
-  std::vector<VoxelIndex> ordered;
-  ordered.reserve(at.size());
-  for (const std::int32_t parity : {0, 1}) {
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      if (((at[i].x ^ at[i].y ^ at[i].z) & 1) == parity) {
-        number[i] = static_cast<std::uint32_t>(ordered.size());
-        ordered.push_back(at[i]);
+// The pieces found in the bricks of a share, by parity.
+using Pieces = std::array<std::vector<VoxelIndex>, 2>;
+constexpr std::uint32_t kOdd = 0x80000000U;  // set in the number of an odd piece, among those of its share
+
+void find_pieces(const FineLevel& fine, std::size_t brick, std::uint32_t* node, Pieces& pieces) {
+  const std::uint32_t* packed = fine.blocks.data() + brick * kBrickBlocks;
+  const VoxelIndex& address = fine.address[brick];
+  for (std::size_t number = 0; number < 16; ++number) {
+    const Octet octet(number);
+    for (std::size_t i = 0; i < 8; ++i) {
+      if (packed[octet.block(i)] == 0 || node[octet.block(i)] != kNoNode) {
+        continue;
       }
+      const VoxelIndex at = VoxelIndex{address.x * 4, address.y * 2, address.z * 2} + octet.in_brick;
+      std::vector<VoxelIndex>& same = pieces[is_even(at) ? 0 : 1];
+      const std::uint32_t own = static_cast<std::uint32_t>(same.size()) | (is_even(at) ? 0U : kOdd);
+      for (std::uint32_t piece = piece_of(packed, octet, i); piece != 0; piece &= piece - 1) {
+        node[octet.block(static_cast<std::size_t>(std::countr_zero(piece)))] = own;
+      }
+      same.push_back(at);
     }
   }
-  number.back() = static_cast<std::uint32_t>(at.size());
-  for (std::uint32_t& one : node) {
-    one = number[std::min<std::size_t>(one, at.size())];
-  }
-  return ordered;
 }
 
-std::vector<VoxelIndex> number_pieces(const FineLevel& fine, std::vector<std::uint32_t>& node) {
-  std::vector<VoxelIndex> at;
-  node.assign(fine.brick_count * kBrickBlocks, kNoNode);
-  for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
-    const std::uint32_t* packed = fine.blocks.data() + brick * kBrickBlocks;
-    const VoxelIndex& address = fine.address[brick];
-    for (std::size_t number = 0; number < 16; ++number) {
-      const Octet octet(number);
-      for (std::size_t i = 0; i < 8; ++i) {
-        if (packed[octet.block(i)] == 0 || node[brick * kBrickBlocks + octet.block(i)] != kNoNode) {
-          continue;
-        }
-        for (std::uint32_t piece = piece_of(packed, octet, i); piece != 0; piece &= piece - 1) {
-          node[brick * kBrickBlocks + octet.block(static_cast<std::size_t>(std::countr_zero(piece)))] =
-              static_cast<std::uint32_t>(at.size());
-        }
-        at.push_back(VoxelIndex{address.x * 4, address.y * 2, address.z * 2} + octet.in_brick);
-      }
-    }
-  }
-  return even_first(at, node);
-}
-
-// The block after `block` along an axis, in all bricks.
-std::size_t block_after(const FineLevel& fine, std::size_t brick, std::size_t block, std::size_t axis) {
+// The block beside `block` at a side, in all bricks.
+std::size_t block_beside(const FineLevel& fine, std::size_t brick, std::size_t block, std::size_t side) {
   static constexpr std::array<std::size_t, 3> kStep{1, 8, 32};
   static constexpr std::array<std::size_t, 3> kCount{8, 4, 4};
-  if (block / kStep[axis] % kCount[axis] + 1 < kCount[axis]) {
-    return brick * kBrickBlocks + block + kStep[axis];
+  const std::size_t step = kStep[side / 2];
+  const std::size_t last = kCount[side / 2] - 1;
+  const std::size_t place = block / step % kCount[side / 2];
+  if (side % 2 == 0) {
+    return place > 0 ? brick * kBrickBlocks + block - step
+                     : fine.links[brick][side] * kBrickBlocks + block + last * step;
   }
-  return fine.links[brick][2 * axis + 1] * kBrickBlocks + block - (kCount[axis] - 1) * kStep[axis];
+  return place < last ? brick * kBrickBlocks + block + step
+                      : fine.links[brick][side] * kBrickBlocks + block - last * step;
+}
+
+// The edges of the nodes of a brick.
+void write_edges(const FineLevel& fine, const AlignedVector<std::uint32_t>& node, std::size_t brick,
+                 EdgeWriter& writer) {
+  for (std::size_t number = 0; number < 16; ++number) {
+    const Octet octet(number);
+    std::uint32_t todo = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      todo |= fine.blocks[brick * kBrickBlocks + octet.block(i)] != 0 ? 1U << i : 0U;
+    }
+    while (todo != 0) {
+      const std::uint32_t own =
+          node[brick * kBrickBlocks + octet.block(static_cast<std::size_t>(std::countr_zero(todo)))];
+      for (std::uint32_t left = todo; left != 0; left &= left - 1) {
+        const std::size_t block = octet.block(static_cast<std::size_t>(std::countr_zero(left)));
+        if (node[brick * kBrickBlocks + block] != own) {
+          continue;
+        }
+        todo &= ~(left & (0U - left));
+        const std::uint32_t packed = fine.blocks[brick * kBrickBlocks + block];
+        std::uint32_t to_sinks = packed >> 18U;  // twice
+        for (std::uint32_t side = 0; side < 6; ++side) {
+          const std::uint32_t faces = packed >> (3U * side) & 7U;
+          to_sinks -= faces;
+          if (const std::uint32_t other = faces != 0 ? node[block_beside(fine, brick, block, side)] : own;
+              other != own) {
+            writer.join(other, kOverCorrection * 0.5F * static_cast<float>(faces));
+          }
+        }
+        writer.leak(kOverCorrection * 0.5F * static_cast<float>(to_sinks));
+      }
+      writer.write(own);
+    }
+  }
 }
 
 }  // namespace
 
 GraphLevel graph_of_blocks(const FineLevel& fine, BlockLevel& blocks) {
-  std::vector<VoxelIndex> at = number_pieces(fine, blocks.node);
-  std::vector<float> leaks(at.size(), 0.0F);
-  std::vector<GraphLevel::Join> joins;
-  for (std::size_t brick = 1; brick < fine.brick_count; ++brick) {
-    for (std::size_t block = 0; block < kBrickBlocks; ++block) {
-      const std::uint32_t packed = fine.blocks[brick * kBrickBlocks + block];
-      if (packed == 0) {
-        continue;
-      }
-      const std::uint32_t own = blocks.node[brick * kBrickBlocks + block];
-      leaks[own] += kOverCorrection * static_cast<float>(packed >> 18U);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::uint32_t faces = packed >> (6 * axis + 3) & 7U;
-        if (faces == 0) {
-          continue;
-        }
-        if (const std::uint32_t other = blocks.node[block_after(fine, brick, block, axis)]; other != own) {
-          joins.push_back({own, other, kOverCorrection * 0.5F * static_cast<float>(faces)});
-        }
-      }
+  blocks.node.resize(fine.brick_count * kBrickBlocks);
+  std::vector<Pieces> found(fine.shares.size());
+  fine.team->run([&](std::size_t i) {
+    for (std::size_t b = fine.shares[i].begin; b < fine.shares[i].end; ++b) {
+      std::uint32_t* node = blocks.node.data() + b * kBrickBlocks;
+      std::fill_n(node, kBrickBlocks, kNoNode);
+      find_pieces(fine, b, node, found[i]);
+    }
+  });
+  std::vector<std::array<std::size_t, 2>> first(fine.shares.size());
+  std::array<std::size_t, 2> end{};
+  for (const std::size_t parity : {0U, 1U}) {
+    end[parity] = end[0];
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      first[i][parity] = end[parity];
+      end[parity] += found[i][parity].size();
     }
   }
-  return {std::move(at), std::move(leaks), joins};
+  GraphLevel graph(end[1], end[0]);
+  std::fill_n(blocks.node.data(), kBrickBlocks, static_cast<std::uint32_t>(graph.size));
+  fine.team->run([&](std::size_t i) {
+    for (const std::size_t parity : {0U, 1U}) {
+      std::copy(found[i][parity].begin(), found[i][parity].end(), graph.at.data() + first[i][parity]);
+    }
+    for (std::size_t n = fine.shares[i].begin * kBrickBlocks; n < fine.shares[i].end * kBrickBlocks; ++n) {
+      const std::uint32_t own = blocks.node[n];
+      blocks.node[n] =
+          static_cast<std::uint32_t>(own == kNoNode ? graph.size : first[i][own >= kOdd ? 1U : 0U] + (own & ~kOdd));
+    }
+  });
+  std::vector<EdgeWriter> writers(fine.shares.size(), EdgeWriter(graph));
+  fine.team->run([&](std::size_t i) {
+    for (std::size_t b = fine.shares[i].begin; b < fine.shares[i].end; ++b) {
+      write_edges(fine, blocks.node, b, writers[i]);
+    }
+  });
+  EdgeWriter::finish(graph, writers);
+  return graph;
 }
 
 }  // namespace vantage::detail

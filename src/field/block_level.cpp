@@ -19,11 +19,7 @@ VANTAGE_INLINE Lanes<float> as_floats(const Lanes<std::uint32_t>& counts) {
 
 // Sum of all conductances.
 VANTAGE_INLINE Lanes<float> diagonal_of(const Lanes<std::uint32_t>& packed) {
-  Lanes<std::uint32_t> faces = packed & 7U;
-  for (std::uint32_t face = 1; face < 6; ++face) {
-    faces += packed >> (3U * face) & 7U;
-  }
-  return 0.5F * as_floats(faces) + as_floats(packed >> 18U);
+  return 0.5F * as_floats(packed >> 18U);
 }
 
 struct BlockSums {
@@ -127,8 +123,8 @@ struct Residual {
 }  // namespace
 
 BlockLevel::BlockLevel(const FineLevel& fine) {
-  clear(fine, x, kBrickBlocks);
-  clear(fine, right, kBrickBlocks);
+  make_room(fine, x, kBrickBlocks);
+  make_room(fine, right, kBrickBlocks);
 }
 
 namespace {
@@ -157,7 +153,7 @@ void BlockLevel::relax(const FineLevel& fine, std::size_t brick, bool even) {
   }
 }
 
-void BlockLevel::restrict_brick(const FineLevel& fine, std::size_t brick, std::vector<float>& sums) const {
+void BlockLevel::restrict_brick(const FineLevel& fine, std::size_t brick, AlignedVector<float>& sums) const {
   std::array<float, kBrickBlocks> residual{};
   run(Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
   const std::size_t nodes = sums.size() - 1;
@@ -168,7 +164,7 @@ void BlockLevel::restrict_brick(const FineLevel& fine, std::size_t brick, std::v
   }
 }
 
-void BlockLevel::descend(const FineLevel& fine, std::vector<float>& sums) {
+void BlockLevel::descend(const FineLevel& fine, AlignedVector<float>& sums) {
   in_waves(
       fine, [&](std::size_t b) { begin(fine, b); }, [&](std::size_t b) { relax(fine, b, false); },
       [&](std::size_t b) { relax(fine, b, true); });
@@ -178,7 +174,7 @@ void BlockLevel::descend(const FineLevel& fine, std::vector<float>& sums) {
       [](std::size_t) {});
 }
 
-void BlockLevel::ascend(const FineLevel& fine, const std::vector<float>& correction) {
+void BlockLevel::ascend(const FineLevel& fine, const AlignedVector<float>& correction) {
   in_waves(
       fine,
       [&](std::size_t b) {

@@ -19,8 +19,11 @@ auto* at(Field& field, std::size_t brick) {
 }  // namespace
 
 BrickSolver::BrickSolver(FineLevel fine) : fine_(std::move(fine)), coarse_(fine_), sums_(fine_.brick_count, 0.0) {
-  for (HalfField<float>* field : {&x_, &r_, &z_, &p_, &q_, &red_}) {
-    clear(fine_, *field, kHalfBrick);
+  for (HalfField<float>* field : {&r_, &z_, &q_, &red_}) {
+    make_room(fine_, *field, kHalfBrick);
+  }
+  for (HalfField<float>* field : {&x_, &p_}) {
+    clear(fine_, *field, kHalfBrick);  // they are read before they are written
   }
 }
 

@@ -19,7 +19,7 @@ constexpr int kSweepsOfMany = 20;     // on the last level where it is larger th
 CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
   graphs_.push_back(graph_of_blocks(fine, blocks_));
   while (graphs_.back().size > kDirect) {
-    GraphLevel next = coarsen(graphs_.back());
+    GraphLevel next = coarsen(*fine.team, graphs_.back());
     if (next.size == graphs_.back().size) {
       break;  // regions that only touch at sinks: each is one node already
     }

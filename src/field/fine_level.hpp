@@ -53,7 +53,6 @@ struct FineLevel {
   /// kBesideSink.
   std::array<AlignedVector<std::uint32_t>, 2> faces;
   AlignedVector<std::uint32_t> blocks;  ///< the operator of the blocks, see BlockLevel
-  std::size_t unknowns = 0;
   std::unique_ptr<ThreadTeam> team;
   std::vector<BrickShare> shares;    ///< one for each of the team
   std::vector<std::uint8_t> passes;  ///< that a brick takes part in without being late, of three
@@ -78,11 +77,17 @@ void for_bricks(const FineLevel& fine, const Each& each) {
   });
 }
 
-/// So many zeros for each brick, the empty one included.
+/// Room for so many numbers of each brick, which are 0 in the empty one only.
 template <class T>
-void clear(const FineLevel& fine, AlignedVector<T>& values, std::size_t per_brick) {
+void make_room(const FineLevel& fine, AlignedVector<T>& values, std::size_t per_brick) {
   values.resize(fine.brick_count * per_brick);
   std::fill_n(values.data(), per_brick, T{});
+}
+
+/// So many zeros for each brick.
+template <class T>
+void clear(const FineLevel& fine, AlignedVector<T>& values, std::size_t per_brick) {
+  make_room(fine, values, per_brick);
   for_bricks(fine, [&](std::size_t brick) { std::fill_n(values.data() + brick * per_brick, per_brick, T{}); });
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <numeric>
 #include <utility>
-#include <vantage/geometry/raster_order.hpp>
 
 namespace vantage::detail {
 namespace {
@@ -15,72 +14,63 @@ constexpr float kNodeWeight = 1.15F;
 // Fewer nodes per thread are done before a second thread has begun.
 constexpr std::size_t kGrain = 2000;
 
-VoxelIndex halved(const VoxelIndex& at) { return {at.x >> 1, at.y >> 1, at.z >> 1}; }
-bool is_even(const VoxelIndex& at) { return ((at.x ^ at.y ^ at.z) & 1) == 0; }
-
-// The nodes in the order of their parents: even parents first, each in raster order.
-std::vector<std::uint32_t> by_parent(const std::vector<VoxelIndex>& at) {
-  std::vector<std::uint32_t> order(at.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const VoxelIndex parent_a = halved(at[a]);
-    const VoxelIndex parent_b = halved(at[b]);
-    if (parent_a == parent_b) {
-      return a < b;
-    }
-    return is_even(parent_a) != is_even(parent_b) ? is_even(parent_a) : RasterOrder{}(parent_a, parent_b);
-  });
-  return order;
-}
-
 }  // namespace
 
-GraphLevel::GraphLevel(std::vector<VoxelIndex> addresses, std::vector<float> leaks, const std::vector<Join>& joins)
-    : size(addresses.size()), at(std::move(addresses)), leak(std::move(leaks)) {
-  even = static_cast<std::size_t>(std::count_if(at.begin(), at.end(), is_even));
-  // Sort by counting, then merge what several joins say of one pair.
-  std::vector<std::uint32_t> first(size + 2, 0);
-  for (const Join& join : joins) {
-    ++first[join.a + 2];
-    ++first[join.b + 2];
-  }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Edge> edges(2 * joins.size());
-  for (const Join& join : joins) {
-    edges[first[join.a + 1]++] = {join.b, join.conductance};
-    edges[first[join.b + 1]++] = {join.a, join.conductance};
-  }
-  Six none;
-  none.fill({static_cast<std::uint32_t>(size), 0.0F});
-  six.assign(size, none);
-  first_more.assign(size + 1, 0);
+GraphLevel::GraphLevel(std::size_t nodes, std::size_t even_nodes) : size(nodes), even(even_nodes) {
+  at.resize(size);
+  six.resize(size);
+  leak.resize(size);
   diagonal.resize(size);
   inverse.resize(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    std::size_t count = 0;
-    float sum = leak[i];
-    for (std::uint32_t e = first[i]; e < first[i + 1]; ++e) {
-      sum += edges[e].conductance;
-      std::size_t same = 0;
-      const auto place = [&](std::size_t n) -> Edge& { return n < 6 ? six[i][n] : more[first_more[i] + n - 6]; };
-      while (same < count && place(same).to != edges[e].to) {
-        ++same;
-      }
-      if (same < count) {
-        place(same).conductance += edges[e].conductance;
-        continue;
-      }
-      if (count >= 6) {
-        more.emplace_back();
-      }
-      place(count++) = edges[e];
+  x.resize(size + 1);
+  right.resize(size + 1);
+  x[size] = 0.0F;
+}
+
+void EdgeWriter::join(std::uint32_t to, float conductance) {
+  for (GraphLevel::Edge& edge : edges_) {
+    if (edge.to == to) {
+      edge.conductance += conductance;
+      return;
     }
-    first_more[i + 1] = static_cast<std::uint32_t>(more.size());
-    diagonal[i] = sum;
-    inverse[i] = sum > 0.0F ? 1.0F / sum : 0.0F;
   }
-  x.assign(size + 1, 0.0F);
-  right.assign(size + 1, 0.0F);
+  edges_.push_back({to, conductance});
+}
+
+void EdgeWriter::write(std::uint32_t of) {
+  GraphLevel::Six& six = level_.six[of];
+  six.fill({static_cast<std::uint32_t>(level_.size), 0.0F});
+  float sum = leak_;
+  for (std::size_t n = 0; n < edges_.size(); ++n) {
+    sum += edges_[n].conductance;
+    if (n < six.size()) {
+      six[n] = edges_[n];
+    } else {
+      rest_.push_back({of, edges_[n]});
+    }
+  }
+  level_.leak[of] = leak_;
+  level_.diagonal[of] = sum;
+  level_.inverse[of] = sum > 0.0F ? 1.0F / sum : 0.0F;
+  level_.x[of] = 0.0F;
+  level_.right[of] = 0.0F;
+  edges_.clear();
+  leak_ = 0.0F;
+}
+
+void EdgeWriter::finish(GraphLevel& level, const std::vector<EdgeWriter>& writers) {
+  std::vector<Rest> all;
+  for (const EdgeWriter& writer : writers) {
+    all.insert(all.end(), writer.rest_.begin(), writer.rest_.end());
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Rest& a, const Rest& b) { return a.of < b.of; });
+  level.first_more.assign(level.size + 1, 0);
+  level.more.reserve(all.size());
+  for (const Rest& rest : all) {
+    ++level.first_more[rest.of + 1];
+    level.more.push_back(rest.edge);
+  }
+  std::partial_sum(level.first_more.begin(), level.first_more.end(), level.first_more.begin());
 }
 
 // Sum of conductance * neighbour.
@@ -124,7 +114,7 @@ void GraphLevel::smooth_from_zero(ThreadTeam& team) {
   });
 }
 
-void GraphLevel::restrict_to(ThreadTeam& team, std::vector<float>& sums) const {
+void GraphLevel::restrict_to(ThreadTeam& team, AlignedVector<float>& sums) const {
   team.split(first_child.size() - 1, kGrain / 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t to = begin; to < end; ++to) {
       float sum = 0.0F;
@@ -137,7 +127,7 @@ void GraphLevel::restrict_to(ThreadTeam& team, std::vector<float>& sums) const {
   });
 }
 
-void GraphLevel::prolong(ThreadTeam& team, const std::vector<float>& correction) {
+void GraphLevel::prolong(ThreadTeam& team, const AlignedVector<float>& correction) {
   team.split(size, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       x[i] += correction[node[i]];
@@ -149,50 +139,6 @@ std::size_t GraphLevel::memory_bytes() const {
   return bytes_of(at) + bytes_of(six) + bytes_of(first_more) + bytes_of(more) + bytes_of(diagonal) + bytes_of(leak) +
          bytes_of(inverse) + bytes_of(node) + bytes_of(children) + bytes_of(first_child) + bytes_of(x) +
          bytes_of(right);
-}
-
-GraphLevel coarsen(GraphLevel& finer) {
-  finer.node.assign(finer.size, kNoNode);
-  std::vector<VoxelIndex> at;
-  std::vector<std::uint32_t> queue;
-  for (const std::uint32_t seed : by_parent(finer.at)) {
-    if (finer.node[seed] != kNoNode) {
-      continue;
-    }
-    const auto number = static_cast<std::uint32_t>(at.size());
-    at.push_back(halved(finer.at[seed]));
-    finer.node[seed] = number;
-    queue.assign(1, seed);
-    for (std::size_t next = 0; next < queue.size(); ++next) {
-      finer.for_each_edge(queue[next], [&](const GraphLevel::Edge& edge) {
-        if (finer.node[edge.to] == kNoNode && halved(finer.at[edge.to]) == at.back()) {
-          finer.node[edge.to] = number;
-          queue.push_back(edge.to);
-        }
-      });
-    }
-  }
-  finer.first_child.assign(at.size() + 1, 0);
-  for (const std::uint32_t parent : finer.node) {
-    ++finer.first_child[parent + 1];
-  }
-  std::partial_sum(finer.first_child.begin(), finer.first_child.end(), finer.first_child.begin());
-  finer.children.resize(finer.size);
-  std::vector<std::uint32_t> next_place(finer.first_child.begin(), finer.first_child.end() - 1);
-  for (std::uint32_t i = 0; i < finer.size; ++i) {
-    finer.children[next_place[finer.node[i]]++] = i;
-  }
-  std::vector<float> leaks(at.size(), 0.0F);
-  std::vector<GraphLevel::Join> joins;
-  for (std::uint32_t i = 0; i < finer.size; ++i) {
-    leaks[finer.node[i]] += kOverCorrection * finer.leak[i];
-    finer.for_each_edge(i, [&](const GraphLevel::Edge& edge) {
-      if (i < edge.to && finer.node[i] != finer.node[edge.to]) {
-        joins.push_back({finer.node[i], finer.node[edge.to], kOverCorrection * edge.conductance});
-      }
-    });
-  }
-  return {std::move(at), std::move(leaks), joins};
 }
 
 }  // namespace vantage::detail
