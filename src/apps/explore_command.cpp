@@ -9,6 +9,7 @@
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
 #include <vantage/sim/exploration_run.hpp>
+#include <vantage/sim/watchman_route.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
@@ -53,6 +54,23 @@ std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
   }
   return std::make_shared<const FreeFlyer>(
       FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
+}
+
+void print_bound(std::ostream& out, const WatchmanRoute& route, double travelled_m) {
+  char line[300];
+  if (route.sees_all) {
+    std::snprintf(line, sizeof line, "  bound        %.2f m, for one who knows the world, to see all of it",
+                  route.length_m);
+  } else {
+    std::snprintf(line, sizeof line, "  bound        more than %.2f m, for one who knows the world, to see all of it",
+                  route.length_m);
+  }
+  out << line;
+  if (route.length_m > 0.0) {
+    std::snprintf(line, sizeof line, "; this run travelled %.2f times as far", travelled_m / route.length_m);
+    out << line;
+  }
+  out << '\n' << std::flush;
 }
 
 int explore(const ExploreRequest& request) {
@@ -106,6 +124,12 @@ int explore(const ExploreRequest& request) {
   record.threads = request.threads;
   record.resolution_m = request.resolution_m;
   printer.summary(record);
+  if (request.bound) {
+    print_bound(
+        progress,
+        watchman_route(run.truth(), *platform, sensor, record.views.front().pose, {.threads = request.threads}),
+        record.path_length_m());
+  }
   recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, pictures.pictures(), progress,
@@ -170,6 +194,10 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->group("Run");
   command->add_flag("--wear", request->wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
+      ->group("Run");
+  command
+      ->add_flag("--bound", request->bound,
+                 "At the end, tell how short a way could have seen everything, for one who knows the world; slow")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);

@@ -34,6 +34,7 @@ struct ExploreRequest {
   std::string band;
   bool look_around = false;
   bool wear = false;
+  bool bound = false;
   double noise = 0.0;
   std::string pose_noise;  // "metres,degrees"
   std::size_t max_views = 500;

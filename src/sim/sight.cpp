@@ -97,8 +97,25 @@ class PoseBlocks {
 }  // namespace
 
 bool Sight::sees(const VoxelIndex& pose, const VoxelIndex& cell) const {
+  return sees_point(pose, cell, frame_.centre_of(cell));
+}
+
+bool Sight::sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const {
+  constexpr double kInside = 0.49;  // cells from the middle
+  if (sees(pose, cell)) {
+    return true;
+  }
+  for (int part = 0; part < 27; ++part) {
+    const Eigen::Vector3d towards(part % 3 - 1, part / 3 % 3 - 1, part / 9 - 1);
+    if (sees_point(pose, cell, frame_.centre_of(cell) + kInside * frame_.size_m * towards)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Sight::sees_point(const VoxelIndex& pose, const VoxelIndex& cell, const Eigen::Vector3d& to) const {
   const Eigen::Vector3d from = frame_.centre_of(pose);
-  const Eigen::Vector3d to = frame_.centre_of(cell);
   const double distance_m = (to - from).norm();
   const bool surface = !is_free(cell);
   if (distance_m > sensor_.max_range_m || (surface && distance_m < sensor_.min_range_m)) {

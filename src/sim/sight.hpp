@@ -14,7 +14,10 @@ class Sight {
   Sight(const VoxelGrid<CellTruth>& cells, const VoxelFrame& frame, const RangeSensor& sensor, bool can_tilt)
       : cells_(cells), frame_(frame), sensor_(sensor), can_tilt_(can_tilt) {}
 
+  /// The middle of the cell.
   [[nodiscard]] bool sees(const VoxelIndex& pose, const VoxelIndex& cell) const;
+  /// The middle of the cell, or a point just inside one of its faces, edges or corners.
+  [[nodiscard]] bool sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const;
   [[nodiscard]] bool is_free(const VoxelIndex& cell) const {
     return cells_.value_or(cell, CellTruth::Free) == CellTruth::Free;
   }
@@ -22,6 +25,7 @@ class Sight {
   [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
 
  private:
+  [[nodiscard]] bool sees_point(const VoxelIndex& pose, const VoxelIndex& cell, const Eigen::Vector3d& to) const;
   [[nodiscard]] bool ends_on_a_surface(const Eigen::Vector3d& pose_m, const Eigen::Vector3d& cell_m) const;
 
   const VoxelGrid<CellTruth>& cells_;

@@ -37,6 +37,8 @@ class Truth {
 
   /// True state of a cell.
   [[nodiscard]] CellTruth at(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free); }
+  /// True states of the region and, around it, of what a ray may end on.
+  [[nodiscard]] const VoxelGrid<CellTruth>& cells() const { return cells_; }
   /// Every cell of the region as known: free ones free, grazed and occupied ones occupied. What Platform asks about.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
 

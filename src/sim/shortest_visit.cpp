@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "sim/shortest_visit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+namespace vantage {
+namespace {
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+// States in the order of their cost, a bucket for each whole number of cells: no step is shorter than one, so what a
+// state leads to comes in a later bucket, but for rounding, and then later in the same.
+class Buckets {
+ public:
+  void push(std::size_t state, float cost) {
+    const auto bucket = static_cast<std::size_t>(cost);
+    if (bucket >= buckets_.size()) {
+      buckets_.resize(bucket + 1);
+    }
+    buckets_[bucket].push_back({state, cost});
+  }
+
+  // Calls `settle(state)` in the order of cost, unless `cost[state]` has become less since it was pushed, until
+  // `done()` says so between two buckets.
+  template <class Settle, class Done>
+  void run(const std::vector<float>& cost, const Settle& settle, const Done& done) {
+    for (std::size_t bucket = 0; bucket < buckets_.size() && !done(); ++bucket) {
+      for (std::size_t i = 0; i < buckets_[bucket].size(); ++i) {
+        const Entry entry = buckets_[bucket][i];
+        if (entry.cost <= cost[entry.state]) {
+          settle(entry.state);
+        }
+      }
+      buckets_[bucket] = {};
+    }
+  }
+
+ private:
+  struct Entry {
+    std::size_t state;
+    float cost;
+  };
+  std::vector<std::vector<Entry>> buckets_;
+};
+
+// Calls `use(number, length)` for every cell that a wide step leads to.
+template <class Use>
+void for_each_step(const ReachableSpace& space, std::size_t cell, const Use& use) {
+  for (const WideStep& step : wide_steps()) {
+    const std::uint32_t to = space.number_of(space.cells()[cell] + step.by);
+    if (to != ReachableSpace::kOutside) {
+      use(to, step.length);
+    }
+  }
+}
+
+// Dijkstra over cells and the sets visited on the way there: state = visited * cells + cell.
+class VisitSearch {
+ public:
+  VisitSearch(const ReachableSpace& space, std::span<const std::uint16_t> member, std::size_t sets)
+      : space_(space), member_(member), all_((std::size_t{1} << sets) - 1), cost_(space.size() << sets, kNever) {}
+
+  Visit run() {
+    std::size_t last = cost_.size();
+    const auto offer = [&](std::size_t state, float cost) {
+      if (cost < cost_[state]) {
+        cost_[state] = cost;
+        queue_.push(state, cost);
+      }
+    };
+    offer(state_at(0, 0), 0.0F);
+    queue_.run(
+        cost_,
+        [&](std::size_t state) {
+          if (state / space_.size() == all_) {
+            last = last == cost_.size() || cost_[state] < cost_[last] ? state : last;
+            return;
+          }
+          for_each_step(space_, state % space_.size(), [&](std::uint32_t to, float length) {
+            offer(state_at(to, state / space_.size()), cost_[state] + length);
+          });
+        },
+        [&] { return last != cost_.size(); });
+    return last == cost_.size() ? Visit{} : way_to(last);
+  }
+
+ private:
+  std::size_t state_at(std::size_t cell, std::size_t visited_before) const {
+    return (visited_before | member_[cell]) * space_.size() + cell;
+  }
+
+  // Back along the steps by which each state got its cost.
+  Visit way_to(std::size_t state) const {
+    Visit visit{{}, cost_[state]};
+    while (cost_[state] > 0.0F) {
+      visit.cells.push_back(static_cast<std::uint32_t>(state % space_.size()));
+      state = before(state);
+    }
+    visit.cells.push_back(static_cast<std::uint32_t>(state % space_.size()));
+    std::reverse(visit.cells.begin(), visit.cells.end());
+    return visit;
+  }
+  std::size_t before(std::size_t state) const {
+    std::size_t found = state;
+    for_each_step(space_, state % space_.size(), [&](std::uint32_t from, float length) {
+      for (std::size_t visited = 0; visited <= all_ && found == state; ++visited) {
+        const std::size_t earlier = visited * space_.size() + from;
+        if (cost_[earlier] + length == cost_[state] && state_at(state % space_.size(), visited) == state) {
+          found = earlier;
+        }
+      }
+    });
+    return found;
+  }
+
+  const ReachableSpace& space_;
+  std::span<const std::uint16_t> member_;
+  std::size_t all_;
+  std::vector<float> cost_;
+  Buckets queue_;
+};
+
+}  // namespace
+
+const std::vector<WideStep>& wide_steps() {
+  static const std::vector<WideStep> kSteps = [] {
+    std::vector<WideStep> steps;
+    for_each_cell({{-2, -2, -2}, {3, 3, 3}}, [&](const VoxelIndex& by) {
+      if (std::gcd(std::gcd(by.x, by.y), by.z) == 1) {
+        steps.push_back({by, std::sqrt(static_cast<float>(by.x * by.x + by.y * by.y + by.z * by.z))});
+      }
+    });
+    return steps;
+  }();
+  return kSteps;
+}
+
+std::vector<float> distances_from(const ReachableSpace& space, std::span<const std::uint32_t> from) {
+  std::vector<float> distance(space.size(), kNever);
+  Buckets queue;
+  for (const std::uint32_t cell : from) {
+    distance[cell] = 0.0F;
+    queue.push(cell, 0.0F);
+  }
+  queue.run(
+      distance,
+      [&](std::size_t cell) {
+        for_each_step(space, cell, [&](std::uint32_t to, float length) {
+          if (distance[cell] + length < distance[to]) {
+            distance[to] = distance[cell] + length;
+            queue.push(to, distance[to]);
+          }
+        });
+      },
+      [] { return false; });
+  return distance;
+}
+
+Visit shortest_visit(const ReachableSpace& space, std::span<const std::uint16_t> member, std::size_t sets) {
+  return VisitSearch(space, member, sets).run();
+}
+
+}  // namespace vantage
