@@ -56,18 +56,21 @@ std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
       FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
 }
 
-void print_bound(std::ostream& out, const WatchmanRoute& route, double travelled_m) {
-  char line[300];
-  if (route.sees_all) {
-    std::snprintf(line, sizeof line, "  bound        %.2f m, for one who knows the world, to see all of it",
-                  route.length_m);
-  } else {
-    std::snprintf(line, sizeof line, "  bound        more than %.2f m, for one who knows the world, to see all of it",
-                  route.length_m);
+// How far the run has travelled beside the shortest way of one who knows the world.
+void print_bound(const ExploreRequest& request, const ExplorationRun& run, const Platform& platform,
+                 const RangeSensor& sensor, const RunRecord& record, std::ostream& out) {
+  if (!request.bound) {
+    return;
   }
+  const WatchmanRoute route =
+      watchman_route(run.truth(), platform, sensor, record.views.front().pose, {.threads = request.threads});
+  char line[200];
+  std::snprintf(line, sizeof line, "  bound        %s%.2f m for one who knows the world, to see all of it",
+                route.sees_all ? "" : "more than ", route.length_m);
   out << line;
   if (route.length_m > 0.0) {
-    std::snprintf(line, sizeof line, "; this run travelled %.2f times as far", travelled_m / route.length_m);
+    std::snprintf(line, sizeof line, "; this run travelled %.2f times as far",
+                  record.path_length_m() / route.length_m);
     out << line;
   }
   out << '\n' << std::flush;
@@ -124,12 +127,7 @@ int explore(const ExploreRequest& request) {
   record.threads = request.threads;
   record.resolution_m = request.resolution_m;
   printer.summary(record);
-  if (request.bound) {
-    print_bound(
-        progress,
-        watchman_route(run.truth(), *platform, sensor, record.views.front().pose, {.threads = request.threads}),
-        record.path_length_m());
-  }
+  print_bound(request, run, *platform, sensor, record, progress);
   recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, pictures.pictures(), progress,

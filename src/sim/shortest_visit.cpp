@@ -127,7 +127,7 @@ class VisitSearch {
 }  // namespace
 
 const std::vector<WideStep>& wide_steps() {
-  static const std::vector<WideStep> kSteps = [] {
+  static const std::vector<WideStep> all_steps = [] {
     std::vector<WideStep> steps;
     for_each_cell({{-2, -2, -2}, {3, 3, 3}}, [&](const VoxelIndex& by) {
       if (std::gcd(std::gcd(by.x, by.y), by.z) == 1) {
@@ -136,7 +136,7 @@ const std::vector<WideStep>& wide_steps() {
     });
     return steps;
   }();
-  return kSteps;
+  return all_steps;
 }
 
 std::vector<float> distances_from(const ReachableSpace& space, std::span<const std::uint32_t> from) {

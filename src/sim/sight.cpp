@@ -105,9 +105,9 @@ bool Sight::sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const {
   if (sees(pose, cell)) {
     return true;
   }
-  for (int part = 0; part < 27; ++part) {
-    const Eigen::Vector3d towards(part % 3 - 1, part / 3 % 3 - 1, part / 9 - 1);
-    if (sees_point(pose, cell, frame_.centre_of(cell) + kInside * frame_.size_m * towards)) {
+  const Eigen::Vector3d middle = frame_.centre_of(cell);
+  for (const VoxelIndex& part : kAllNeighbours) {
+    if (sees_point(pose, cell, middle + kInside * frame_.size_m * Eigen::Vector3d(part.x, part.y, part.z))) {
       return true;
     }
   }
