@@ -43,10 +43,10 @@ std::uint32_t piece_of(const std::uint32_t* packed, const Octet& octet, std::siz
 }
 
 // The pieces found in the bricks of a share, by parity.
-using Pieces = std::array<std::vector<VoxelIndex>, 2>;
+using BrickPieces = std::array<std::vector<VoxelIndex>, 2>;
 constexpr std::uint32_t kOdd = 0x80000000U;  // set in the number of an odd piece, among those of its share
 
-void find_pieces(const FineLevel& fine, std::size_t brick, std::uint32_t* node, Pieces& pieces) {
+void find_brick_pieces(const FineLevel& fine, std::size_t brick, std::uint32_t* node, BrickPieces& pieces) {
   const std::uint32_t* packed = fine.blocks.data() + brick * kBrickBlocks;
   const VoxelIndex& address = fine.address[brick];
   for (std::size_t number = 0; number < 16; ++number) {
@@ -82,8 +82,8 @@ std::size_t block_beside(const FineLevel& fine, std::size_t brick, std::size_t b
 }
 
 // The edges of the nodes of a brick.
-void write_edges(const FineLevel& fine, const AlignedVector<std::uint32_t>& node, std::size_t brick,
-                 EdgeWriter& writer) {
+void write_brick_edges(const FineLevel& fine, const AlignedVector<std::uint32_t>& node, std::size_t brick,
+                       EdgeWriter& writer) {
   for (std::size_t number = 0; number < 16; ++number) {
     const Octet octet(number);
     std::uint32_t todo = 0;
@@ -120,12 +120,12 @@ void write_edges(const FineLevel& fine, const AlignedVector<std::uint32_t>& node
 
 GraphLevel graph_of_blocks(const FineLevel& fine, BlockLevel& blocks) {
   blocks.node.resize(fine.brick_count * kBrickBlocks);
-  std::vector<Pieces> found(fine.shares.size());
+  std::vector<BrickPieces> found(fine.shares.size());
   fine.team->run([&](std::size_t i) {
     for (std::size_t b = fine.shares[i].begin; b < fine.shares[i].end; ++b) {
       std::uint32_t* node = blocks.node.data() + b * kBrickBlocks;
       std::fill_n(node, kBrickBlocks, kNoNode);
-      find_pieces(fine, b, node, found[i]);
+      find_brick_pieces(fine, b, node, found[i]);
     }
   });
   std::vector<std::array<std::size_t, 2>> first(fine.shares.size());
@@ -152,7 +152,7 @@ GraphLevel graph_of_blocks(const FineLevel& fine, BlockLevel& blocks) {
   std::vector<EdgeWriter> writers(fine.shares.size(), EdgeWriter(graph));
   fine.team->run([&](std::size_t i) {
     for (std::size_t b = fine.shares[i].begin; b < fine.shares[i].end; ++b) {
-      write_edges(fine, blocks.node, b, writers[i]);
+      write_brick_edges(fine, blocks.node, b, writers[i]);
     }
   });
   EdgeWriter::finish(graph, writers);

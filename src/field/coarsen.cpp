@@ -11,7 +11,7 @@ namespace {
 // Fewer nodes are sorted before a second thread has begun.
 constexpr std::size_t kFewestNodes = 4000;
 
-VoxelIndex halved(const VoxelIndex& at) { return {at.x >> 1, at.y >> 1, at.z >> 1}; }
+VoxelIndex cube_of(const VoxelIndex& at) { return {at.x >> 1, at.y >> 1, at.z >> 1}; }
 
 // A node and the cube of 2 x 2 x 2 it lies in: even cubes first, each in raster order.
 struct Placed {
@@ -21,7 +21,7 @@ struct Placed {
 
   Placed() = default;
   Placed(const VoxelIndex& at, std::uint32_t number) : node(number) {
-    const VoxelIndex cube = halved(at);
+    const VoxelIndex cube = cube_of(at);
     const auto above = [](std::int32_t coordinate) {
       return std::uint64_t{static_cast<std::uint32_t>(coordinate) ^ 0x80000000U};
     };
@@ -76,7 +76,7 @@ struct Pieces {
     children.push_back(seed);
     for (; next < children.size(); ++next) {
       finer.for_each_edge(children[next], [&](const GraphLevel::Edge& edge) {
-        if (halved(finer.at[edge.to]) == cube && finer.node[edge.to] == kNoNode) {
+        if (cube_of(finer.at[edge.to]) == cube && finer.node[edge.to] == kNoNode) {
           finer.node[edge.to] = number;
           children.push_back(edge.to);
         }
@@ -104,7 +104,7 @@ std::vector<Pieces> find_pieces(ThreadTeam& team, GraphLevel& finer) {
     }
     for (std::size_t i = start(part); i < end; ++i) {
       if (const std::uint32_t seed = order[i].node; finer.node[seed] == kNoNode) {
-        parts[part].add(finer, halved(finer.at[seed]), seed);
+        parts[part].add(finer, cube_of(finer.at[seed]), seed);
       }
     }
   });
@@ -112,13 +112,13 @@ std::vector<Pieces> find_pieces(ThreadTeam& team, GraphLevel& finer) {
 }
 
 // Where the nodes and children of each part begin.
-struct Begin {
+struct PartBegin {
   std::size_t node = 0;
   std::size_t child = 0;
 };
 
 // Writes the addresses of a part's nodes, and what the finer level knows of them.
-void number_part(GraphLevel& finer, GraphLevel& coarser, const Pieces& pieces, const Begin& begin) {
+void number_part(GraphLevel& finer, GraphLevel& coarser, const Pieces& pieces, const PartBegin& begin) {
   std::size_t c = 0;
   for (std::size_t n = 0; n < pieces.at.size(); ++n) {
     const std::size_t number = begin.node + n;
@@ -153,8 +153,8 @@ GraphLevel coarsen(ThreadTeam& team, GraphLevel& finer) {
   finer.node.resize(finer.size);
   finer.children.resize(finer.size);
   const std::vector<Pieces> parts = find_pieces(team, finer);
-  std::vector<Begin> begins;
-  Begin end;
+  std::vector<PartBegin> begins;
+  PartBegin end;
   std::size_t even = 0;
   for (const Pieces& pieces : parts) {
     begins.push_back(end);

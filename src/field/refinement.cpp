@@ -232,7 +232,6 @@ double Refinement::source_value(const FineLevel& fine, const Step& step) const {
 
 template <bool checked>
 void Refinement::pass(const FineLevel& fine, const Step& step, const Remainder& remainder) {
-  const Doubt doubt(values_.at_source);
   in_waves(
       fine,
       [&](std::size_t b) {
@@ -241,16 +240,17 @@ void Refinement::pass(const FineLevel& fine, const Step& step, const Remainder& 
       [&](std::size_t b) {
         double doubtful = -1.0;
         run(RedUpdate<checked>{fine.faces[kRed].data() + b * kBrickRows, Around<double>(fine, values_.u[kBlack], b),
-                               values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_), doubt,
-                               &doubtful});
+                               values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_),
+                               Doubt(values_.at_source), &doubtful});
         partial_[b].stuck = doubtful >= 0.0 ? stuck_in<kRed>(fine, values_, b) : 0.0;
       },
       [&](std::size_t b) {
         double doubtful = -1.0;
-        run(BlackDefect<checked>{
-            fine.faces[kBlack].data() + b * kBrickRows, values_.u[kBlack].data() + b * kHalfBrick,
-            Around<double>(fine, values_.u[kRed], b), Load(source_, b, kBlack, uniform_), doubt, 1.0 / remainder.unit,
-            remainder.residual.data() + b * kHalfBrick, &partial_[b].square, &partial_[b].largest, &doubtful});
+        run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows,
+                                 values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
+                                 Load(source_, b, kBlack, uniform_), Doubt(values_.at_source), 1.0 / remainder.unit,
+                                 remainder.residual.data() + b * kHalfBrick, &partial_[b].square,
+                                 &partial_[b].largest, &doubtful});
         partial_[b].stuck += doubtful >= 0.0 ? stuck_in<kBlack>(fine, values_, b) : 0.0;
       });
 }
