@@ -44,11 +44,15 @@ VANTAGE_TARGET_AVX512 std::pair<double, double> range_avx512(const RayBlock::Per
     least = _mm512_mask_min_pd(least, some, least, eight);
     most = _mm512_mask_max_pd(most, some, most, eight);
   }
-  alignas(64) std::array<double, 8> lows;
-  alignas(64) std::array<double, 8> highs;
-  _mm512_store_pd(lows.data(), least);
-  _mm512_store_pd(highs.data(), most);
-  return {*std::min_element(lows.begin(), lows.end()), *std::max_element(highs.begin(), highs.end())};
+  constexpr __mmask8 kFour = 15;
+  const __m256d low =
+      _mm256_min_pd(_mm512_maskz_extractf64x4_pd(kFour, least, 0), _mm512_maskz_extractf64x4_pd(kFour, least, 1));
+  const __m256d high =
+      _mm256_max_pd(_mm512_maskz_extractf64x4_pd(kFour, most, 0), _mm512_maskz_extractf64x4_pd(kFour, most, 1));
+  const __m128d two_low = _mm_min_pd(_mm256_castpd256_pd128(low), _mm256_extractf128_pd(low, 1));
+  const __m128d two_high = _mm_max_pd(_mm256_castpd256_pd128(high), _mm256_extractf128_pd(high, 1));
+  return {_mm_cvtsd_f64(_mm_min_sd(two_low, _mm_unpackhi_pd(two_low, two_low))),
+          _mm_cvtsd_f64(_mm_max_sd(two_high, _mm_unpackhi_pd(two_high, two_high)))};
 }
 
 VANTAGE_TARGET_AVX2 std::pair<double, double> range_avx2(const RayBlock::PerRay<double>& values,

@@ -137,11 +137,15 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
   RayBlock block;
   constexpr double kLooseness = 1e-5;  // of rotations
   const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
-  for (const TileGroup& group : rays.groups()) {
+  for (std::size_t g = 0; g < rays.groups().size(); ++g) {
+    const TileGroup& group = rays.groups()[g];
     const Meeting of_group = culling.meeting(group.cone);
     const double free_m = free_way(rays, group, of_group, culling, free_cone);
     if (free_m >= culling.furthest_m()) {
       continue;
+    }
+    if (end_behind) {
+      together.enter(group, rays.hulls()[g], free_m);
     }
     for (std::size_t i = group.first; i < group.last; ++i) {
       const RayCone& cone = rays.cones()[i];
@@ -153,7 +157,7 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
       prefetch(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
       std::uint64_t left = meeting == Meeting::All ? tile.rays : culling.meeting(tile);
       if (end_behind) {
-        left = together.walk(tile, cone, left, free_m, stamps);
+        left = together.walk(tile, i - group.first, left, stamps);
       }
       if (left != 0) {
         placer.place_ends(tile, block);

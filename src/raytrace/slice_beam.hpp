@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map/instruction_set.hpp>
 #include <raytrace/tile_hits.hpp>
 #include <vantage/geometry/voxel.hpp>
 
@@ -15,6 +16,21 @@ struct LateralCells {
 
   /// How many there are along a lateral axis.
   [[nodiscard]] std::int32_t extent(std::size_t lateral) const { return hi[lateral] - lo[lateral] + 1; }
+};
+
+/// The same for some layers of words, one after the other on the way of rays, each with as many slices.
+struct LateralLayers {
+  static constexpr std::size_t kLayers = 8;
+  template <class T>
+  using PerLayer = std::array<T, kLayers>;
+
+  /// Those of a layer.
+  [[nodiscard]] LateralCells operator[](std::size_t layer) const {
+    return {{lo[0][layer], lo[1][layer]}, {hi[0][layer], hi[1][layer]}};
+  }
+
+  alignas(32) std::array<PerLayer<std::int32_t>, 2> lo{};
+  alignas(32) std::array<PerLayer<std::int32_t>, 2> hi{};
 };
 
 /// Neighbouring rays from one origin that advance fastest along the same axis, in the same direction: through which
@@ -54,6 +70,10 @@ struct SliceBeam {
     }
     return cells;
   }
+  /// The same for the layer of this slice, from it on, and those behind it; of a slice after that of the origin, up
+  /// to kLastOfLayers.
+  [[nodiscard]] LateralLayers layers_from(std::int64_t slice, InstructionSet set) const;
+  static constexpr std::int64_t kLastOfLayers = 1 << 19;
   /// The last slice in which a ray may be in a box.
   [[nodiscard]] std::int64_t last_slice_of(const VoxelBox& box) const;
 

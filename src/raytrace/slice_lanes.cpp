@@ -132,12 +132,21 @@ VANTAGE_TARGET_AVX512 inline Order16 order_of(__m512 until_u, __m512 until_v, __
           _mm512_cmp_ps_mask(v_later, _mm512_set1_ps(-kDoubtOfOrder), _CMP_LE_OQ)};
 }
 
-VANTAGE_TARGET_AVX512 inline void stop_at(__m512i row, __m512i column, std::size_t slice, __mmask16 stopped,
-                                          std::int32_t* where) {
+VANTAGE_TARGET_AVX512 inline __m512i stopped_at(__m512i where, __mmask16 stopped, __m512i row, __m512i column,
+                                                std::size_t slice) {
   const __m512i first = _mm512_set1_epi32(static_cast<std::int32_t>(slice) * 512);
   const __m512i cell =
       _mm512_maskz_or_epi32(kAll, _mm512_maskz_slli_epi32(kAll, row, 5), _mm512_maskz_or_epi32(kAll, column, first));
-  _mm512_mask_store_epi32(where, stopped, cell);
+  return _mm512_mask_mov_epi32(where, stopped, cell);
+}
+
+// Whether any of the cells in these columns of these rows is set.
+VANTAGE_TARGET_AVX512 inline __mmask16 any_is_set(__m512i row, __m512i other_row, __m512i column, __m512i other) {
+  const __m512i in_row = _mm512_maskz_or_epi32(kAll, _mm512_maskz_rorv_epi32(kAll, row, column),
+                                               _mm512_maskz_rorv_epi32(kAll, row, other));
+  const __m512i in_other = _mm512_maskz_or_epi32(kAll, _mm512_maskz_rorv_epi32(kAll, other_row, column),
+                                                 _mm512_maskz_rorv_epi32(kAll, other_row, other));
+  return _mm512_test_epi32_mask(_mm512_maskz_or_epi32(kAll, in_row, in_other), _mm512_set1_epi32(1));
 }
 
 VANTAGE_TARGET_AVX512 void walk_avx512(const SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
@@ -148,55 +157,54 @@ VANTAGE_TARGET_AVX512 void walk_avx512(const SliceLanes& lanes, const SliceWindo
   __m512i v = _mm512_load_si512(&lanes.v[first]);
   __m512i column = cell_of(u);
   __m512i row = cell_of(v);
-  std::int32_t* const where = &hits.where[first];
+  __m512i where = _mm512_load_si512(&hits.where[first]);
   auto doubtful = static_cast<__mmask16>(near_edge(u, v) & active);
   __mmask16 stopped = 0;
   active = static_cast<__mmask16>(active & ~doubtful);
   for (std::size_t slice = 0; slice < windows.count && active != 0; ++slice) {
     const __m512i window = _mm512_load_si512(windows.rows[slice].data());
     const __m512i here = _mm512_maskz_permutexvar_epi32(kAll, row, window);
-    const auto at_once = static_cast<__mmask16>(is_set(here, column) & active);
-    stop_at(row, column, slice, at_once, where);
-    active = static_cast<__mmask16>(active & ~at_once);
-    stopped |= at_once;
-    if (active == 0) {
-      break;
-    }
     const __m512i to_u = _mm512_add_epi32(u, step_u);
     const __m512i to_v = _mm512_add_epi32(v, step_v);
     const __m512i to_column = cell_of(to_u);
     const __m512i to_row = cell_of(to_v);
-    const auto unsure = static_cast<__mmask16>(near_edge(to_u, to_v) & active);
-    doubtful |= unsure;
-    active = static_cast<__mmask16>(active & ~unsure);
     const __m512i there = _mm512_maskz_permutexvar_epi32(kAll, to_row, window);
-    const __mmask16 turns = _mm512_mask_cmpneq_epi32_mask(active, column, to_column);
-    const __mmask16 both = _mm512_mask_cmpneq_epi32_mask(turns, row, to_row);
-    if (both != 0) {
+    auto unsure = near_edge(to_u, to_v);
+    if (((unsure | any_is_set(here, there, column, to_column)) & active) != 0) {  // else nothing happens to any
+      const auto at_once = static_cast<__mmask16>(is_set(here, column) & active);
+      where = stopped_at(where, at_once, row, column, slice);
+      active = static_cast<__mmask16>(active & ~at_once);
+      unsure = static_cast<__mmask16>(unsure & active);
+      doubtful |= unsure;
+      active = static_cast<__mmask16>(active & ~unsure);
+      const __mmask16 turns = _mm512_mask_cmpneq_epi32_mask(active, column, to_column);
+      const __mmask16 both = _mm512_mask_cmpneq_epi32_mask(turns, row, to_row);
       const auto by_u = static_cast<__mmask16>(is_set(here, to_column) & both);
       const auto by_v = static_cast<__mmask16>(is_set(there, column) & both);
+      stopped |= at_once;
       if ((by_u | by_v) != 0) {
         const auto [u_first, v_first] =
             order_of(until_face(column, to_column, u), until_face(row, to_row, v), step_u, step_v);
         const auto stopped_by_u = static_cast<__mmask16>(by_u & u_first);
         const auto stopped_by_v = static_cast<__mmask16>(by_v & v_first);
         const auto not_known = static_cast<__mmask16>((by_u | by_v) & ~(u_first | v_first));
-        stop_at(row, to_column, slice, stopped_by_u, where);
-        stop_at(to_row, column, slice, stopped_by_v, where);
+        where = stopped_at(where, stopped_by_u, row, to_column, slice);
+        where = stopped_at(where, stopped_by_v, to_row, column, slice);
         stopped |= static_cast<__mmask16>(stopped_by_u | stopped_by_v);
         doubtful |= not_known;
         active = static_cast<__mmask16>(active & ~(stopped_by_u | stopped_by_v | not_known));
       }
+      const auto at_last = static_cast<__mmask16>(is_set(there, to_column) & active);
+      where = stopped_at(where, at_last, to_row, to_column, slice);
+      stopped |= at_last;
+      active = static_cast<__mmask16>(active & ~at_last);
     }
-    const auto at_last = static_cast<__mmask16>(is_set(there, to_column) & active);
-    stop_at(to_row, to_column, slice, at_last, where);
-    stopped |= at_last;
-    active = static_cast<__mmask16>(active & ~at_last);
     u = to_u;
     v = to_v;
     column = to_column;
     row = to_row;
   }
+  _mm512_store_si512(&hits.where[first], where);
   hits.stopped |= std::uint64_t{stopped} << first;
   hits.doubtful |= std::uint64_t{doubtful} << first;
 }

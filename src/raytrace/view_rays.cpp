@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map/sensor_frame.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +17,7 @@ namespace {
 
 constexpr std::size_t kSide = 8;               // rays of a tile
 constexpr std::size_t kGroupSide = 4 * kSide;  // and of a group
+static_assert(kGroupSide * kGroupSide == TileHulls::kTiles * RayTile::kRays);
 
 // Column and row in a tile of the place `place`: its even and its odd bits.
 std::size_t column_of(std::size_t place) { return (place & 1U) | (place >> 1U & 2U) | (place >> 2U & 4U); }
@@ -38,6 +42,39 @@ RayCone cone_around(std::span<const RayTile> tiles) {
   cone.cos_half_angle = std::max(least - kRounding, -1.0);
   cone.sin_half_angle = std::sqrt(1.0 - cone.cos_half_angle * cone.cos_half_angle);
   return cone;
+}
+
+// Corners of the smallest rectangle around the directions of a tile in a plane that all of them meet; none, if there
+// is no such plane.
+std::optional<std::array<Eigen::Vector3f, 4>> corners_of(const RayTile& tile, const RayCone& cone) {
+  constexpr double kFlattest = 0.1;  // cosine of the angle to the axis of the plane
+  if (cone.cos_half_angle < kFlattest) {
+    return std::nullopt;
+  }
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  for (std::size_t place = 0; place < RayTile::kRays; ++place) {
+    if (tile.direction(place).cast<double>().normalized().z() < kFlattest) {  // not as an image has them
+      frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), cone.axis).toRotationMatrix();
+      break;
+    }
+  }
+  Eigen::Array2d least = Eigen::Array2d::Constant(std::numeric_limits<double>::max());
+  Eigen::Array2d most = -least;
+  for (std::size_t place = 0; place < RayTile::kRays; ++place) {
+    const Eigen::Vector3d direction = frame.transpose() * tile.direction(place).cast<double>();
+    least = least.min(direction.head<2>().array() / direction.z());
+    most = most.max(direction.head<2>().array() / direction.z());
+  }
+  constexpr double kRounding = 1e-6;  // more than that of corners to single precision
+  const double slack = kRounding * (1.0 + least.abs().maxCoeff() + most.abs().maxCoeff());
+  least -= slack;
+  most += slack;
+  std::array<Eigen::Vector3f, 4> corners;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector3d corner(k % 2 == 0 ? least.x() : most.x(), k < 2 ? least.y() : most.y(), 1.0);
+    corners[k] = (frame * corner).cast<float>();
+  }
+  return corners;
 }
 
 }  // namespace
@@ -71,6 +108,21 @@ ViewRays::ViewRays(const std::vector<Eigen::Vector3f>& directions, std::size_t w
         }
       }
       groups_.push_back({cone_around(std::span(tiles_).subspan(first)), first, tiles_.size()});
+      add_hulls(groups_.back());
+    }
+  }
+}
+
+void ViewRays::add_hulls(const TileGroup& group) {
+  TileHulls& hulls = hulls_.emplace_back();
+  for (std::size_t i = group.first; i < group.last; ++i) {
+    if (const std::optional<std::array<Eigen::Vector3f, 4>> corners = corners_of(tiles_[i], cones_[i])) {
+      for (std::size_t k = 0; k < corners->size(); ++k) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          hulls.corners[axis][TileHulls::kTiles * k + i - group.first] =
+              (*corners)[k][static_cast<Eigen::Index>(axis)];
+        }
+      }
     }
   }
 }

@@ -5,10 +5,68 @@
 #include <raytrace/word_rows.hpp>
 #include <span>
 
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 namespace vantage {
 namespace {
 
 constexpr std::int32_t kColumn = 32;  // cells from one column of rows to the next
+
+// Of a window: where it lies in rows, and which of its cells count.
+struct Cut {
+  unsigned shift;   // of its first column
+  std::int32_t lo;  // rows, first and last
+  std::int32_t hi;
+  std::uint32_t columns;  // a bit for each
+};
+
+bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint64_t columns) {
+  std::uint64_t any = 0;
+  for (std::int32_t row = 0; row < count; ++row) {
+    any |= rows[row];
+  }
+  return (any & columns) != 0;
+}
+
+// Copies a window; returns whether any of its cells that count stops a ray.
+inline bool cut_window(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
+  std::uint32_t any = 0;
+  for (std::int32_t row = 0; row < SliceWindows::kHeight; ++row) {
+    const auto cells = static_cast<std::uint32_t>(from[row] >> cut.shift);
+    to[row] = cells;
+    any |= cut.lo <= row && row <= cut.hi ? cells : 0;
+  }
+  return (any & cut.columns) != 0;
+}
+
+#if defined(__x86_64__)
+
+VANTAGE_TARGET_AVX512 bool any_in_rows_avx512(const std::uint64_t* rows, std::int32_t count, std::uint64_t columns) {
+  const __m512i of_interest = _mm512_set1_epi64(static_cast<std::int64_t>(columns));
+  __mmask8 any = 0;
+  for (; count > 0; count -= 8, rows += 8) {
+    const auto some = static_cast<__mmask8>(count < 8 ? (1 << count) - 1 : 255);
+    any |= _mm512_test_epi64_mask(_mm512_maskz_loadu_epi64(some, rows), of_interest);
+  }
+  return any != 0;
+}
+
+VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
+  constexpr __mmask8 kAll = 255;
+  const __m128i shift = _mm_cvtsi32_si128(static_cast<std::int32_t>(cut.shift));
+  const __m512i low = _mm512_maskz_srl_epi64(kAll, _mm512_loadu_si512(from), shift);
+  const __m512i high = _mm512_maskz_srl_epi64(kAll, _mm512_loadu_si512(from + 8), shift);
+  const __m512i cells = _mm512_maskz_inserti64x4(kAll, _mm512_castsi256_si512(_mm512_maskz_cvtepi64_epi32(kAll, low)),
+                                                 _mm512_maskz_cvtepi64_epi32(kAll, high), 1);
+  _mm512_store_si512(to, cells);
+  const auto rows = static_cast<__mmask16>((0xFFFFU << static_cast<unsigned>(cut.lo)) &
+                                           (0xFFFFU >> static_cast<unsigned>(SliceWindows::kHeight - 1 - cut.hi)));
+  return _mm512_mask_test_epi32_mask(rows, cells, _mm512_set1_epi32(static_cast<std::int32_t>(cut.columns))) != 0;
+}
+
+#endif
 
 }  // namespace
 
@@ -104,12 +162,14 @@ bool ViewSlices::any_stops(std::int64_t slice, const LateralCells& cells) const 
   if (hi >= 2 * kColumn) {
     return true;  // as far as one row can tell
   }
-  const std::uint64_t* const rows = rows_of(layer, column, kAny);
-  std::uint64_t any = 0;
-  for (std::int32_t v = cells.lo[1]; v <= cells.hi[1]; ++v) {
-    any |= rows[v - layer.first_v];
+  const std::uint64_t* const rows = rows_of(layer, column, kAny) + (cells.lo[1] - layer.first_v);
+  const std::uint64_t columns = ~std::uint64_t{0} << lo & ~std::uint64_t{0} >> (63 - hi);
+#if defined(__x86_64__)
+  if (set_ == InstructionSet::Avx512) {
+    return any_in_rows_avx512(rows, cells.extent(1), columns);
   }
-  return (any & ~std::uint64_t{0} << lo & ~std::uint64_t{0} >> (63 - hi)) != 0;
+#endif
+  return any_in_rows(rows, cells.extent(1), columns);
 }
 
 ViewSlices::Slices ViewSlices::cut(std::int64_t first, std::int64_t end, const LateralCells& cells,
@@ -118,36 +178,33 @@ ViewSlices::Slices ViewSlices::cut(std::int64_t first, std::int64_t end, const L
   const std::int32_t column = (place.first_u - layer.first_u) / kColumn;
   const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * kColumn);
   const std::int32_t from_row = place.first_v - layer.first_v;
-  const std::uint32_t columns = ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
-                                ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u));
-  const std::int32_t lo = cells.lo[1] - place.first_v;
-  const std::int32_t hi = cells.hi[1] - place.first_v;
-  std::array<std::uint32_t, SliceWindows::kMost> any{};
-  compiled_for(set_, [&, from_row, shift, lo, hi] {
-    for (std::int64_t slice = first; slice < end; ++slice) {
-      const auto i = static_cast<std::size_t>(slice - first);
-      const std::uint64_t* const from = rows_of(layer, column, beam_.along(slice) & 3) + from_row;
-      std::uint32_t* const to = windows.rows[i].data();
-      std::uint32_t met = 0;
-      for (std::int32_t row = 0; row < SliceWindows::kHeight; ++row) {
-        const auto cells_of_row = static_cast<std::uint32_t>(from[row] >> shift);
-        to[row] = cells_of_row;
-        met |= lo <= row && row <= hi ? cells_of_row : 0;
-      }
-      any[i] = met;
-    }
-  });
+  const Cut cut{shift, cells.lo[1] - place.first_v, cells.hi[1] - place.first_v,
+                ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
+                    ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
   Slices stopping{end, first - 1};
-  for (std::int64_t slice = first; slice < end; ++slice) {
-    if ((any[static_cast<std::size_t>(slice - first)] & columns) != 0) {
-      stopping.first = std::min(stopping.first, slice);
-      stopping.last = slice;
+  const auto cut_all = [&](const auto& cut_one) {
+    std::size_t count = 0;  // those in front of the first that stops a ray are overwritten
+    for (std::int64_t slice = first; slice < end; ++slice) {
+      const std::uint64_t* const from = rows_of(layer, column, beam_.along(slice) & 3) + from_row;
+      if (cut_one(from, windows.rows[count].data())) {
+        stopping.first = std::min(stopping.first, slice);
+        stopping.last = slice;
+      }
+      count += stopping.last >= first ? 1 : 0;
     }
+  };
+#if defined(__x86_64__)
+  if (set_ == InstructionSet::Avx512) {
+    cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window_avx512(from, cut, to); });
+  } else {
+    compiled_for(set_, [&] {
+      cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, cut, to); });
+    });
   }
+#else
+  cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, cut, to); });
+#endif
   windows.count = static_cast<std::size_t>(std::max<std::int64_t>(stopping.last - stopping.first + 1, 0));
-  if (stopping.first > first) {
-    std::copy_n(windows.rows.begin() + (stopping.first - first), windows.count, windows.rows.begin());
-  }
   return stopping;
 }
 

@@ -54,35 +54,107 @@ ViewWalk::ViewWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Pose
       sensor_(world_from_sensor),
       origin_(world_from_sensor.translation()),
       box_(box),
-      distance_(frame.box_of(box).distance_to(origin_) / frame.size_m),
       set_(set) {}
 
-// Class by class; nearly all tiles are of one.
-std::uint64_t ViewWalk::walk(const RayTile& tile, const RayCone& cone, std::uint64_t rays, double free_m,
-                             HitSink& hits) {
-  constexpr double kWidest = 8.0;  // cells: wider tiles have hardly a word in common
-  if (2.0 * chord_of(cone) * distance_ > kWidest) {
+void ViewWalk::enter(const TileGroup& group, const TileHulls& hulls, double free_m) {
+  cone_ = group.cone;
+  free_m_ = free_m;
+  of_group_ = &class_of(group.cone.axis);
+  of_class_ = 0;
+  if (!of_group_->is_narrow) {
+    return;
+  }
+  of_class_ = measure(hulls.corners, of_group_->beam.axes, kAllOfClass);
+  of_class_ &= of_class_ >> 2 * TileHulls::kTiles;
+  of_class_ &= of_class_ >> TileHulls::kTiles;
+  of_class_ &= (std::uint64_t{1} << (group.last - group.first)) - 1;
+  spread_tiles();
+  std::array<double, 2> least{1.0, 1.0};
+  std::array<double, 2> most{-1.0, -1.0};
+  for (std::uint64_t left = of_class_; left != 0; left &= left - 1) {
+    const auto tile = static_cast<std::size_t>(std::countr_zero(left));
+    for (std::size_t i = 0; i < 2; ++i) {
+      least[i] = std::min(least[i], least_[i][tile]);
+      most[i] = std::max(most[i], most_[i][tile]);
+    }
+  }
+  turn_to(*of_group_, least, most);
+  from_ = next_stop(*of_group_, first_slice(*of_group_, cone_, free_m)).slice;
+}
+
+// From the slopes of their corners, of which one kind is side by side.
+void ViewWalk::spread_tiles() {
+  compiled_for(set_, [this] {
+    constexpr std::size_t kTiles = TileHulls::kTiles;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double* const slope = slope_[i].data();
+      double* const least = least_[i].data();
+      double* const most = most_[i].data();
+      VANTAGE_INDEPENDENT
+      for (std::size_t tile = 0; tile < kTiles; ++tile) {
+        const double a = slope[tile];
+        const double b = slope[kTiles + tile];
+        const double c = slope[2 * kTiles + tile];
+        const double d = slope[3 * kTiles + tile];
+        const double less = a < b ? a : b;
+        const double more = a < b ? b : a;
+        const double also_less = c < d ? c : d;
+        const double also_more = c < d ? d : c;
+        least[tile] = less < also_less ? less : also_less;
+        most[tile] = more > also_more ? more : also_more;
+      }
+    }
+  });
+}
+
+// Makes a beam of this class and this spread, but no wider than the box is.
+void ViewWalk::turn_to(const Class& of, const std::array<double, 2>& least, const std::array<double, 2>& most) {
+  beam_ = of.beam;
+  for (std::size_t i = 0; i < 2; ++i) {
+    beam_.least[i] = std::max(beam_.least[i], least[i]);
+    beam_.most[i] = std::min(beam_.most[i], most[i]);
+  }
+}
+
+std::uint64_t ViewWalk::walk(const RayTile& tile, std::size_t number, std::uint64_t rays, HitSink& hits) {
+  if ((of_class_ >> number & 1U) == 0) {
+    return walk_mixed(tile, rays, hits);
+  }
+  if (from_ > of_group_->last) {
+    return 0;
+  }
+  constexpr int kFew = 4;
+  if (std::popcount(rays) < kFew) {
     return rays;
   }
+  turn_to(*of_group_, {least_[0][number], least_[1][number]}, {most_[0][number], most_[1][number]});
+  const Stop stop = next_stop(*of_group_, from_);
+  if (stop.slice > of_group_->last) {
+    return 0;
+  }
+  // Where views are not culled, there may be some that are not in the beam; they meet no cell of the box.
+  rays &= measure(tile.directions, of_group_->beam.axes, {of_group_->beam.least, of_group_->beam.most});
+  return follow(*of_group_, rays, stop, hits);
+}
+
+// Class by class.
+std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits) {
   std::uint64_t others = 0;
-  Eigen::Vector3d direction = cone.axis;
-  for (bool is_of_ray = false; rays != 0; is_of_ray = true) {
-    Class& of = class_of(direction);
-    const std::uint64_t of_class = of.is_narrow ? measure(tile, of.beam.axes) & rays : 0;
+  while (rays != 0) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(rays));
+    Class& of = class_of(tile.direction(first).cast<double>());
+    const std::uint64_t of_class = of.is_narrow ? measure(tile.directions, of.beam.axes, kAllOfClass) & rays : 0;
     constexpr int kFew = 4;
     if (std::popcount(of_class) < kFew) {
-      others |= of_class;
+      others |= of_class | (std::uint64_t{1} << first);
     } else {
       beam_ = of.beam;
-      others |= follow(of, of_class, first_slice(of, cone, free_m), hits);
+      tighten(of_class);
+      others |= follow(of, of_class, next_stop(of, first_slice(of, cone_, free_m_)), hits);
     }
-    rays &= ~of_class;
-    if (rays == 0 || (of_class == 0 && is_of_ray)) {
-      break;
-    }
-    direction = tile.direction(static_cast<std::size_t>(std::countr_zero(rays))).cast<double>();
+    rays &= ~(of_class | std::uint64_t{1} << first);
   }
-  return others | rays;
+  return others;
 }
 
 ViewWalk::Class& ViewWalk::class_of(const Eigen::Vector3d& direction) {
@@ -103,7 +175,7 @@ ViewWalk::Class ViewWalk::made(std::size_t major, bool up) const {
   Class of{SliceBeam(frame_, origin_, major, up), ViewSlices(grid_, set_)};
   of.last = of.beam.last_slice_of(box_);
   spread_over(of.beam, box_);
-  of.is_narrow = of.slices.begin(of.beam, of.last);
+  of.is_narrow = of.last < SliceBeam::kLastOfLayers && of.slices.begin(of.beam, of.last);
   return of;
 }
 
@@ -114,16 +186,18 @@ std::int64_t ViewWalk::first_slice(const Class& of, const RayCone& cone, double 
   return static_cast<std::int64_t>(std::max(free_cells + of.beam.from_entry - SliceBeam::kRounding, 0.0));
 }
 
-// Slopes and steps of all rays of a tile. Returns those that are of the class.
-std::uint64_t ViewWalk::measure(const RayTile& tile, const SlicePlace& axes) {
+// Slopes of all rays of a tile. Returns those that are of the class, and of this spread.
+std::uint64_t ViewWalk::measure(const std::array<RayBlock::PerRay<float>, 3>& directions, const SlicePlace& axes,
+                                const Spread& spread) {
   RayBlock::PerRay<std::int32_t> flags;
-  const float* const x = tile.directions[0].data();
-  const float* const y = tile.directions[1].data();
-  const float* const z = tile.directions[2].data();
+  const float* const x = directions[0].data();
+  const float* const y = directions[1].data();
+  const float* const z = directions[2].data();
   double* const slope_u = slope_[0].data();
   double* const slope_v = slope_[1].data();
   compiled_for(set_, [=, &flags, sensor = sensor_, major = axes.major, lateral_u = axes.u, lateral_v = axes.v,
-                      sign = axes.up ? 1.0 : -1.0] {
+                      sign = axes.up ? 1.0 : -1.0, least_u = spread.least[0], most_u = spread.most[0],
+                      least_v = spread.least[1], most_v = spread.most[1]] {
     std::int32_t* const flag = flags.data();
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -133,11 +207,11 @@ std::uint64_t ViewWalk::measure(const RayTile& tile, const SlicePlace& axes) {
       const double v = sensor.rotated(lateral_v, x[i], y[i], z[i]) * per_cell;
       slope_u[i] = u;
       slope_v[i] = v;
-      flag[i] = static_cast<std::int32_t>(forwards > 0.0) & static_cast<std::int32_t>(std::abs(u) <= 1.0) &
-                static_cast<std::int32_t>(std::abs(v) <= 1.0);
+      flag[i] = static_cast<std::int32_t>(forwards > 0.0) & static_cast<std::int32_t>(u >= least_u) &
+                static_cast<std::int32_t>(u <= most_u) & static_cast<std::int32_t>(v >= least_v) &
+                static_cast<std::int32_t>(v <= most_v);
     }
   });
-  place_steps(1.0);
   return equal_to(flags, 1, set_);
 }
 
@@ -164,33 +238,57 @@ void ViewWalk::tighten(std::uint64_t active) {
   }
 }
 
-// Follows rays as one beam from this slice on; returns those that are left to others.
-std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, std::int64_t slice, HitSink& hits) {
-  std::uint64_t others = 0;
-  tighten(active);
-  place_ = beam_.axes;
-  while (active != 0 && slice <= of.last) {
+// Where something may first stop a ray of the beam, from this slice on.
+ViewWalk::Stop ViewWalk::next_stop(Class& of, std::int64_t slice) const {
+  const auto stop_in = [&of](std::int64_t first, std::int64_t next,
+                             const LateralCells& cells) -> std::optional<Stop> {
+    const bool held = of.slices.hold(first, cells);
+    return held && !of.slices.any_stops(first, cells) ? std::nullopt
+                                                      : std::optional<Stop>({first, next, cells, held});
+  };
+  while (slice <= of.last) {
     if (const std::int32_t free = of.slices.free_layers(slice); free > 0) {
       slice += beam_.left_in_layer(slice) + std::int64_t{4} * (free - 1);
       continue;
     }
-    const std::int64_t next = slice == 0 ? 1 : slice + beam_.left_in_layer(slice);
-    const LateralCells cells = beam_.cells_in(slice, next - 1);
-    if (!of.slices.hold(slice, cells)) {
-      return others | active;
-    }
-    if (!of.slices.any_stops(slice, cells)) {
-      slice = next;
+    if (slice == 0) {  // of which they pass a part
+      if (const std::optional<Stop> stop = stop_in(0, 1, beam_.cells_in(0, 0))) {
+        return *stop;
+      }
+      slice = 1;
       continue;
+    }
+    const LateralLayers cells = beam_.layers_from(slice, set_);
+    for (std::size_t k = 0; k < LateralLayers::kLayers && slice <= of.last; ++k) {
+      const std::int64_t next = slice + beam_.left_in_layer(slice);
+      if (of.slices.free_layers(slice) == 0) {
+        if (const std::optional<Stop> stop = stop_in(slice, next, cells[k])) {
+          return *stop;
+        }
+      }
+      slice = next;
+    }
+  }
+  return {slice};
+}
+
+// Follows rays of the beam from this stop on; returns those that are left to others.
+std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, Stop stop, HitSink& hits) {
+  std::uint64_t others = 0;
+  place_ = beam_.axes;
+  place_steps(1.0);
+  for (; active != 0 && stop.slice <= of.last; stop = next_stop(of, stop.next)) {
+    const LateralCells& cells = stop.cells;
+    if (!stop.held) {
+      return others | active;
     }
     if (cells.hi[0] - (cells.lo[0] & ~3) >= SliceWindows::kWidth ||
         cells.hi[1] - (cells.lo[1] & ~3) >= SliceWindows::kHeight) {
-      return others | follow_quarters(of, active, slice, hits);
+      return others | follow_quarters(of, active, stop.slice, hits);
     }
     place_.first_u = cells.lo[0] & ~3;
     place_.first_v = cells.lo[1] & ~3;
-    const ViewSlices::Slices slices = of.slices.cut(slice, next, cells, place_, windows_);
-    slice = next;
+    const ViewSlices::Slices slices = of.slices.cut(stop.slice, stop.next, cells, place_, windows_);
     if (windows_.count == 0) {
       continue;
     }
@@ -218,14 +316,15 @@ std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, std::int64_t sli
 }
 
 std::uint64_t ViewWalk::follow_quarters(Class& of, std::uint64_t active, std::int64_t slice, HitSink& hits) {
-  constexpr int kFew = 16;
-  if (std::popcount(active) <= kFew) {
-    return active;
-  }
   std::uint64_t others = 0;
   for (unsigned quarter = 0; quarter < 4; ++quarter) {
-    if (const std::uint64_t some = active & std::uint64_t{0xFFFF} << 16U * quarter; some != 0) {
-      others |= follow(of, some, slice, hits);
+    const std::uint64_t some = active & std::uint64_t{0xFFFF} << 16U * quarter;
+    if (some == active) {
+      return active;
+    }
+    if (some != 0) {
+      tighten(some);
+      others |= follow(of, some, next_stop(of, slice), hits);
     }
   }
   return others;

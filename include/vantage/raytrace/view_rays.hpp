@@ -41,6 +41,16 @@ struct TileGroup {
   std::size_t last = 0;   ///< to the one before this
 };
 
+/// Between which directions the rays of the tiles of a group lie: every one of a tile is a sum of its four corners,
+/// none of them taken less than zero times.
+struct TileHulls {
+  static constexpr std::size_t kTiles = 16;  ///< of a group, at most
+
+  /// In the sensor frame: x of all corners, then y, then z. Corner k of tile i of the group is at place 16 k + i; all
+  /// are zero of a tile that points all around, or that there is not.
+  std::array<std::array<float, 4 * kTiles>, 3> corners{};
+};
+
 /// The rays of a view in the sensor frame: an image of directions that all reach equally far, arranged for being
 /// traced (RayCaster, evaluate_view). Made once for a sensor and used for every pose of it.
 class ViewRays {
@@ -64,9 +74,12 @@ class ViewRays {
   [[nodiscard]] const std::vector<RayCone>& cones() const { return cones_; }
   /// All tiles.
   [[nodiscard]] const std::vector<TileGroup>& groups() const { return groups_; }
+  /// Around the tiles of each group.
+  [[nodiscard]] const std::vector<TileHulls>& hulls() const { return hulls_; }
 
  private:
   void add_tile(const std::vector<Eigen::Vector3f>& directions, std::size_t width, std::size_t top, std::size_t left);
+  void add_hulls(const TileGroup& group);
 
   std::size_t size_ = 0;
   double max_range_m_ = 0.0;
@@ -74,6 +87,7 @@ class ViewRays {
   std::vector<RayTile> tiles_;
   std::vector<RayCone> cones_;  // apart: a view looks at more of them than of the tiles
   std::vector<TileGroup> groups_;
+  std::vector<TileHulls> hulls_;
 };
 
 }  // namespace vantage
