@@ -85,7 +85,7 @@ void rays_vantage(benchmark::State& state, const Stage& stage, const Density& de
   const ViewRays rays = density.rays(stage.resolution_m());
   std::vector<RayEnd> ends(rays.size());
   std::size_t i = 0;
-  stage.caster();
+  (void)stage.caster();
   for ([[maybe_unused]] auto _ : state) {
     stage.caster().cast(stage.view(i++), rays, ends);
     benchmark::DoNotOptimize(ends.data());
@@ -103,7 +103,7 @@ void rays_octomap(benchmark::State& state, const Stage& stage, const Density& de
   std::vector<RayEnd> ends(rays.size());
   std::size_t same = 0;
   std::size_t i = 0;
-  stage.tree();
+  (void)stage.tree();
   for ([[maybe_unused]] auto _ : state) {
     const Pose& pose = stage.view(i++);
     octomap::point3d end;
@@ -172,7 +172,7 @@ void require_counts(benchmark::State& state, const Stage& stage, const ViewRays&
 
 void default_vantage(benchmark::State& state, const Stage& stage, const Density& density) {
   const ViewRays rays = density.rays(stage.resolution_m());
-  stage.caster();
+  (void)stage.caster();
   evaluate_each_view(state, stage, [&](const Pose& pose) {
     return evaluate_view(stage.caster(), pose, rays, stage.scene().object);
   });
@@ -190,7 +190,7 @@ void uniform_vantage(benchmark::State& state, const Stage& stage, const Density&
 void uniform_octomap(benchmark::State& state, const Stage& stage, const Density& density, bool culled) {
   const std::vector<Eigen::Vector3f> directions = density.image(stage.resolution_m()).directions;
   const Box box = stage.scene().map.frame().box_of(stage.scene().object);
-  stage.tree();
+  (void)stage.tree();
   const ViewEvaluation counted = evaluate_each_view(state, stage, [&](const Pose& pose) {
     ViewEvaluation counts;
     octomap::KeySet seen;
@@ -237,7 +237,7 @@ void trace_octree(benchmark::State& state, const Stage& stage, double range_m, c
     });
   };
   std::size_t casts = 0;
-  stage.tree();
+  (void)stage.tree();
   const ViewEvaluation counted = evaluate_each_view(state, stage, [&](const Pose& pose) {
     const HierarchicalCounts counts = trace(pose, [&](const RayCaster& caster, const auto& from, const auto& along) {
       return cast_octomap_at(stage.tree(), caster.options().level, from, along, range_m);
@@ -271,7 +271,7 @@ void hierarchical_octomap(benchmark::State& state, const Stage& stage, const Den
 // All views, by one thread or more.
 void all_vantage(benchmark::State& state, const Stage& stage, const Density& density, std::size_t threads) {
   const ViewRays rays = density.rays(stage.resolution_m());
-  stage.caster();
+  (void)stage.caster();
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(
         evaluate_views(stage.caster(), stage.scene().views, rays, stage.scene().object, threads));
