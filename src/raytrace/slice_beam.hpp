@@ -74,6 +74,8 @@ struct SliceBeam {
   /// to kLastOfLayers.
   [[nodiscard]] LateralLayers layers_from(std::int64_t slice, InstructionSet set) const;
   static constexpr std::int64_t kLastOfLayers = 1 << 19;
+  /// Whether no ray can be in it.
+  [[nodiscard]] bool is_empty() const { return least[0] > most[0] || least[1] > most[1]; }
   /// The last slice in which a ray may be in a box.
   [[nodiscard]] std::int64_t last_slice_of(const VoxelBox& box) const;
 

@@ -68,6 +68,9 @@ void ViewWalk::enter(const TileGroup& group, const TileHulls& hulls, double free
   of_class_ &= of_class_ >> 2 * TileHulls::kTiles;
   of_class_ &= of_class_ >> TileHulls::kTiles;
   of_class_ &= (std::uint64_t{1} << (group.last - group.first)) - 1;
+  if (of_class_ == 0) {
+    return;
+  }
   spread_tiles();
   std::array<double, 2> least{1.0, 1.0};
   std::array<double, 2> most{-1.0, -1.0};
@@ -79,7 +82,8 @@ void ViewWalk::enter(const TileGroup& group, const TileHulls& hulls, double free
     }
   }
   turn_to(*of_group_, least, most);
-  from_ = next_stop(*of_group_, first_slice(*of_group_, cone_, free_m)).slice;
+  from_ =
+      beam_.is_empty() ? of_group_->last + 1 : next_stop(*of_group_, first_slice(*of_group_, cone_, free_m)).slice;
 }
 
 // From the slopes of their corners, of which one kind is side by side.
@@ -128,6 +132,9 @@ std::uint64_t ViewWalk::walk(const RayTile& tile, std::size_t number, std::uint6
     return rays;
   }
   turn_to(*of_group_, {least_[0][number], least_[1][number]}, {most_[0][number], most_[1][number]});
+  if (beam_.is_empty()) {
+    return 0;
+  }
   const Stop stop = next_stop(*of_group_, from_);
   if (stop.slice > of_group_->last) {
     return 0;
@@ -309,6 +316,9 @@ std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, Stop stop, HitSi
     others |= met.doubtful;
     if (const std::uint64_t gone = met.stopped | met.doubtful; gone != 0) {
       active &= ~gone;
+      if (active == 0) {
+        break;
+      }
       tighten(active);
     }
   }
