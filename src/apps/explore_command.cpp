@@ -195,7 +195,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       ->group("Run");
   command
       ->add_flag("--bound", request->bound,
-                 "At the end, tell how short a way could have seen everything, for one who knows the world; slow")
+                 "At the end, tell how short a way sees all, for one who knows the world; slow")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);
