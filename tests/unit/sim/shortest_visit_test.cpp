@@ -64,7 +64,7 @@ double shortest_by_trying(const ReachableSpace& space, const std::vector<std::ui
     for (const std::size_t set : order) {
       std::vector<double> next(space.size(), std::numeric_limits<double>::infinity());
       for (std::size_t to = 0; to < space.size(); ++to) {
-        for (std::size_t from = 0; from < space.size() && (member[to] >> set & 1U) != 0; ++from) {
+        for (std::size_t from = 0; from < space.size() && (std::uint32_t{member[to]} >> set & 1U) != 0; ++from) {
           next[to] = std::min(next[to], to_here[from] + double{distance[from][to]});
         }
       }
