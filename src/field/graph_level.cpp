@@ -12,7 +12,7 @@ namespace {
 // Relaxation goes a little too far (SOR), which smooths better than Gauss-Seidel in three dimensions.
 constexpr float kNodeWeight = 1.15F;
 // Fewer nodes per thread are done before a second thread has begun.
-constexpr std::size_t kGrain = 2000;
+constexpr std::size_t kGrain = 400;
 
 }  // namespace
 

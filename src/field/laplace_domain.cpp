@@ -35,7 +35,8 @@ void for_each_run(std::uint32_t row, Visit&& visit) {
   }
 }
 
-// Connected components of the domain by runs of cells along x: an order of magnitude fewer than there are cells.
+// Connected components of the domain by runs of cells along x, an order of magnitude fewer than there are cells; a
+// full brick is one run.
 class RunComponents {
  public:
   RunComponents(const std::vector<Brick>& bricks, const Links& links)
@@ -68,11 +69,19 @@ class RunComponents {
     std::vector<std::uint32_t> first_run{0};
     first_run.reserve(bricks.size() * LaplaceDomain::kRows + 1);
     for (const Brick& brick : bricks) {
+      if (is_full(brick)) {
+        first_run.insert(first_run.end(), LaplaceDomain::kRows - 1, first_run.back());
+        first_run.push_back(first_run.back() + 1);
+        continue;
+      }
       for (const std::uint16_t row : brick.cells) {
         first_run.push_back(first_run.back() + static_cast<std::uint32_t>(starts_in(row, 0xFFFF)));
       }
     }
     return first_run;
+  }
+  static bool is_full(const Brick& brick) {
+    return std::all_of(brick.cells.begin(), brick.cells.end(), [](std::uint16_t row) { return row == 0xFFFF; });
   }
   // Runs of `row` that start within `mask`, which holds the lowest bits.
   static std::size_t starts_in(std::uint16_t row, std::uint16_t mask) {
@@ -83,31 +92,50 @@ class RunComponents {
     return first_run_[brick * LaplaceDomain::kRows + row];
   }
 
-  // Joins the runs of a row with those of the rows before it in y and z, and across the lower face in x.
+  // Joins the runs of a row with those of the rows before it in y and z, and across the lower face in x. Where the
+  // four cells of a square all belong to the domain, three of its sides join them, and the fourth is left out: sides
+  // along z within a brick if there are cells before them in y, those from brick to brick if there are any in y or
+  // else in z.
   void join_row(std::size_t b, std::size_t row, const std::array<std::uint32_t, 6>& links) {
     const std::uint16_t cells = bricks_[b].cells[row];
     if (cells == 0) {
       return;
     }
-    if ((cells & 1U) != 0 && links[0] != LaplaceDomain::kNone && (bricks_[links[0]].cells[row] >> 15U) != 0) {
+    const bool first_y = row % 8 == 0;
+    const bool first_z = row < 8;
+    if (links[0] != LaplaceDomain::kNone && meets_in_x(b, links[0], row) &&
+        (first_y || !meets_in_x(b, links[0], row - 1))) {
       const std::uint16_t there = bricks_[links[0]].cells[row];
       sets_.merge(run_at(b, row), run_at(links[0], row) + starts_in(there, 0xFFFF) - 1);
     }
-    if (row % 8 != 0) {
-      join_rows(b, row, b, row - 1);
+    if (!first_y) {
+      join_rows(b, row, b, row - 1, 0);
     } else if (links[2] != LaplaceDomain::kNone) {
-      join_rows(b, row, links[2], row + 7);
+      join_rows(b, row, links[2], row + 7, first_z ? 0 : shared(b, row - 8, links[2], row - 1));
     }
-    if (row >= 8) {
-      join_rows(b, row, b, row - 8);
+    if (!first_z) {
+      join_rows(b, row, b, row - 8, first_y ? 0 : shared(b, row - 1, b, row - 9));
     } else if (links[4] != LaplaceDomain::kNone) {
-      join_rows(b, row, links[4], row + 56);
+      join_rows(b, row, links[4], row + 56, first_y ? 0 : shared(b, row - 1, links[4], row + 55));
     }
   }
-  void join_rows(std::size_t brick_a, std::size_t row_a, std::size_t brick_b, std::size_t row_b) {
+  // Whether a row goes on in the brick before it in x.
+  [[nodiscard]] bool meets_in_x(std::size_t b, std::size_t before, std::size_t row) const {
+    return (bricks_[b].cells[row] & 1U) != 0 && (bricks_[before].cells[row] >> 15U) != 0;
+  }
+  [[nodiscard]] std::uint32_t shared(std::size_t brick_a, std::size_t row_a, std::size_t brick_b,
+                                     std::size_t row_b) const {
+    return static_cast<std::uint32_t>(bricks_[brick_a].cells[row_a] & bricks_[brick_b].cells[row_b]);
+  }
+  // Joins what two rows share, but for runs that are `joined` already in one of their cells.
+  void join_rows(std::size_t brick_a, std::size_t row_a, std::size_t brick_b, std::size_t row_b,
+                 std::uint32_t joined) {
     const std::uint16_t a = bricks_[brick_a].cells[row_a];
     const std::uint16_t b = bricks_[brick_b].cells[row_b];
-    for_each_run(static_cast<std::uint32_t>(a & b), [&](int first, int) {
+    for_each_run(shared(brick_a, row_a, brick_b, row_b), [&](int first, int last) {
+      if ((joined & ((2U << last) - (1U << first))) != 0) {
+        return;
+      }
       const auto mask = static_cast<std::uint16_t>((2U << first) - 1U);
       sets_.merge(run_at(brick_a, row_a) + starts_in(a, mask) - 1, run_at(brick_b, row_b) + starts_in(b, mask) - 1);
     });
@@ -219,16 +247,20 @@ LaplaceDomain::Dropped LaplaceDomain::keep_component(const VoxelIndex& cell) {
     }
     dropped.cells -= cell_count();
   }
-  std::erase_if(bricks_, [](const Brick& brick) {
+  const std::size_t erased = std::erase_if(bricks_, [](const Brick& brick) {
     return std::all_of(brick.cells.begin(), brick.cells.end(), [](std::uint16_t row) { return row == 0; });
   });
-  sort_bricks();
+  sort_bricks(erased > 0);
   return dropped;
 }
 
-void LaplaceDomain::sort_bricks() {
-  std::sort(bricks_.begin(), bricks_.end(),
-            [](const Brick& a, const Brick& b) { return RasterOrder{}(a.address, b.address); });
+// And corrects their positions, which may be wrong already if bricks have gone.
+void LaplaceDomain::sort_bricks(bool have_gone) {
+  const auto before = [](const Brick& a, const Brick& b) { return RasterOrder{}(a.address, b.address); };
+  if (!have_gone && std::is_sorted(bricks_.begin(), bricks_.end(), before)) {
+    return;
+  }
+  std::sort(bricks_.begin(), bricks_.end(), before);
   positions_.clear();
   for (std::size_t b = 0; b < bricks_.size(); ++b) {
     positions_.emplace(bricks_[b].address, static_cast<std::uint32_t>(b));

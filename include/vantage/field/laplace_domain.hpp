@@ -85,7 +85,7 @@ class LaplaceDomain {
   }
 
  private:
-  void sort_bricks();
+  void sort_bricks(bool have_gone);
 
   std::vector<Brick> bricks_;
   std::unordered_map<VoxelIndex, std::uint32_t> positions_;

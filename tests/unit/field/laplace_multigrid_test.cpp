@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <random>
@@ -98,33 +99,81 @@ TEST(LaplaceMultigrid, StopsAtItsLimit) {
 }
 
 // Components against those of the list, which finds them cell by cell.
+LaplaceDomain::Dropped keep_one(const std::vector<VoxelIndex>& cells, const VoxelIndex& source) {
+  LaplaceDomain domain;
+  for (const VoxelIndex& cell : cells) {
+    domain.insert(cell);
+  }
+  const LaplaceProblem problem(cells, {}, source);
+  const LaplaceDomain::Dropped found = domain.keep_component(source);
+  EXPECT_EQ(found.cells, problem.dropped_cells());
+  EXPECT_EQ(domain.cell_count(), problem.size());
+  for (const VoxelIndex& cell : problem.cells()) {
+    EXPECT_TRUE(domain.contains(cell));
+  }
+  EXPECT_EQ(found.components + 1, voxel_clusters(cells, Connectivity::Face6).size());
+  return found;
+}
+
 TEST(LaplaceDomain, KeepsTheComponentAndCountsTheOthers) {
   std::mt19937 engine(41);
   std::size_t dropped = 0;
   std::size_t components = 0;
-  for (int world = 0; world < 400; ++world) {
+  for (int world = 0; world < 400 && !HasFailure(); ++world) {
     RandomLaplace random(engine, world % 2 == 0 ? 6 : 40);
     if (world % 2 != 0) {  // large and thin: many components
       std::bernoulli_distribution open(0.4);
       std::erase_if(random.cells, [&](const VoxelIndex& cell) { return cell != random.source && !open(engine); });
     }
-    LaplaceDomain domain;
-    for (const VoxelIndex& cell : random.cells) {
-      domain.insert(cell);
-    }
-    const LaplaceProblem problem(random.cells, {}, random.source);
-    const auto found = domain.keep_component(random.source);
-    ASSERT_EQ(found.cells, problem.dropped_cells()) << "world " << world;
-    ASSERT_EQ(domain.cell_count(), problem.size());
-    for (const VoxelIndex& cell : problem.cells()) {
-      ASSERT_TRUE(domain.contains(cell));
-    }
-    ASSERT_EQ(found.components + 1, voxel_clusters(random.cells, Connectivity::Face6).size());
+    const LaplaceDomain::Dropped found = keep_one(random.cells, random.source);
     dropped += found.cells;
     components += found.components;
   }
+  EXPECT_FALSE(HasFailure());
   EXPECT_GE(dropped, 10000U);
   EXPECT_GE(components, 1000U);
+}
+
+// A wall a cell thick across everything, with a hole of 2 x 2 cells or without.
+struct CrossWall {
+  std::size_t axis;
+  VoxelIndex through;
+  bool has_hole;
+
+  [[nodiscard]] bool closes(const VoxelIndex& cell) const {
+    const VoxelIndex off = cell - through;
+    const std::array<std::int32_t, 3> offset{off.x, off.y, off.z};
+    const auto in_hole = [&](std::size_t other) { return other == axis || offset[other] == 0 || offset[other] == 1; };
+    return offset[axis] == 0 && !(has_hole && in_hole(0) && in_hole(1) && in_hole(2));
+  }
+};
+
+// Halls of full bricks between walls.
+TEST(LaplaceDomain, KeepsTheHallsThatHangTogether) {
+  std::mt19937 engine(44);
+  std::uniform_int_distribution<std::int32_t> place(-20, 20);
+  std::bernoulli_distribution has_hole(0.7);
+  std::size_t apart = 0;
+  std::size_t components = 0;
+  for (int world = 0; world < 60 && !HasFailure(); ++world) {
+    std::vector<CrossWall> walls;
+    for (std::size_t wall = 0; wall < 5; ++wall) {
+      walls.push_back({wall % 3, {2 * place(engine), place(engine), place(engine)}, has_hole(engine)});
+    }
+    std::vector<VoxelIndex> cells;
+    for_each_cell({{-40, -20, -20}, {40, 20, 20}}, [&](const VoxelIndex& cell) {
+      if (std::none_of(walls.begin(), walls.end(), [&](const CrossWall& wall) { return wall.closes(cell); })) {
+        cells.push_back(cell);
+      }
+    });
+    std::uniform_int_distribution<std::size_t> any(0, cells.size() - 1);
+    const LaplaceDomain::Dropped found = keep_one(cells, cells[any(engine)]);
+    apart += found.components > 0 ? 1 : 0;
+    components += found.components;
+  }
+  EXPECT_FALSE(HasFailure());
+  EXPECT_GE(apart, 30U);
+  EXPECT_GE(components, 60U);
 }
 
 TEST(LaplaceDomain, OfAMapHoldsItsFreeCellsAndFrontiers) {
