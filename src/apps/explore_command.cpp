@@ -56,24 +56,26 @@ std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
       FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
 }
 
-// How far the run has travelled beside the shortest way of one who knows the world.
-void print_bound(const ExploreRequest& request, const ExplorationRun& run, const Platform& platform,
-                 const RangeSensor& sensor, const RunRecord& record, std::ostream& out) {
-  if (!request.bound) {
-    return;
-  }
-  const WatchmanRoute route =
-      watchman_route(run.truth(), platform, sensor, record.views.front().pose, {.threads = request.threads});
-  char line[200];
-  std::snprintf(line, sizeof line, "  bound        %s%.2f m for one who knows the world, to see all of it",
-                route.sees_all ? "" : "more than ", route.length_m);
-  out << line;
-  if (route.length_m > 0.0) {
-    std::snprintf(line, sizeof line, "; this run travelled %.2f times as far",
-                  record.path_length_m() / route.length_m);
-    out << line;
-  }
-  out << '\n' << std::flush;
+ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& region) {
+  ExplorationRunOptions options;
+  options.map.resolution_m = request.resolution_m;
+  options.map.region = region;
+  options.map.keep_grazed_cells = !request.wear;
+  options.band = band_of(request);
+  options.look_around = request.look_around;
+  options.max_views = request.max_views;
+  options.scan_spacing_m = request.scan_spacing_m;
+  options.seed = request.seed;
+  options.noise = noise_of(request);
+  options.body_radius_m = request.robot_radius_m;
+  options.threads = request.threads;
+  return options;
+}
+
+PathBound bound_of(const ExplorationRun& run, const Platform& platform, const RangeSensor& sensor, const Pose& start,
+                   int threads) {
+  const WatchmanRoute route = watchman_route(run.truth(), platform, sensor, start, {.threads = threads});
+  return {route.length_m, route.sees_all};
 }
 
 int explore(const ExploreRequest& request) {
@@ -90,19 +92,7 @@ int explore(const ExploreRequest& request) {
   const Box region = asked_region.value_or(world.region);
   check_region(request, world, region, start);
 
-  ExplorationRunOptions options;
-  options.map.resolution_m = request.resolution_m;
-  options.map.region = region;
-  options.map.keep_grazed_cells = !request.wear;
-  options.band = band_of(request);
-  options.look_around = request.look_around;
-  options.max_views = request.max_views;
-  options.scan_spacing_m = request.scan_spacing_m;
-  options.seed = request.seed;
-  options.noise = noise_of(request);
-  options.body_radius_m = request.robot_radius_m;
-  options.threads = request.threads;
-  ExplorationRun run(world, sensor, platform, options);
+  ExplorationRun run(world, sensor, platform, run_options_of(request, region));
 
   ProgressStream told(request);
   std::ostream& progress = told.stream();
@@ -127,7 +117,11 @@ int explore(const ExploreRequest& request) {
   record.threads = request.threads;
   record.resolution_m = request.resolution_m;
   printer.summary(record);
-  print_bound(request, run, *platform, sensor, record, progress);
+  if (request.bound) {
+    printer.seek_bound();
+    record.path_bound = bound_of(run, *platform, sensor, record.views.front().pose, request.threads);
+    printer.bound(record);
+  }
   recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, pictures.pictures(), progress,

@@ -137,4 +137,25 @@ void RunPrinter::summary(const RunRecord& record) {
        << std::flush;
 }
 
+void RunPrinter::seek_bound() {
+  if (terminal_) {
+    out_ << format("  %-12s %s", "bound", "seeking the shortest way that sees all ...") << std::flush;
+  }
+}
+
+void RunPrinter::bound(const RunRecord& record) {
+  if (!record.path_bound) {
+    return;
+  }
+  const auto [length_m, is_met] = *record.path_bound;
+  out_ << (terminal_ ? "\r\033[K" : "")
+       << format("  %-12s %s%.2f m for one who knows the world, to see all of it", "bound",
+                 is_met ? "" : "more than ", length_m);
+  if (length_m > 0.0 && record.coverage) {  // less than 1 where it has not seen all
+    out_ << format("; this run travelled %.2f times as far to see %.2f %%", record.path_length_m() / length_m,
+                   100.0 * *record.coverage);
+  }
+  out_ << '\n' << std::flush;
+}
+
 }  // namespace vantage::apps

@@ -26,6 +26,9 @@ class RunPrinter {
             std::uint64_t seed);
   void view(const ViewRecord& view);
   void summary(const RunRecord& record);
+  // Says, on a terminal, that it is being sought; `bound` takes the place of that.
+  void seek_bound();
+  void bound(const RunRecord& record);
 
  private:
   void line(const ViewRecord& view);

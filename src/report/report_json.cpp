@@ -62,7 +62,7 @@ ordered_json cycle_json(const ViewRecord& view) {
 }
 
 ordered_json summary_json(const RunRecord& record) {
-  return {
+  ordered_json summary = {
       {"vantage", VANTAGE_VERSION_STRING},
       {"command", record.command},
       {"world", record.world},
@@ -85,6 +85,10 @@ ordered_json summary_json(const RunRecord& record) {
       {"ray_operations", {{"integration", record.integration_operations}, {"planning", record.planning_operations}}},
       {"time_ms", times_json(record)},
       {"peak_memory_mb", record.peak_memory_mb}};
+  if (record.path_bound) {
+    summary["path_bound"] = {{"length_m", record.path_bound->length_m}, {"is_met", record.path_bound->is_met}};
+  }
+  return summary;
 }
 
 // A world's file name may be any bytes: what is not UTF-8 is replaced, never thrown at the end of a long run.

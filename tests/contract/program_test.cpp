@@ -241,6 +241,22 @@ TEST_F(Program, ExploresAndReports) {
   }
 }
 
+TEST_F(Program, TellsHowShortAWayCouldBe) {
+  const std::string arguments =
+      "explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --json -";
+  const Ran bounded = run(arguments + " --bound");
+  EXPECT_EQ(bounded.code, 0) << bounded.err;
+  const nlohmann::json report = nlohmann::json::parse(bounded.out);
+  EXPECT_GT(report["path_bound"]["length_m"].get<double>(), 1.0);
+  EXPECT_TRUE(report["path_bound"]["is_met"].is_boolean());
+  EXPECT_NE(bounded.err.find("  bound        "), std::string::npos) << bounded.err;
+  EXPECT_NE(bounded.err.find(" times as far to see "), std::string::npos) << bounded.err;
+
+  const Ran plain = run(arguments);
+  EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("path_bound"));
+  EXPECT_EQ(plain.err.find("  bound        "), std::string::npos) << plain.err;
+}
+
 TEST_F(Program, CompletesInBash) {
   const auto completed = [&](const std::string& words, int word) {
     const std::string script =

@@ -43,6 +43,12 @@ struct ViewRecord {
   std::vector<Eigen::Vector3d> passed = {};
 };
 
+/// What is proven of the way that a run has to go.
+struct PathBound {
+  double length_m = 0.0;  ///< no way from the start that sees everything is shorter
+  bool is_met = false;    ///< there is one that long
+};
+
 /// The record of a run, by whatever host: enough for the report, the pictures and the tables.
 struct RunRecord {
   std::string command;                       ///< "explore", "reconstruct", "search", "replay"
@@ -61,6 +67,7 @@ struct RunRecord {
   std::uint64_t integration_operations = 0;  ///< cell updates by scans
   std::uint64_t planning_operations = 0;     ///< PlanStatistics::ray_operations, summed
   double peak_memory_mb = 0.0;               ///< of the whole process
+  std::optional<PathBound> path_bound;       ///< for one who knows the world, where it was sought
   std::vector<ViewRecord> views;             ///< one entry per scan
   std::vector<Eigen::Vector3d> travelled;    ///< successive sensor positions, the start first
 
