@@ -37,14 +37,6 @@ RayCasterOptions validated(const RayCasterOptions& options) {
   return options;
 }
 
-// How far nothing stops rays of a group, metres; no less than the furthest of the box if none of them may meet a cell
-// of it that does.
-double free_way(const ViewRays& rays, const TileGroup& group, Meeting meeting, const BoxCulling& culling,
-                FreeCone& free_cone) {
-  return meeting == Meeting::None ? culling.furthest_m()
-                                  : free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
-}
-
 }  // namespace
 
 struct RayCaster::Grid : BlockingGrid {
@@ -140,22 +132,28 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
   for (std::size_t g = 0; g < rays.groups().size(); ++g) {
     const TileGroup& group = rays.groups()[g];
     const Meeting of_group = culling.meeting(group.cone);
-    const double free_m = free_way(rays, group, of_group, culling, free_cone);
-    if (free_m >= culling.furthest_m()) {
+    if (of_group == Meeting::None) {
       continue;
     }
+    double free_m = 0.0;
     if (end_behind) {
-      together.enter(group, rays.hulls()[g], free_m);
+      together.enter(group, rays.hulls()[g]);
+    } else {
+      free_m = free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
+      if (free_m >= culling.furthest_m()) {
+        continue;
+      }
     }
     for (std::size_t i = group.first; i < group.last; ++i) {
       const RayCone& cone = rays.cones()[i];
       const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(cone);
-      if (meeting == Meeting::None) {
+      if (meeting == Meeting::None || (end_behind && !together.may_see(i - group.first))) {
         continue;
       }
       const RayTile& tile = rays.tiles()[i];
       prefetch(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
-      std::uint64_t left = meeting == Meeting::All ? tile.rays : culling.meeting(tile);
+      const bool all = meeting == Meeting::All || (end_behind && together.culls(i - group.first));
+      std::uint64_t left = all ? tile.rays : culling.meeting(tile);
       if (end_behind) {
         left = together.walk(tile, i - group.first, left, stamps);
       }

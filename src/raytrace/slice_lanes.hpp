@@ -20,6 +20,10 @@ struct SliceWindows {
   std::size_t count = 0;                                                     ///< slices, in the order of the walk
 };
 
+/// Cells of such a window, and of all the slices.
+using WindowRows = std::array<std::uint32_t, SliceWindows::kHeight>;
+using WindowCells = std::array<WindowRows, SliceWindows::kMost>;
+
 /// 64 rays from one origin that walk through slices of cells together.
 ///
 /// A ray advances fastest along the major axis, so it crosses at most one face across each of the two lateral axes

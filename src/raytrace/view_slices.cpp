@@ -77,7 +77,14 @@ bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
   rows_.clear();
   constexpr std::int32_t kWidest = 128;
   const LateralCells widest = beam.cells_in(last, last + 3);
-  return std::max(widest.extent(0), widest.extent(1)) <= kWidest;
+  if (std::max(widest.extent(0), widest.extent(1)) > kWidest) {
+    return false;
+  }
+  constexpr std::size_t kOftenRead = 16;  // layers
+  const std::int32_t columns = widest.extent(0) / kColumn + 1;
+  const std::int32_t rows = widest.extent(1) + SliceWindows::kHeight;
+  rows_.reserve(kOftenRead * kPlanes * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  return true;
 }
 
 void ViewSlices::read(std::size_t number, std::int64_t slice) {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map/instruction_set.hpp>
+#include <raytrace/slice_lanes.hpp>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace vantage {
+
+/// Bits of the numbers from `lo` to `hi`, both in [0, 31].
+constexpr std::uint32_t bits_between(std::int32_t lo, std::int32_t hi) {
+  return ~std::uint32_t{0} << lo & ~std::uint32_t{0} >> (31 - hi);
+}
+
+/// Cells of a window side by side: a bit for each of their columns, and one for each of their rows.
+struct WindowPatch {
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+
+  /// Those in a row.
+  [[nodiscard]] std::uint32_t in_row(std::size_t row) const { return columns & (0U - (rows >> row & 1U)); }
+};
+
+/// Numbers of rows and columns, from places in a window; those outside it are put to its edge.
+inline std::int32_t column_at(double place) {
+  const double no_less = place > 0.0 ? place : 0.0;
+  return static_cast<std::int32_t>(no_less < SliceWindows::kWidth - 0.5 ? no_less : SliceWindows::kWidth - 0.5);
+}
+inline std::int32_t row_at(double place) {
+  const double no_less = place > 0.0 ? place : 0.0;
+  return static_cast<std::int32_t>(no_less < SliceWindows::kHeight - 0.5 ? no_less : SliceWindows::kHeight - 0.5);
+}
+
+#if defined(__x86_64__)
+/// A patch as a vector of rows.
+VANTAGE_TARGET_AVX512 inline __m512i rows_of(const WindowPatch& patch) {
+  return _mm512_maskz_set1_epi32(static_cast<__mmask16>(patch.rows), static_cast<std::int32_t>(patch.columns));
+}
+#endif
+
+}  // namespace vantage
