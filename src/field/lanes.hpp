@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map/instruction_set.hpp>
 #include <type_traits>
 #include <utility>
 
@@ -70,36 +71,33 @@ VANTAGE_INLINE void unrolled(Visit&& visit, std::index_sequence<i...> /*count*/)
   (visit(std::integral_constant<std::size_t, i>{}), ...);
 }
 
-/// Calls `kernel()` compiled for the widest instruction set of this processor. The kernel's call operator must be
-/// VANTAGE_INLINE. None of the sets fuses multiplication and addition: every processor computes the same bits.
+/// Calls `kernel()` compiled for best_instruction_set(). The kernel's call operator must be VANTAGE_INLINE. None of
+/// the sets fuses multiplication and addition: every processor computes the same bits.
 #if defined(__x86_64__)
-enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
-[[nodiscard]] InstructionSet instruction_set();
-
 template <class Kernel>
-[[gnu::target("avx2"), gnu::noinline]] void run_avx2(const Kernel& kernel) {
+[[gnu::target("avx2"), gnu::noinline]] void run_kernel_avx2(const Kernel& kernel) {
   const Kernel local = kernel;  // whose members no store can change
   local();
 }
 template <class Kernel>
-[[gnu::target("avx512f,avx512vl,avx512dq,avx512bw"), gnu::noinline]] void run_avx512(const Kernel& kernel) {
+[[gnu::target("avx512f,avx512vl,avx512dq,avx512bw"), gnu::noinline]] void run_kernel_avx512(const Kernel& kernel) {
   const Kernel local = kernel;  // whose members no store can change
   local();
 }
 template <class Kernel>
-[[gnu::noinline]] void run_baseline(const Kernel& kernel) {
+[[gnu::noinline]] void run_kernel_baseline(const Kernel& kernel) {
   const Kernel local = kernel;  // whose members no store can change
   local();
 }
 template <class Kernel>
 inline void run(const Kernel& kernel) {
-  switch (instruction_set()) {
+  switch (best_instruction_set()) {
     case InstructionSet::Avx512:
-      return run_avx512(kernel);
+      return run_kernel_avx512(kernel);
     case InstructionSet::Avx2:
-      return run_avx2(kernel);
+      return run_kernel_avx2(kernel);
     case InstructionSet::Baseline:
-      return run_baseline(kernel);
+      return run_kernel_baseline(kernel);
   }
 }
 #else

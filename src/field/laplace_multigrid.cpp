@@ -172,6 +172,7 @@ void LaplaceMultigrid::State::conclude(const detail::Defect& defect) {
 LaplaceMultigrid::LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source, const MultigridOptions& options)
     : state_(std::make_unique<State>()) {
   options.validate();
+  (void)best_instruction_set();  // if it throws, it must be here: threads at work must not
   state_->domain = std::move(domain);
   state_->solve(source, options);
 }

@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// What the innermost loops of insertion and of ray casting are compiled for. All give the same bits; the processor
-/// decides which one runs.
+/// What the innermost loops of insertion, of ray casting and of the field are compiled for. All give the same bits;
+/// the processor decides which one runs.
 enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 
 /// Those this processor has, the fastest last.
