@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <raytrace/slice_flood.hpp>
 #include <raytrace/window_patch.hpp>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -223,11 +224,15 @@ bool SliceFlood::begin(const SliceBeam& beam) {
 
 // To the slice `first`, in the window of `place`.
 void SliceFlood::move(std::int64_t first, const SlicePlace& place) {
+  const std::array<std::int32_t, 2> before{std::exchange(first_u_, place.first_u),
+                                           std::exchange(first_v_, place.first_v)};
+  if (is_full_) {
+    cells_.fill(~std::uint32_t{0});
+    return;
+  }
   const auto gap = static_cast<double>(first - slice_);
-  std::array<std::int32_t, 2> least{first_u_ - place.first_u, first_v_ - place.first_v};
+  std::array<std::int32_t, 2> least{before[0] - place.first_u, before[1] - place.first_v};
   std::array<std::int32_t, 2> most = least;
-  first_u_ = place.first_u;
-  first_v_ = place.first_v;
   for (std::size_t i = 0; i < 2; ++i) {
     if (gap > 0.0) {
       least[i] += SliceBeam::cell_at(beam_.least[i] * gap - SliceBeam::kRounding);
@@ -235,7 +240,7 @@ void SliceFlood::move(std::int64_t first, const SlicePlace& place) {
     }
   }
   constexpr std::int32_t kWidest = 8;
-  if (is_full_ || most[0] - least[0] >= kWidest || most[1] - least[1] >= kWidest) {
+  if (most[0] - least[0] >= kWidest || most[1] - least[1] >= kWidest) {
     cells_.fill(~std::uint32_t{0});
     return;
   }

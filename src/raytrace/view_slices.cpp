@@ -70,7 +70,7 @@ VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, c
 
 }  // namespace
 
-// A beam is widest where it ends.
+// A beam, which must not be empty, is widest where it ends.
 bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
   beam_ = beam;
   layers_.clear();

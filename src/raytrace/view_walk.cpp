@@ -166,7 +166,9 @@ std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint64_t rays, HitS
     const auto first = static_cast<std::size_t>(std::countr_zero(rays));
     Class& of = class_of(tile.direction(first).cast<double>());
     const std::uint64_t of_class = of.is_narrow ? measure(tile.directions, of.all) & rays : 0;
-    if (std::popcount(of_class) < kFew) {
+    if (of.beam.is_empty()) {  // no ray of the class meets a cell of the box
+      others |= std::uint64_t{1} << first & ~of_class;
+    } else if (std::popcount(of_class) < kFew) {
       others |= of_class | (std::uint64_t{1} << first);
     } else {
       beam_ = of.beam;
@@ -197,7 +199,7 @@ ViewWalk::Class ViewWalk::made(std::size_t major, bool up) const {
   Class of{all, all, ViewSlices(grid_, set_)};
   of.last = of.beam.last_slice_of(box_);
   spread_over(of.beam, box_);
-  of.is_narrow = of.last < SliceBeam::kLastOfLayers && of.slices.begin(of.beam, of.last);
+  of.is_narrow = of.last < SliceBeam::kLastOfLayers && (of.beam.is_empty() || of.slices.begin(of.beam, of.last));
   return of;
 }
 

@@ -62,6 +62,46 @@ TEST(EvaluateView, CountsWhatUniformRayTracingCounts) {
   EXPECT_GT(sum.occupied, 50U * kWorlds);
 }
 
+// Boxes far aside of where images look: the rays that meet them advance fastest along another axis than those in the
+// middle, many meet none, and some boxes lie around the eye on two sides.
+TEST(EvaluateView, CountsWhatLiesAsideToo) {
+  std::mt19937 engine(43);
+  constexpr int kWorlds = test::kSanitized ? 6 : 20;
+  std::uniform_int_distribution<std::int32_t> coordinate(-200, 150);
+  std::uniform_int_distribution<std::int32_t> edge(1, 60);
+  std::uniform_int_distribution<std::int32_t> long_edge(1, 400);
+  std::uniform_real_distribution<double> metre(-1.5, 1.5);
+  std::uniform_real_distribution<double> aside_rad(0.0, 1.2);
+  std::uniform_real_distribution<double> turn_rad(0.0, 6.28);
+  std::size_t cases = 0;
+  std::size_t seen = 0;
+  for (int world = 0; world < kWorlds; ++world) {
+    const OccupancyMap map = test::hollow_map(engine, 0.1);
+    const RayCaster caster(map);
+    const UniformRayTracer uniform(map);
+    for (int i = 0; i < 40; ++i, ++cases) {
+      const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
+      auto& any = i % 4 == 0 ? long_edge : edge;
+      const VoxelBox box{lo, lo + VoxelIndex{any(engine), any(engine), any(engine)}};
+      const Eigen::Vector3d eye(metre(engine), metre(engine), metre(engine));
+      const Eigen::Vector3d to_box = (map.frame().box_of(box).centre() - eye).normalized();
+      const Eigen::Vector3d across = Eigen::AngleAxisd(turn_rad(engine), to_box) * to_box.unitOrthogonal();
+      const Pose pose = pose_looking_along(eye, Eigen::AngleAxisd(aside_rad(engine), across) * to_box);
+      const ViewRays rays(i % 3 == 0
+                              ? RangeSensor::spherical(60, 30, 6.28, 3.0, 0.0, 50.0)
+                              : RangeSensor::pinhole(8 + engine() % 60, 8 + engine() % 60, 2.0, 2.0, 0.0, 50.0));
+      CellSet expected_cells;
+      CellSet cells;
+      const ViewEvaluation expected = uniform.evaluate(pose, rays, box, &expected_cells);
+      ASSERT_EQ(evaluate_view(caster, pose, rays, box, &cells), expected) << "world " << world << ", view " << i;
+      ASSERT_TRUE(cells == expected_cells);
+      seen += expected.unknown + expected.occupied;
+    }
+  }
+  EXPECT_EQ(cases, 40U * kWorlds);
+  EXPECT_GT(seen, 100U * kWorlds);
+}
+
 TEST(EvaluateView, ThreadsChangeNothing) {
   std::mt19937 engine(42);
   const OccupancyMap map = test::hollow_map(engine, 0.1);
