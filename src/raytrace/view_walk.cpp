@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kFew = 4;
+constexpr int kFewRays = 4;
 
 // The lateral spread of all that a box shows to the origin of a beam; as wide as a class of rays is, if it is not all
 // in front.
@@ -149,7 +149,7 @@ std::uint64_t ViewWalk::walk(const RayTile& tile, std::size_t number, std::uint6
   if ((of_class_ >> number & 1U) == 0) {
     return walk_mixed(tile, rays, hits);
   }
-  if (std::popcount(rays) < kFew) {
+  if (std::popcount(rays) < kFewRays) {
     return rays;
   }
   // Rays that are not in the beam meet no cell of the box.
@@ -168,7 +168,7 @@ std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint64_t rays, HitS
     const std::uint64_t of_class = of.is_narrow ? measure(tile.directions, of.all) & rays : 0;
     if (of.beam.is_empty()) {  // no ray of the class meets a cell of the box
       others |= std::uint64_t{1} << first & ~of_class;
-    } else if (std::popcount(of_class) < kFew) {
+    } else if (std::popcount(of_class) < kFewRays) {
       others |= of_class | (std::uint64_t{1} << first);
     } else {
       beam_ = of.beam;
