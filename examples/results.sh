@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Explores the worlds of docs/results.md and prints its table: examples/results.sh [WHAT...], where WHAT is among
-# house-coarse house-fine collapsed-house office plane (default: all but plane, an office driven through instead of
-# flown). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage names another). EXTRA holds further options of
-# vantage explore, "--wear" for instance. Reports that lie in the folder RESULTS (default: build/results) already are not
-# made again.
+# house-coarse house-fine collapsed-house collapsed-house-fine office office-fine plane (default: house-coarse house-fine
+# collapsed-house office); plane is an office driven through instead of flown. Needs VANTAGE_DATA and a built program
+# (VANTAGE=path/to/vantage names another). EXTRA holds further options of vantage explore, "--wear" for instance. Reports
+# that lie in the folder RESULTS (default: build/results) already are not made again.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 : "${VANTAGE_DATA:?must name the folder with the worlds}"
@@ -52,6 +52,12 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
       collapsed-house)
         explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' $environments/gazebo/collapsed_house.ply --max-views 2000
         ;;
+      collapsed-house-fine)
+        explore 'collapsed house' 0.1 'harmonic nearest-frontier frontier-gain' $environments/gazebo/collapsed_house.ply --max-views 4000
+        ;;
+      office-fine)
+        explore 'office' 0.1 'harmonic nearest-frontier frontier-gain' $environments/gazebo/osrf_first_office.ply --max-views 8000
+        ;;
       office)
         explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' $environments/gazebo/osrf_first_office.ply --max-views 8000
         ;;
@@ -62,7 +68,7 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
         done
         ;;
       *)
-        echo "results.sh: '$part' is none of house-coarse house-fine collapsed-house office plane" >&2
+        echo "results.sh: '$part' is none of house-coarse house-fine collapsed-house collapsed-house-fine office office-fine plane" >&2
         exit 2
         ;;
     esac
