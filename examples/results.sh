@@ -40,6 +40,8 @@ echo '| world | cells, m | planner | start | outcome | views | path, m | coverag
 echo '|---|---|---|---|---|---|---|---|---|---|---|'
 environments=$VANTAGE_DATA/environments
 house=$environments/aws_small_house/small_house_visual.ply
+collapsed=$environments/gazebo/collapsed_house.ply
+first_office=$environments/gazebo/osrf_first_office.ply
 for what in "${@:-house-coarse house-fine collapsed-house office}"; do
   for part in $what; do
     case $part in
@@ -50,16 +52,16 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
         explore 'small house' 0.1 'harmonic nearest-frontier frontier-gain' $house --region -9,-5,0.1,9,5,2.4 --max-views 2000
         ;;
       collapsed-house)
-        explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' $environments/gazebo/collapsed_house.ply --max-views 2000
+        explore 'collapsed house' 0.2 'harmonic nearest-frontier frontier-gain' $collapsed --max-views 2000
         ;;
       collapsed-house-fine)
-        explore 'collapsed house' 0.1 'harmonic nearest-frontier frontier-gain' $environments/gazebo/collapsed_house.ply --max-views 4000
+        explore 'collapsed house' 0.1 'harmonic nearest-frontier frontier-gain' $collapsed --max-views 4000
         ;;
       office-fine)
-        explore 'office' 0.1 'harmonic nearest-frontier frontier-gain' $environments/gazebo/osrf_first_office.ply --max-views 8000
+        explore 'office' 0.1 'harmonic nearest-frontier frontier-gain' $first_office --max-views 8000
         ;;
       office)
-        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' $environments/gazebo/osrf_first_office.ply --max-views 8000
+        explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' $first_office --max-views 8000
         ;;
       plane)
         for spacing in 0.5 0; do
