@@ -201,7 +201,6 @@ void ViewWalk::walk_windows(const SliceWindows& windows, std::int64_t first, std
 // Follows rays of the beam from this stop on; returns those that are left to others.
 std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, Stop stop, HitSink& hits) {
   std::uint64_t others = 0;
-  place_ = beam_.axes;
   place_steps(1.0);
   for (; active != 0 && stop.slice <= of.last; stop = next_stop(of, stop.next)) {
     if (!stop.held) {
