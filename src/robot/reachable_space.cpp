@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <vantage/robot/reachable_space.hpp>
 
 namespace vantage {
@@ -31,6 +32,23 @@ std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platfo
   return std::nullopt;
 }
 
+// An admitted cell that the flood has not reached.
+constexpr std::uint32_t kUnnumbered = ReachableSpace::kOutside - 1;
+
+// What is admitted, with a layer around it that is not, so that every neighbour of an admitted cell has its place.
+VoxelGrid<std::uint32_t> unnumbered(const VoxelGrid<std::uint8_t>& admitted) {
+  const VoxelBox& box = admitted.box();
+  VoxelGrid<std::uint32_t> number(box.grown(1), ReachableSpace::kOutside);
+  const auto row = static_cast<std::size_t>(box.extent().x);
+  for (std::size_t from = 0; from < admitted.size(); from += row) {
+    const std::size_t to = number.offset_of(admitted.cell_at(from));
+    for (std::size_t x = 0; x < row; ++x) {
+      number.values()[to + x] = admitted.values()[from + x] != 0 ? kUnnumbered : ReachableSpace::kOutside;
+    }
+  }
+  return number;
+}
+
 }  // namespace
 
 ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current) {
@@ -43,24 +61,30 @@ ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform
   if (!start_) {
     return;
   }
-  number_ = VoxelGrid<std::uint32_t>(bounds, kOutside);
+  number_ = unnumbered(admitted);
   std::vector<std::uint32_t>& numbers = number_.values();
+  std::vector<std::size_t> offsets;  // of the cells
+  std::array<std::size_t, kFaceNeighbours.size()> strides{};
+  std::transform(kFaceNeighbours.begin(), kFaceNeighbours.end(), strides.begin(), [&](const VoxelIndex& step) {
+    return number_.offset_of(*start_ + step) - number_.offset_of(*start_);
+  });
   const auto reach = [&](const VoxelIndex& cell, std::size_t offset) {
     numbers[offset] = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back(cell);
+    offsets.push_back(offset);
   };
   reach(*start_, number_.offset_of(*start_));
   for (std::size_t next = 0; next < cells_.size(); ++next) {
-    for (const VoxelIndex& step : kFaceNeighbours) {
-      const VoxelIndex neighbour = cells_[next] + step;
-      if (bounds.contains(neighbour)) {
-        const std::size_t offset = number_.offset_of(neighbour);
-        if (admitted.values()[offset] != 0 && numbers[offset] == kOutside) {
-          reach(neighbour, offset);
-        }
+    const VoxelIndex cell = cells_[next];
+    const std::size_t offset = offsets[next];
+    for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
+      const std::size_t neighbour = offset + strides[face];  // wraps where the stride is negative
+      if (numbers[neighbour] == kUnnumbered) {
+        reach(cell + kFaceNeighbours[face], neighbour);
       }
     }
   }
+  std::replace(numbers.begin(), numbers.end(), kUnnumbered, kOutside);
 }
 
 }  // namespace vantage
