@@ -70,10 +70,7 @@ class ViewpointSearch {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return clear(unknown + step); });
   }
-  bool clear(const VoxelIndex& cell) const {
-    memory_.look_at(cell);
-    return memory_.clear().contains(cell);
-  }
+  bool clear(const VoxelIndex& cell) const { return memory_.is_clear(cell); }
   bool passes(const VoxelIndex& cell) {
     ++operations_;
     return clear(cell);
@@ -88,7 +85,7 @@ class ViewpointSearch {
       if (!passes(cell)) {
         return std::nullopt;
       }
-      if (memory_.reachable().contains(cell) && in_range(cell, unknown) && can_face(cell, unknown)) {
+      if (memory_.is_reachable(cell) && in_range(cell, unknown) && can_face(cell, unknown)) {
         return cell;
       }
     }
@@ -186,14 +183,18 @@ std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<
 }
 
 // The platform comes close to a cell if some reachable cell lies within half its body, and one cell more.
-void count_hidden(const OccupancyMap& map, const Platform& platform, const detail::CellRows& reachable,
+void count_hidden(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
                   const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
   if (hidden.empty()) {
     return;
   }
+  detail::CellRows places(map.bounds());
+  for (const VoxelIndex& cell : reachable.cells()) {
+    places.insert(cell);
+  }
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
   const detail::CellRows near =
-      detail::grown(reachable, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
+      detail::grown(places, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
   for (const VoxelIndex& cell : hidden) {
     ++(near.contains(cell) ? leftover.unobservable : leftover.unreachable);
   }
@@ -256,7 +257,7 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& cur
   survey.targets = options_.surfaces_first && !sensor_.reports_no_return ? surfaces_first(map, std::move(large))
                                                                          : std::move(large);
   survey.ray_operations = search.operations();
-  count_hidden(map, *platform_, memory_->reachable(), hidden, survey.leftover);
+  count_hidden(map, *platform_, survey.reachable, hidden, survey.leftover);
   return survey;
 }
 
@@ -267,15 +268,13 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
   return FrontierSurveyor(borrowed, sensor, options).survey(map, current, failed);
 }
 
+// From the target back: most lines that are blocked are blocked beside it.
 bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                     std::uint64_t& operations) {
-  for (const VoxelIndex& cell : VoxelRay(map.frame(), from, map.frame().centre_of(target))) {
+  return VoxelRay(map.frame(), from, map.frame().centre_of(target)).all_from_the_end([&](const VoxelIndex& cell) {
     ++operations;
-    if (cell != target && !map.is_clear(cell)) {
-      return false;
-    }
-  }
-  return true;
+    return cell == target || map.is_clear(cell);
+  });
 }
 
 bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,

@@ -2,7 +2,8 @@
 #include "planner/sight_memory.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cstddef>
+#include <utility>
 
 #include "geometry/spread_directions.hpp"
 
@@ -38,16 +39,20 @@ void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachabl
   }
   asked_ = nullptr;
   ++survey_;
-  CellRows clear(cells_);
-  map.for_each_clear([&](const VoxelIndex& cell) { clear.insert(cell); });
-  mark_changes(clear_, clear);
-  clear_ = std::move(clear);
-  CellRows places(cells_);
+  VoxelGrid<std::uint64_t> clear(blocks_.box());
+  map.for_each_clear([&](const VoxelIndex& cell) { clear[block_of(cell)] |= bit_of(cell); });
+  VoxelGrid<std::uint64_t> places(blocks_.box());
   for (const VoxelIndex& cell : reachable.cells()) {
-    places.insert(cell);
+    places[block_of(cell)] |= bit_of(cell);
   }
-  mark_changes(reachable_, places);
-  reachable_ = std::move(places);
+  for (std::size_t offset = 0; offset < blocks_.size(); ++offset) {
+    Block& block = blocks_.values()[offset];
+    const std::uint64_t clear_before = std::exchange(block.clear, clear.values()[offset]);
+    const std::uint64_t places_before = std::exchange(block.reachable, places.values()[offset]);
+    if (clear_before != block.clear || places_before != block.reachable) {
+      block.changed = survey_;
+    }
+  }
   places_.emplace(cells_, reachable.cells());
 }
 
@@ -65,32 +70,14 @@ void SightMemory::make_room(const OccupancyMap& map) {
   cells_ = {};  // makes room again if what follows throws
   const VoxelBox cells = with_room(map);
   const VoxelBox blocks{block_of(cells.lo), block_of(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-  clear_ = CellRows(cells);
-  reachable_ = CellRows(cells);
-  changed_ = VoxelGrid<std::uint32_t>(blocks);
-  looked_at_ = VoxelGrid<std::uint32_t>(blocks);
+  blocks_ = VoxelGrid<Block>(blocks);
   cells_ = cells;
-}
-
-void SightMemory::mark_changes(const CellRows& before, const CellRows& now) {
-  for (std::int32_t z = cells_.lo.z; z < cells_.hi.z; ++z) {
-    for (std::int32_t y = cells_.lo.y; y < cells_.hi.y; ++y) {
-      const auto old_row = before.row(y, z);
-      const auto new_row = now.row(y, z);
-      for (std::size_t word = 0; word < new_row.size(); ++word) {
-        for (std::uint64_t left = old_row[word] ^ new_row[word]; left != 0; left &= left - 1) {
-          const auto steps = static_cast<std::int32_t>(word * 64) + std::countr_zero(left);
-          changed_[block_of({cells_.lo.x + steps, y, z})] = survey_;
-        }
-      }
-    }
-  }
 }
 
 bool SightMemory::stands(const Answer& answer) const {
   return answer.may_stand &&
          std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
-                     [&](std::uint32_t block) { return changed_.values()[block] <= answer.found; }) &&
+                     [&](std::uint32_t block) { return blocks_.values()[block].changed <= answer.found; }) &&
          std::none_of(answer.without_places.begin(), answer.without_places.end(),
                       [&](const VoxelBox& cells) { return places_->may_hold(cells); });
 }

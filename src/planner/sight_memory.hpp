@@ -8,12 +8,12 @@
 #include <unordered_map>
 #include <utility>
 #include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/map/brick.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/robot/reachable_space.hpp>
 #include <vector>
 
 #include "geometry/block_counts.hpp"
-#include "geometry/cell_rows.hpp"
 #include "planner/sight_tree.hpp"
 
 namespace vantage::detail {
@@ -21,32 +21,38 @@ namespace vantage::detail {
 /// Where sight passes and where the platform can go, from survey to survey, and what looking around unknown cells has
 /// found there: an answer stands until something changes where it was looked for.
 ///
-/// Changes are found by comparing the cells with those of the survey before, word by word, so it does not matter by
-/// which way a map came to be as it is, nor whether it is the same map. Which cells an answer has looked at is kept
-/// by blocks of 4 x 4 x 4: a change in any of them makes it be looked for anew. An answer is that of a memory that
-/// begins now, always.
+/// Cells are kept in blocks of 4 x 4 x 4. Changes are found by comparing every block with what it was in the survey
+/// before, so it does not matter by which way a map came to be as it is, nor whether it is the same map. A change in
+/// a block that an answer has looked at makes it be looked for anew. An answer is that of a memory that begins now,
+/// always.
 class SightMemory {
  public:
   /// Takes over what is clear and what is reachable now. Lines of sight are `direction_count` rays of `furthest_m`.
   void follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
               std::size_t direction_count);
 
-  [[nodiscard]] const CellRows& clear() const { return clear_; }
-  [[nodiscard]] const CellRows& reachable() const { return reachable_; }
   [[nodiscard]] double furthest_m() const { return furthest_m_; }
+  /// Whether sight passes this cell. The answer that is being looked for depends on it from now on.
+  [[nodiscard]] bool is_clear(const VoxelIndex& cell);
+  /// Whether the platform can bring the sensor to this cell.
+  [[nodiscard]] bool is_reachable(const VoxelIndex& cell) const;
 
-  /// The first reachable cell on the first ray from `unknown` through clear cells that `serves` takes, which may ask
-  /// `passes` whether further cells are clear, and says so by `look_at`. As it was found last time if nothing that
+  /// The first reachable cell on the first ray from `unknown` through cells that `passes` lets through which `serves`
+  /// takes; both ask `is_clear` of whatever their answer depends on. As it was found last time if nothing that
   /// mattered has changed; `serves` must answer alike where the same cells are clear, unless it is asked `anew`.
   template <class Passes, class Serves>
   [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
                                                       const Serves& serves);
-  /// The answer that is being looked for depends on whether this cell is clear.
-  void look_at(const VoxelIndex& cell);
   /// Forgets the answers that were not asked for since the last `follow`.
   void forget_others();
 
  private:
+  struct Block {
+    std::uint64_t clear = 0;      // a bit a cell, in the order of a Brick's words
+    std::uint64_t reachable = 0;  // the same
+    std::uint32_t changed = 0;    // the last survey in which a cell had changed
+    std::uint32_t looked_at = 0;  // the last question for which a cell was looked at
+  };
   struct Answer {
     std::optional<VoxelIndex> viewpoint = {};
     bool may_stand = false;                     // found, and not for once only
@@ -58,34 +64,39 @@ class SightMemory {
 
   void begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count);
   void make_room(const OccupancyMap& map);
-  void mark_changes(const CellRows& before, const CellRows& now);
   [[nodiscard]] bool stands(const Answer& answer) const;
   static VoxelIndex block_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
+  static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (Brick::offset_of(cell) & 63U); }
 
   double cell_size_m_ = 0.0;
   double furthest_m_ = 0.0;
   std::size_t direction_count_ = 0;
   std::optional<SightTree> tree_;
-  VoxelBox cells_;  // that the rows and blocks below reach; grows in leaps
-  CellRows clear_;
-  CellRows reachable_;
+  VoxelBox cells_;                     // that the blocks reach; grows in leaps
+  VoxelGrid<Block> blocks_;            // nothing beyond them is clear; where they grow, all answers are forgotten
   std::optional<BlockCounts> places_;  // that are reachable
   std::uint32_t survey_ = 0;
-  VoxelGrid<std::uint32_t> changed_;    // the last survey in which a cell of the block had changed
-  VoxelGrid<std::uint32_t> looked_at_;  // the last question for which a cell of the block was looked at
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer that is being looked for
   std::unordered_map<VoxelIndex, Answer> answers_;
 };
 
-inline void SightMemory::look_at(const VoxelIndex& cell) {
-  if (asked_ == nullptr || !cells_.contains(cell)) {
-    return;  // beyond the cells nothing is clear, and where they grow all answers are forgotten
+inline bool SightMemory::is_clear(const VoxelIndex& cell) {
+  const VoxelIndex address = block_of(cell);
+  if (!blocks_.contains(address)) {
+    return false;
   }
-  const std::size_t block = looked_at_.offset_of(block_of(cell));
-  if (std::exchange(looked_at_.values()[block], question_) != question_) {
-    asked_->looked_at.push_back(static_cast<std::uint32_t>(block));
+  const std::size_t offset = blocks_.offset_of(address);
+  Block& block = blocks_.values()[offset];
+  if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(offset));
   }
+  return (block.clear & bit_of(cell)) != 0;
+}
+
+inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
+  const VoxelIndex address = block_of(cell);
+  return blocks_.contains(address) && (blocks_[address].reachable & bit_of(cell)) != 0;
 }
 
 template <class Passes, class Serves>
@@ -109,7 +120,7 @@ std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& unknown, bo
         }
         return may_hold;
       },
-      passes, [&](const VoxelIndex& cell) { return reachable_.contains(cell) && serves(cell); });
+      passes, [&](const VoxelIndex& cell) { return is_reachable(cell) && serves(cell); });
   asked_ = nullptr;
   answer.may_stand = !anew;
   return answer.viewpoint;
