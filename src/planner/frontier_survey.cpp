@@ -227,6 +227,9 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& cur
   memory_->follow(map, survey.reachable, furthest_m(map, sensor_), options_.sight_directions);
   ViewpointSearch search(map.frame(), *platform_, sensor_, survey.reachable, failed, *memory_);
   const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
+    if (options_.refutations > 0 && failed.refutations(cell) >= options_.refutations) {
+      return false;
+    }
     for (const VoxelIndex& step : kFaceNeighbours) {
       const VoxelIndex unknown = cell + step;
       if (const auto viewpoint = is_sought(map, unknown, failed) ? find(unknown) : std::nullopt) {

@@ -142,6 +142,7 @@ SettingReader& read_survey(SettingReader& read, FrontierSurveyOptions& options) 
       .number("min_contested_cluster_cells", options.min_contested_cluster_cells)
       .flag("surfaces_first", options.surfaces_first)
       .number("patience", options.patience)
+      .number("refutations", options.refutations)
       .number("sight_directions", options.sight_directions)
       .number("exhaustive_pairs", options.exhaustive_pairs);
 }

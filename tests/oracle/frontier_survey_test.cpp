@@ -32,6 +32,7 @@ struct SurveyedWorld {
   FrontierSurveyOptions options{.min_cluster_cells = 1,
                                 .min_contested_cluster_cells = 1,
                                 .surfaces_first = false,
+                                .refutations = 2,
                                 .sight_directions = kDirections,
                                 .exhaustive_pairs = 10'000};
   FailedViews failed{};
@@ -115,6 +116,9 @@ std::optional<VoxelIndex> along(const SurveyedWorld& world, const ReachableSpace
 std::optional<FrontierTarget> target_of(const SurveyedWorld& world, const ReachableSpace& reachable,
                                         const VoxelIndex& frontier) {
   static const std::vector<Eigen::Vector3d> all_around = directions(kDirections);
+  if (world.failed.refutations(frontier) >= world.options.refutations) {
+    return std::nullopt;
+  }
   for (const VoxelIndex& step : kFaceNeighbours) {
     const VoxelIndex unknown = frontier + step;
     if (!world.map.in_region(unknown) || world.map.at(unknown) != Occupancy::Unknown ||
@@ -163,12 +167,36 @@ void fail_some(SurveyedWorld& world, const FrontierSurvey& survey) {
   }
 }
 
+// Lets every seventh of the frontier cells found turn into a surface as often as there is patience, and back; how
+// many.
+std::size_t refute_some(SurveyedWorld& world, const FrontierSurvey& survey) {
+  std::vector<std::pair<VoxelIndex, double>> cells;
+  for (std::size_t i = 0; i < survey.targets.size(); i += 7) {
+    const VoxelIndex& cell = survey.targets[i].frontier;
+    cells.emplace_back(cell, *world.map.log_odds(cell));
+  }
+  for (int turn = 0; turn < world.options.refutations; ++turn) {
+    std::vector<VoxelIndex> frontier;
+    for (const auto& [cell, log_odds] : cells) {
+      frontier.push_back(cell);
+      world.map.set(cell, Occupancy::Occupied);
+    }
+    world.failed.watch(frontier);
+    world.failed.review(world.map, world.current);
+    for (const auto& [cell, log_odds] : cells) {
+      world.map.set_log_odds(cell, log_odds);
+    }
+  }
+  return cells.size();
+}
+
 TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   std::mt19937 engine(83);
   std::size_t compared = 0;
   std::size_t targets = 0;
   std::size_t hidden = 0;
   std::size_t failed = 0;
+  std::size_t refuted = 0;
   for (int i = 0; i < 40; ++i) {
     SurveyedWorld world = random_world(engine);
     const auto survey_of = [&] {
@@ -177,6 +205,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
     if (i % 2 == 1) {
       fail_some(world, survey_of());
       failed += world.failed.size();
+      refuted += refute_some(world, survey_of());
     }
     const FrontierSurvey survey = survey_of();
     std::vector<FrontierTarget> expected;
@@ -207,6 +236,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   EXPECT_GT(targets, 30'000U);
   EXPECT_GT(hidden, 30'000U);
   EXPECT_GT(failed, 1'000U);
+  EXPECT_GT(refuted, 1'000U);
 }
 
 FrontierSurvey survey_from_nothing(const SurveyedWorld& world) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/robot/free_flyer.hpp>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -22,9 +23,10 @@ OccupancyMap closed_room() {
   return map;
 }
 
-FrontierSurvey survey_of(const OccupancyMap& map, const FrontierSurveyOptions& options = {}) {
+FrontierSurvey survey_of(const OccupancyMap& map, const FrontierSurveyOptions& options = {},
+                         const FailedViews& failed = FailedViews()) {
   return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), rays_all_around(), pose_looking({1.1, 1.1, 1.1}, 0.0),
-                          options, FailedViews());
+                          options, failed);
 }
 
 constexpr VoxelBox kOpening{{12, 4, 4}, {13, 6, 6}};  // four cells of the wall at x = 12
@@ -87,6 +89,30 @@ TEST(FrontierSurvey, SmallClustersNearAWornWallAreLeft) {
   EXPECT_TRUE(survey_of(map).targets.empty());
   EXPECT_EQ(survey_of(map, {.min_contested_cluster_cells = 4}).targets.size(), 4U);
   EXPECT_EQ(survey_of(map, {.min_cluster_cells = 5, .min_contested_cluster_cells = 1}).leftover.too_small, 4U);
+}
+
+TEST(FrontierSurvey, WhatTurnsIntoASurfaceTooOftenIsNoFrontier) {
+  OccupancyMap map = closed_room();
+  FailedViews failed;
+  const VoxelIndex hole{12, 8, 8};
+  map.set(hole, Occupancy::Free);
+  for (int turn = 0; turn < 4; ++turn) {
+    for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+    for (const int refutations : {0, 1, 2, 3}) {
+      const FrontierSurvey survey = survey_of(map, {.refutations = refutations}, failed);
+      const std::size_t targets = refutations == 0 || turn < refutations ? 5U : 1U;
+      EXPECT_EQ(survey.frontier_cells, 5U);
+      EXPECT_EQ(survey.targets.size(), targets) << turn << " " << refutations;
+      EXPECT_EQ(survey.leftover.unobservable, 5U - targets);
+    }
+    std::vector<VoxelIndex> chosen_from;
+    for (const FrontierTarget& target : survey_of(map).targets) {
+      chosen_from.push_back(target.frontier);
+    }
+    failed.watch(chosen_from);
+    for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Occupied); });
+    failed.review(map, pose_looking({1.1, 1.1, 1.1}, 0.0));
+  }
 }
 
 }  // namespace
