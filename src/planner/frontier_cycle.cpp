@@ -30,10 +30,12 @@ FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const
       setup_(setup),
       failed_(failed),
       survey_(checked_survey(map, current, surveyor, failed, std::move(frontier))) {
-  std::vector<VoxelIndex> chosen_from(survey_.targets.size());
-  std::transform(survey_.targets.begin(), survey_.targets.end(), chosen_from.begin(),
-                 [](const FrontierTarget& target) { return target.frontier; });
-  failed.watch(std::move(chosen_from));
+  if (surveyor.options().refutations > 0) {
+    std::vector<VoxelIndex> chosen_from(survey_.targets.size());
+    std::transform(survey_.targets.begin(), survey_.targets.end(), chosen_from.begin(),
+                   [](const FrontierTarget& target) { return target.frontier; });
+    failed.watch(std::move(chosen_from));
+  }
   plan_.leftover = survey_.leftover;
   plan_.statistics.frontier_cells = survey_.frontier_cells;
   plan_.statistics.observable_cells = survey_.targets.size();

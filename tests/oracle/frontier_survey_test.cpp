@@ -167,8 +167,7 @@ void fail_some(SurveyedWorld& world, const FrontierSurvey& survey) {
   }
 }
 
-// Lets every seventh of the frontier cells found turn into a surface as often as there is patience, and back; how
-// many.
+// Lets every seventh of the frontier cells found turn into a surface as often as is allowed, and back; how many.
 std::size_t refute_some(SurveyedWorld& world, const FrontierSurvey& survey) {
   std::vector<std::pair<VoxelIndex, double>> cells;
   for (std::size_t i = 0; i < survey.targets.size(); i += 7) {

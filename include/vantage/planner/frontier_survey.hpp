@@ -36,7 +36,8 @@ struct FrontierSurveyOptions {
   int patience = 2;  ///< places from which a view of a cell may fail before it is given up (FailedViews), >= 1
   /// How often a frontier cell may turn out to hold a surface before it is left as unobservable, >= 0; 0: as often as
   /// it likes. In fine cells the state of a surface that rays meet at a small angle, a sloping roof for instance,
-  /// depends on where it was last seen from, so that false frontiers come and go for ever; 1 ends such runs.
+  /// depends on where it was last seen from, so that false frontiers come and go for ever; 1, with a patience of 1,
+  /// has ended such a run.
   int refutations = 0;
   std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
   /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are

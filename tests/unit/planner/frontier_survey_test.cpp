@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
+#include <string>
 #include <vantage/planner/frontier_survey.hpp>
+#include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vector>
 
@@ -112,6 +115,26 @@ TEST(FrontierSurvey, WhatTurnsIntoASurfaceTooOftenIsNoFrontier) {
     failed.watch(chosen_from);
     for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Occupied); });
     failed.review(map, pose_looking({1.1, 1.1, 1.1}, 0.0));
+  }
+}
+
+// An opening that a planner goes for, that is a surface at its next plan, and an opening again.
+TEST(FrontierSurvey, PlannersCountHowOftenAFrontierWasNone) {
+  for (const int refutations : {0, 1, 2}) {
+    OccupancyMap map = closed_room();
+    PlannerSetup setup;
+    setup.platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1});
+    setup.sensor = rays_all_around();
+    const auto planner = make_planner("nearest-frontier", setup, {{"refutations", std::to_string(refutations)}});
+    const Pose current = pose_looking({1.1, 1.1, 1.1}, 0.0);
+    for (int turn = 0; turn < 3; ++turn) {
+      for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+      const bool left = refutations > 0 && turn >= refutations;
+      EXPECT_EQ(planner->plan(map, current).outcome, left ? Outcome::Explored : Outcome::Move)
+          << refutations << " " << turn;
+      for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Occupied); });
+      EXPECT_EQ(planner->plan(map, current).outcome, Outcome::Explored);
+    }
   }
 }
 
