@@ -58,8 +58,7 @@ for what in "${@:-house-coarse house-fine collapsed-house office}"; do
         explore 'collapsed house' 0.1 'harmonic nearest-frontier frontier-gain' $collapsed --max-views 4000
         ;;
       office-fine)
-        explore 'office' 0.1 'harmonic nearest-frontier frontier-gain' $first_office --max-views 8000 \
-          --set patience=1 --set refutations=1
+        explore 'office' 0.1 'harmonic nearest-frontier frontier-gain' $first_office --max-views 8000
         ;;
       office)
         explore 'office' 0.2 'harmonic nearest-frontier frontier-gain' $first_office --max-views 8000

@@ -198,7 +198,7 @@ void OccupancyMap::set(const VoxelIndex& cell, Occupancy occupancy) {
   const std::int8_t steps = occupancy == Occupancy::Unknown ? std::int8_t{0}
                             : occupancy == Occupancy::Free  ? min_steps_
                                                             : max_steps_;
-  write(cell, occupancy, steps);
+  write(cell, occupancy, steps, Past::Forgotten);
 }
 
 void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
@@ -212,7 +212,7 @@ void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
   ++revision_;
   const std::int8_t steps = to_steps(log_odds);
   const Occupancy state = steps >= 0 ? Occupancy::Occupied : Occupancy::Free;
-  for_each_cell(inside, [&](const VoxelIndex& cell) { write(cell, state, steps); });
+  for_each_cell(inside, [&](const VoxelIndex& cell) { write(cell, state, steps, Past::Kept); });
 }
 
 void OccupancyMap::assume_free(const Box& box) {
@@ -225,7 +225,7 @@ void OccupancyMap::assume_free(const Box& box) {
   ++revision_;
   for_each_cell({frame_.cell_of(box.min), last}, [&](const VoxelIndex& cell) {
     if (in_region(cell) && at(cell) == Occupancy::Unknown) {
-      write(cell, Occupancy::Free, miss_steps_);
+      write(cell, Occupancy::Free, miss_steps_, Past::Kept);
     }
   });
 }
@@ -263,7 +263,7 @@ void OccupancyMap::mark_changed(BrickDirectory::Number number) {
   stored.changed = revision_;
 }
 
-void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t steps) {
+void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t steps, Past past) {
   const VoxelIndex address = Brick::of_cell(cell);
   if (state == Occupancy::Unknown && directory_.find(address) == BrickDirectory::kNone) {
     return;
@@ -278,6 +278,10 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
   }
   brick.known[word] = state == Occupancy::Unknown ? brick.known[word] & ~bit : brick.known[word] | bit;
   brick.occupied[word] = state == Occupancy::Occupied ? brick.occupied[word] | bit : brick.occupied[word] & ~bit;
+  if (past == Past::Forgotten) {
+    brick.once_occupied[word] &= ~bit;
+  }
+  brick.once_occupied[word] |= brick.occupied[word];
   brick.log_odds[offset] = steps;
 }
 

@@ -63,11 +63,6 @@ void FailedViews::review(const OccupancyMap& map, const Pose& current) {
   for (const auto& entry : failures_) {
     may_have_failed_.insert(entry.first);
   }
-  for (const VoxelIndex& cell : std::exchange(watched_, {})) {
-    if (map.at(cell) == Occupancy::Occupied) {
-      ++refutations_[cell];
-    }
-  }
   if (!expected_ || expected_->revision >= map.revision() || !arrived(map, expected_->goal, current)) {
     return;
   }
@@ -125,11 +120,6 @@ bool FailedViews::failed_towards(const VoxelIndex& unknown, const VoxelIndex& vi
 bool FailedViews::gave_up(const VoxelIndex& unknown) const {
   const Failures* failures = failures_of(unknown);
   return failures != nullptr && failures->viewpoints.size() >= static_cast<std::size_t>(patience_);
-}
-
-int FailedViews::refutations(const VoxelIndex& frontier) const {
-  const auto found = refutations_.find(frontier);
-  return found == refutations_.end() ? 0 : found->second;
 }
 
 }  // namespace vantage

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "planner/frontier_cycle.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,12 +29,6 @@ FrontierCycle::FrontierCycle(const OccupancyMap& map, const Pose& current, const
       setup_(setup),
       failed_(failed),
       survey_(checked_survey(map, current, surveyor, failed, std::move(frontier))) {
-  if (surveyor.options().refutations > 0) {
-    std::vector<VoxelIndex> chosen_from(survey_.targets.size());
-    std::transform(survey_.targets.begin(), survey_.targets.end(), chosen_from.begin(),
-                   [](const FrontierTarget& target) { return target.frontier; });
-    failed.watch(std::move(chosen_from));
-  }
   plan_.leftover = survey_.leftover;
   plan_.statistics.frontier_cells = survey_.frontier_cells;
   plan_.statistics.observable_cells = survey_.targets.size();
@@ -108,7 +101,6 @@ void validate(const FrontierSurveyOptions& options) {
   require_option(options.min_contested_cluster_cells >= 1, "FrontierSurveyOptions::min_contested_cluster_cells",
                  options.min_contested_cluster_cells, ">= 1");
   require_option(options.patience >= 1, "FrontierSurveyOptions::patience", options.patience, ">= 1");
-  require_option(options.refutations >= 0, "FrontierSurveyOptions::refutations", options.refutations, ">= 0");
   require_option(options.sight_directions >= 6, "FrontierSurveyOptions::sight_directions", options.sight_directions,
                  ">= 6");
 }

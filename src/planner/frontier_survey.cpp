@@ -227,7 +227,7 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& cur
   memory_->follow(map, survey.reachable, furthest_m(map, sensor_), options_.sight_directions);
   ViewpointSearch search(map.frame(), *platform_, sensor_, survey.reachable, failed, *memory_);
   const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
-    if (options_.refutations > 0 && failed.refutations(cell) >= options_.refutations) {
+    if (!options_.worn_frontiers && map.worn(cell)) {
       return false;
     }
     for (const VoxelIndex& step : kFaceNeighbours) {

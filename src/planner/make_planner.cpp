@@ -140,9 +140,9 @@ class SettingReader {
 SettingReader& read_survey(SettingReader& read, FrontierSurveyOptions& options) {
   return read.number("min_cluster_cells", options.min_cluster_cells)
       .number("min_contested_cluster_cells", options.min_contested_cluster_cells)
+      .flag("worn_frontiers", options.worn_frontiers)
       .flag("surfaces_first", options.surfaces_first)
       .number("patience", options.patience)
-      .number("refutations", options.refutations)
       .number("sight_directions", options.sight_directions)
       .number("exhaustive_pairs", options.exhaustive_pairs);
 }

@@ -11,17 +11,18 @@ namespace vantage {
 
 /// 8 x 8 x 8 cells of an OccupancyMap: the leaf of its directory.
 ///
-/// Two bit planes say what every cell is; one 64-bit word of a plane is a sub-brick of 4 x 4 x 4 cells, x running
-/// fastest, and the eight words of a plane are the eight sub-bricks, x running fastest again. `occupied` is a subset
-/// of `known`. The log-odds lie in the same order, in steps of OccupancyMap::log_odds_step(), 0 for an unknown cell.
+/// Two bit planes say what every cell is, a third what it has been; one 64-bit word of a plane is a sub-brick of 4 x
+/// 4 x 4 cells, x running fastest, and the eight words of a plane are the eight sub-bricks, x running fastest again.
+/// The log-odds lie in the same order, in steps of OccupancyMap::log_odds_step(), 0 for an unknown cell.
 struct Brick {
   static constexpr std::int32_t kSide = 8;    ///< cells along an edge
   static constexpr std::size_t kWords = 8;    ///< sub-bricks, and so words of a plane
   static constexpr std::size_t kCells = 512;  ///< cells of a brick
 
-  std::array<std::uint64_t, kWords> known{};     ///< bit plane: free or occupied
-  std::array<std::uint64_t, kWords> occupied{};  ///< bit plane: occupied, a subset of `known`
-  std::array<std::int8_t, kCells> log_odds{};    ///< in steps, by `offset_of`
+  std::array<std::uint64_t, kWords> known{};          ///< bit plane: free or occupied
+  std::array<std::uint64_t, kWords> occupied{};       ///< bit plane: occupied, a subset of `once_occupied`
+  std::array<std::uint64_t, kWords> once_occupied{};  ///< bit plane: occupied now or before, a subset of `known`
+  std::array<std::int8_t, kCells> log_odds{};         ///< in steps, by `offset_of`
 
   /// The brick that holds a cell.
   [[nodiscard]] static constexpr VoxelIndex of_cell(const VoxelIndex& cell) {
@@ -57,6 +58,11 @@ struct Brick {
   }
   /// The free cells of one sub-brick.
   [[nodiscard]] std::uint64_t free(std::size_t word) const { return known[word] & ~occupied[word]; }
+  /// Whether the cell at an offset is free, but was occupied before.
+  [[nodiscard]] bool worn(std::size_t offset) const {
+    const std::size_t word = offset >> 6U;
+    return ((once_occupied[word] & ~occupied[word]) >> (offset & 63U) & 1U) != 0;
+  }
 };
 
 /// Calls `visit(offset)` for each set bit of `mask`, the word `word` of a plane.

@@ -89,6 +89,12 @@ class OccupancyMap {
   /// number of misses go unnoticed: seven of eight pass by the default constants, none does where a hit is a multiple
   /// of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
+  /// Whether a cell is free, but was occupied before: rays through its free part have worn away a surface in it, or
+  /// what was there has gone. Unlike a contested cell it stays so when it is free for sure.
+  [[nodiscard]] bool worn(const VoxelIndex& cell) const {
+    const Brick* brick = find_brick(Brick::of_cell(cell));
+    return brick != nullptr && brick->worn(Brick::offset_of(cell));
+  }
   /// Whether a cell is free and not contested: what sight passes, and a body may touch.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell) const {
     const Brick* brick = find_brick(Brick::of_cell(cell));
@@ -181,10 +187,12 @@ class OccupancyMap {
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Makes a new revision and changes nothing, as a scan does that confirms what is known.
   void confirm() { ++revision_; }
-  /// Sets the state of a cell outright, at the clamping limit; Unknown forgets it. Outside the region: no effect.
+  /// Sets the state of a cell outright, at the clamping limit, and forgets what it was; Unknown forgets that it was
+  /// seen. Outside the region: no effect.
   void set(const VoxelIndex& cell, Occupancy occupancy);
-  /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free.
-  /// Outside the region: no effect. Throws std::invalid_argument for NaN.
+  /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free. As
+  /// when a scan changes them, an occupied cell that becomes free is worn. Outside the region: no effect. Throws
+  /// std::invalid_argument for NaN.
   void set_log_odds(const VoxelIndex& cell, double log_odds) {
     set_log_odds(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}, log_odds);
   }
@@ -211,7 +219,8 @@ class OccupancyMap {
   void require_past(Revision revision) const;
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
-  void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
+  enum class Past : std::uint8_t { Kept, Forgotten };
+  void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps, Past past);
   [[nodiscard]] std::int8_t to_steps(double log_odds) const;
 
   MapIdentity identity_;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
-#include <utility>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -16,10 +15,6 @@ namespace vantage {
 /// Remembers what the sensor has looked at without resolving it, so that no planner stares forever at what its sensor
 /// cannot measure: a surface without texture, the open sky, the inside of a wall that rays at a grazing angle have
 /// worn away in the map. A planner's only memory beside the map; without it a resumed planner merely tries once more.
-///
-/// Where rays through the free part of a cell and rays that end in it take turns, its state flips for ever, and what
-/// seems to be a frontier there comes and goes. How often a frontier cell has turned out to hold a surface is
-/// counted.
 ///
 /// An unknown cell is given up after views from `patience` different cells that were meant for it; a cell from which
 /// a view of it has failed is no viewpoint for it again. The memory decays: when one more of the unknown cell's face
@@ -33,9 +28,6 @@ class FailedViews {
   /// fail, too, if it resolves none of them.
   void expect(const OccupancyMap& map, const Pose& goal, std::vector<VoxelIndex> sought,
               std::vector<VoxelIndex> hoped = {});
-  /// Announces the frontier cells that a planner chooses from: those that hold a surface at the next `review` of a
-  /// changed map are refuted once more.
-  void watch(std::vector<VoxelIndex> frontier) { watched_ = std::move(frontier); }
   /// Looks at the map now. If it has changed since `expect` and `current` is the goal, to within a cell and ten
   /// degrees, every cell sought that is still unknown counts a failure. A second call without a change of the map
   /// does nothing.
@@ -49,8 +41,6 @@ class FailedViews {
   [[nodiscard]] bool failed(const VoxelIndex& unknown) const { return failures_of(unknown) != nullptr; }
   /// Whether views of this unknown cell have failed too often.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
-  /// How often this frontier cell has turned out to hold a surface.
-  [[nodiscard]] int refutations(const VoxelIndex& frontier) const;
   /// The views from within this cell that left some of what they sought unresolved. What a sensor had in view there
   /// and did not resolve, it will not resolve from there next time.
   [[nodiscard]] std::span<const Pose> views_from(const VoxelIndex& viewpoint) const;
@@ -102,8 +92,6 @@ class FailedViews {
   std::unordered_map<VoxelIndex, Failures> failures_;
   MayHaveFailed may_have_failed_;
   std::unordered_map<VoxelIndex, std::vector<Pose>> views_;  // that failed, by place
-  std::vector<VoxelIndex> watched_;
-  std::unordered_map<VoxelIndex, int> refutations_;
 };
 
 }  // namespace vantage

@@ -29,16 +29,17 @@ struct FrontierSurveyOptions {
   /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear
   /// surfaces away, false frontiers of a few cells open without end.
   std::size_t min_contested_cluster_cells = 32;
+  /// Whether a worn cell (OccupancyMap::worn) may be a target. In fine cells the state of a surface that rays meet at
+  /// a small angle, a sloping roof for instance, depends on where it was last seen from: false frontiers come and go
+  /// there for ever, and no run would end. If false, worn frontier cells are left over; what is unknown behind a thing
+  /// that has gone is still the target of the other free cells around it. FrontierVoidOptions and
+  /// NextBestViewOptions have it true.
+  bool worn_frontiers = false;
   /// For a sensor that does not report rays without return: targets whose unknown cell touches an occupied one (26
   /// neighbours) come first, the others when none of these is left. A ray into the open teaches such a sensor
   /// nothing, one along a known surface most likely meets more of it.
   bool surfaces_first = true;
   int patience = 2;  ///< places from which a view of a cell may fail before it is given up (FailedViews), >= 1
-  /// How often a frontier cell may turn out to hold a surface before it is left as unobservable, >= 0; 0: as often as
-  /// it likes. In fine cells the state of a surface that rays meet at a small angle, a sloping roof for instance,
-  /// depends on where it was last seen from, so that false frontiers come and go for ever; 1, with a patience of 1,
-  /// has ended such a run.
-  int refutations = 0;
   std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
   /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are
   /// tried one by one before the map may be called explored: all of them, or this many, and the plan says so.

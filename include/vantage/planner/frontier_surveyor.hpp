@@ -31,8 +31,6 @@ class FrontierSurveyor {
   FrontierSurveyor& operator=(FrontierSurveyor&& other) noexcept;
   ~FrontierSurveyor();
 
-  /// The options it surveys by.
-  [[nodiscard]] const FrontierSurveyOptions& options() const { return options_; }
   /// Surveys the map from `current`. Targets that `failed` has given up count as unobservable.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed);
   /// The same for those who know the frontier cells of the map already (FrontierTracker), in raster order.

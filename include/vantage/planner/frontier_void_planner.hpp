@@ -83,7 +83,8 @@ struct FrontierVoidOptions {
   std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, >= 1
   FrontierVoidStrategy strategy = {};  ///< what to make of the voids
   /// What counts as observable. Fewer directions than elsewhere: a void is looked into through many frontier cells.
-  FrontierSurveyOptions survey = {.sight_directions = 128};
+  /// Worn ones count: what noise has worn just before a surface may lead to a void all the same.
+  FrontierSurveyOptions survey = {.worn_frontiers = true, .sight_directions = 128};
 };
 
 /// What a plan of FrontierVoidPlanner was made from, for pictures and for those who want to look.

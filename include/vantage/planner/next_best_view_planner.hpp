@@ -71,7 +71,9 @@ struct NextBestViewOptions {
   std::size_t hypotheses =
       100;  ///< poses drawn in the reachable space per plan, every other aimed at a frontier; >= 1
 
-  FrontierSurveyOptions survey = {};  ///< what counts as a frontier worth a view, and the patience with failed views
+  /// What counts as a frontier worth a view, and the patience with failed views. Worn ones count: noise wears cells
+  /// just before the surface of the object, beside which the rest of it is to be found.
+  FrontierSurveyOptions survey = {.worn_frontiers = true};
 };
 
 /// The next best view of Vasquez-Gomez et al. 2013, Algorithm 1: of many candidate views, the one of the largest

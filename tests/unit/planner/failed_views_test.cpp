@@ -88,31 +88,6 @@ TEST(FailedViews, RemembersTheViewsThatFailed) {
   EXPECT_TRUE(failed.views_from(elsewhere).empty());
 }
 
-// A surface that rays wear away and restore in turns: free while a planner chooses from it, occupied when it looks
-// again.
-TEST(FailedViews, CountsHowOftenAFrontierHasTurnedOutToHoldASurface) {
-  const VoxelIndex flips{4, 5, 5};
-  const VoxelIndex stays{4, 4, 5};
-  OccupancyMap map = slab_before_the_unknown();
-  FailedViews failed;
-  const Pose anywhere = pose_looking(map.frame().centre_of({2, 2, 2}), 0.0);
-  EXPECT_EQ(failed.refutations(flips), 0);
-  for (int turn = 1; turn <= 3; ++turn) {
-    map.set(flips, Occupancy::Free);
-    failed.review(map, anywhere);
-    failed.watch({flips, stays});
-    failed.review(map, anywhere);  // nothing has changed yet
-    map.set(flips, Occupancy::Occupied);
-    failed.review(map, anywhere);
-    EXPECT_EQ(failed.refutations(flips), turn);
-    map.confirm();
-    failed.review(map, anywhere);  // once announced, once refuted
-    EXPECT_EQ(failed.refutations(flips), turn);
-    EXPECT_EQ(failed.refutations(stays), 0);
-  }
-  EXPECT_FALSE(failed.failed(kUnknown)) << "no view of it has failed";
-}
-
 TEST(FailedViews, CountsOnlyFromTheGoalAndOnlyANewMap) {
   OccupancyMap map = slab_before_the_unknown();
   const Pose goal = pose_looking({0.5, 1.1, 1.1}, 0.0);
