@@ -21,12 +21,13 @@ struct OctomapImportOptions {
   /// nearest whole number of misses.
   OccupancyMapOptions map = {};
   /// Refuse an octree whose leaves, expanded to finest cells, are more than this: one leaf near the root of a damaged
-  /// file would otherwise fill the memory. About 1.3 bytes a cell.
+  /// file would otherwise fill the memory. About 1.4 bytes a cell.
   std::uint64_t max_cells = std::uint64_t{1} << 30U;
 };
 
 /// A map read from an octree. Its states are those of the octree, cell by cell: a pruned leaf becomes the finest
-/// cells it stands for. Its log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0.
+/// cells it stands for. Its log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0. An octree
+/// does not tell what a cell was before, so no cell of the map is worn (OccupancyMap::worn).
 struct OctomapImport {
   /// The map that was made.
   OccupancyMap map;

@@ -51,7 +51,8 @@ struct FrontierSurveyOptions {
 ///
 /// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one
 /// of its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest
-/// and longest range, and falls into its field of view in an orientation that the platform can take there.
+/// and longest range, and falls into its field of view in an orientation that the platform can take there. A worn one
+/// is not, unless FrontierSurveyOptions::worn_frontiers says so.
 struct FrontierSurvey {
   ReachableSpace reachable;  ///< cells the platform can bring the sensor to
   /// The observable frontier cells to go for now (FrontierSurveyOptions::surfaces_first), in raster order of
