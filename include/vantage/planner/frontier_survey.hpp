@@ -31,8 +31,8 @@ struct FrontierSurveyOptions {
   std::size_t min_contested_cluster_cells = 32;
   /// Whether a worn cell (OccupancyMap::worn) may be a target. In fine cells the state of a surface that rays meet at
   /// a small angle, a sloping roof for instance, depends on where it was last seen from: false frontiers come and go
-  /// there for ever, and no run would end. If false, worn frontier cells are left over; what is unknown behind a thing
-  /// that has gone is still the target of the other free cells around it. FrontierVoidOptions and
+  /// there for ever, and no run would end. If false, worn frontier cells are left over; what is unknown behind a
+  /// thing that has gone is still the target of the other free cells around it. FrontierVoidOptions and
   /// NextBestViewOptions have it true.
   bool worn_frontiers = false;
   /// For a sensor that does not report rays without return: targets whose unknown cell touches an occupied one (26
