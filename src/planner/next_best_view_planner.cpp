@@ -354,7 +354,8 @@ Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) 
   for (std::size_t i = 0; i < scored.size(); ++i) {
     ranks.push({scored[i].utility, i});
   }
-  // A view counts only if it resolves a frontier that is worth one: unknown cells on surfaces worn away are not.
+  // A view counts only if it resolves a frontier that is worth one: a few unknown cells beside contested ones are
+  // not.
   TargetView best;
   for (; !ranks.empty() && best.unknown.empty(); ranks.pop()) {
     const ScoredView& view = scored[ranks.top().candidate];

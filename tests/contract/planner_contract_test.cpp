@@ -88,8 +88,8 @@ void PrintTo(const Setting& setting, std::ostream* out) {  // NOLINT(readability
   *out << setting.planner << (setting.narrow ? ", camera" : ", all round");
 }
 
-/// Every frontier cell counts here, however small its cluster.
-const PlannerSettings kEveryCell{{"min_contested_cluster_cells", "1"}};
+/// Every frontier cell counts here, however small its cluster and whatever it was before.
+const PlannerSettings kEveryCell{{"min_contested_cluster_cells", "1"}, {"worn_frontiers", "true"}};
 
 /// One robot in one world, driven by the simplest host there can be.
 class Robot {

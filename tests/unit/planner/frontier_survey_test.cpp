@@ -70,10 +70,10 @@ TEST(FrontierSurvey, WithoutNoReturnsTheRimOfAnOpeningComesFirst) {
 }
 
 // Hit once, missed three times: free by 0.35, which no number of misses makes.
-TEST(FrontierSurvey, SightDoesNotPassAWornWall) {
+TEST(FrontierSurvey, SightDoesNotPassAContestedWall) {
   OccupancyMap map = closed_room();
   for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set_log_odds(cell, 0.85 - 3 * 0.4); });
-  const FrontierSurvey survey = survey_of(map);
+  const FrontierSurvey survey = survey_of(map, {.worn_frontiers = true});
   EXPECT_EQ(survey.frontier_cells, 4U);
   EXPECT_TRUE(survey.targets.empty());
   EXPECT_EQ(survey.leftover.unobservable + survey.leftover.unreachable, 4U);
@@ -89,7 +89,7 @@ TEST(FrontierSurvey, AWornCellIsNoTarget) {
   EXPECT_EQ(survey.leftover.unobservable + survey.leftover.unreachable, 4U);
   EXPECT_EQ(survey_of(map, {.worn_frontiers = true}).targets.size(), 4U);
 
-  // A free cell that never was occupied is one, and sight passes the worn cells before it.
+  // One that never was occupied is a target, also amid worn ones.
   map.set(kOpening.lo + VoxelIndex{1, 0, 0}, Occupancy::Free);
   const FrontierSurvey beyond = survey_of(map);
   EXPECT_EQ(beyond.frontier_cells, 4U);
@@ -97,7 +97,7 @@ TEST(FrontierSurvey, AWornCellIsNoTarget) {
   EXPECT_EQ(beyond.targets.front().frontier, (kOpening.lo + VoxelIndex{1, 0, 0}));
 }
 
-TEST(FrontierSurvey, SmallClustersNearAWornWallAreLeft) {
+TEST(FrontierSurvey, SmallClustersNearAContestedWallAreLeft) {
   OccupancyMap map = closed_room();
   for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
   map.set_log_odds(VoxelIndex{12, 7, 4}, 0.85 - 3 * 0.4);  // two cells off the opening
