@@ -22,8 +22,8 @@ constexpr std::size_t kFinalists = 100;  // counted with all rays
 
 }  // namespace
 
-ExhaustivePlanner::ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_dm3)
-    : arm_(std::move(arm)), setup_(setup), least_view_dm3_(least_view_dm3) {
+ExhaustivePlanner::ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_m3)
+    : arm_(std::move(arm)), setup_(setup), least_view_m3_(least_view_m3) {
   if (setup.threads < 1) {
     throw std::invalid_argument("PlannerSetup::threads is " + std::to_string(setup.threads) + ", must be >= 1");
   }
@@ -69,7 +69,7 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
   plan.statistics.views_scored = views.size();
   weigh(views, map, sight, caster, ViewRays(setup_.sensor.rays_for(kFewRays * map.resolution_m())));
   weigh(views, map, sight, caster, ViewRays(setup_.sensor.rays_for(map.resolution_m())));
-  const double least_cells = std::max(1.0, least_view_dm3_ / std::pow(10.0 * map.resolution_m(), 3));
+  const double least_cells = std::max(1.0, least_view_m3_ / std::pow(map.resolution_m(), 3));
   const auto worth_it = [&](const Weighed& view) { return std::round(view.void_cells) >= std::ceil(least_cells); };
   if (views.empty() || !worth_it(views.front())) {
     plan.outcome = Outcome::Explored;

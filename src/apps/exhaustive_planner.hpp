@@ -21,9 +21,9 @@ class ExhaustivePlanner final : public ExplorationPlanner {
   /// What the command line calls it.
   static constexpr std::string_view kName = "exhaustive";
 
-  /// Views from which less of the voids is expected than `least_view_dm3` are none. Throws std::invalid_argument as
+  /// Views from which less of the voids is expected than `least_view_m3` are none. Throws std::invalid_argument as
   /// make_planner.
-  ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_dm3);
+  ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_m3);
 
   [[nodiscard]] std::string_view name() const override { return kName; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
@@ -39,7 +39,7 @@ class ExhaustivePlanner final : public ExplorationPlanner {
 
   std::shared_ptr<const Arm> arm_;
   PlannerSetup setup_;
-  double least_view_dm3_;
+  double least_view_m3_;
   FailedViews failed_;
 };
 

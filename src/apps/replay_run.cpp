@@ -60,9 +60,7 @@ void conclude(ReplayRecord& record) {
   const Plan& last = record.frames.back().plans.front().plan;
   RunRecord& run = record.run;
   run.leftover = last.leftover;
-  run.outcome = last.outcome == Outcome::Explored  ? RunOutcome::Explored
-                : last.outcome == Outcome::Blocked ? RunOutcome::Blocked
-                                                   : RunOutcome::Budget;
+  run.outcome = run_outcome_of(last.outcome);
   run.reason = last.outcome != Outcome::Move
                    ? last.reason
                    : std::string(record.to_the_end ? "the recording is at its end" : "the views were spent") +

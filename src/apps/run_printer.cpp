@@ -130,8 +130,8 @@ void RunPrinter::summary(const RunRecord& record) {
   if (record.surface_coverage) {
     out_ << format("  %-12s %.2f %% of the object's points\n", "surface", 100.0 * *record.surface_coverage);
   }
-  out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu too small\n", "left over",
-                 record.leftover.unreachable, record.leftover.unobservable, record.leftover.too_small)
+  out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu looked at in vain\n", "left over",
+                 record.leftover.unreachable, record.leftover.unobservable, record.leftover.in_vain)
        << format("  %-12s %zu\n", "collisions", record.collisions) << times("inserting", insert_ms)
        << times("planning", plan_ms) << format("  %-12s %.0f MB at most\n", "memory", record.peak_memory_mb)
        << std::flush;

@@ -20,6 +20,9 @@ class RunRecording final : public ExplorationPlanner {
 
   [[nodiscard]] std::string_view name() const override { return planner_.name(); }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+  void report(const OccupancyMap& map, const Pose& current, GoalResult result) override {
+    planner_.report(map, current, result);
+  }
 
   /// After each view, with the map then. Throws std::runtime_error naming what cannot be written.
   void look(const ViewRecord& view, const OccupancyMap& map);

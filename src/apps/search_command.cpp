@@ -31,7 +31,7 @@ namespace vantage::apps {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kLeastViewDm3 = 1.6;  // the least that the paper's tables show is 1.61
+constexpr double kLeastViewM3 = 0.0016;  // the least that the paper's tables show is 1.61 dm^3
 
 // `vantage search` as it was typed.
 struct SearchRequest {
@@ -115,11 +115,7 @@ Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pos
 PlannerSettings settings_for(const SearchRequest& request) {
   PlannerSettings settings;
   if (request.run.planner == "frontier-void") {  // a search ends where no view sees a void
-    // Reach is short and views are dear: many are weighed.
-    settings = {
-        {"beyond_voids", "false"}, {"cost_per_m", "0"},        {"least_view_dm3", std::to_string(kLeastViewDm3)},
-        {"views", "400"},          {"place_spacing_m", "0.1"}, {"orientations_per_place", "8"},
-        {"finalists", "30"},       {"sought_chance", "0"}};
+    settings = {{"mode", "searching"}, {"views", "400"}, {"least_view_m3", std::to_string(kLeastViewM3)}};
   }
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
@@ -132,18 +128,18 @@ std::unique_ptr<ExplorationPlanner> planner_of(const SearchRequest& request, con
   if (request.run.planner != ExhaustivePlanner::kName) {
     return make_planner(request.run.planner, setup, settings_for(request));
   }
-  double least_view_dm3 = kLeastViewDm3;
+  double least_view_m3 = kLeastViewM3;
   for (const auto& [name, value] : settings_of(request.run)) {
-    if (name != "least_view_dm3") {
-      throw std::invalid_argument("the planner exhaustive has one setting, least_view_dm3, not '" + name + "'");
+    if (name != "least_view_m3") {
+      throw std::invalid_argument("the planner exhaustive has one setting, least_view_m3, not '" + name + "'");
     }
-    const std::vector<double> numbers = numbers_of("--set least_view_dm3", value);
+    const std::vector<double> numbers = numbers_of("--set least_view_m3", value);
     if (numbers.size() != 1 || numbers.front() < 0.0) {
-      throw std::invalid_argument("--set least_view_dm3=" + value + ": must be one number >= 0");
+      throw std::invalid_argument("--set least_view_m3=" + value + ": must be one number >= 0");
     }
-    least_view_dm3 = numbers.front();
+    least_view_m3 = numbers.front();
   }
-  return std::make_unique<ExhaustivePlanner>(arm, setup, least_view_dm3);
+  return std::make_unique<ExhaustivePlanner>(arm, setup, least_view_m3);
 }
 
 double litres(double cells, double cell_m) { return cells * std::pow(10.0 * cell_m, 3); }

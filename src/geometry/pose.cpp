@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/SVD>
 #include <cmath>
+#include <stdexcept>
 #include <vantage/geometry/pose.hpp>
 
 namespace vantage {
@@ -34,6 +36,19 @@ bool is_rigid(const Pose& pose, double tolerance) {
   const Eigen::Matrix3d rotation = pose.linear();
   return (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= tolerance &&
          rotation.determinant() > 0.0;
+}
+
+Pose orthonormalised(const Pose& pose) {
+  if (is_rigid(pose)) {
+    return pose;
+  }
+  if (!is_rigid(pose, 1e-3)) {
+    throw std::invalid_argument("the pose is not a rigid transform");
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Pose rigid = pose;
+  rigid.linear() = parts.matrixU() * parts.matrixV().transpose();
+  return rigid;
 }
 
 }  // namespace vantage

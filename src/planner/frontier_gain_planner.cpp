@@ -1,51 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include <optional>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
-#include <vantage/planner/target_view.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 #include "geometry/dice.hpp"
-#include "map/option_rule.hpp"
-#include "planner/frontier_cycle.hpp"
+#include "planner/planner_tables.hpp"
 
 namespace vantage {
-namespace {
-
-void validate(const FrontierGainOptions& options) {
-  detail::require_option(options.hypotheses >= 1, "FrontierGainOptions::hypotheses", options.hypotheses, ">= 1");
-  detail::require_option(options.aimed_share >= 0.0 && options.aimed_share <= 1.0, "FrontierGainOptions::aimed_share",
-                         options.aimed_share, "in [0, 1]");
-  detail::require_option(options.cost_per_m >= 0.0, "FrontierGainOptions::cost_per_m", options.cost_per_m, ">= 0");
-  detail::validate(options.survey);
-}
-
-}  // namespace
 
 FrontierGainPlanner::FrontierGainPlanner(const PlannerSetup& setup, const FrontierGainOptions& options)
-    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
-  detail::validate(setup);
-  validate(options);
-  failed_ = FailedViews(options.survey.patience);
+    : FrontierPlanner(setup, options.survey), options_(options) {
+  detail::frontier_gain_settings().validate(options);
 }
 
-Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
-  if (cycle.over()) {
-    return cycle.plan();
-  }
-  const FrontierSurvey& survey = cycle.survey();
-  const Platform& platform = *setup_.platform;
-  PlanStatistics& statistics = cycle.plan().statistics;
-  Dice dice(setup_.seed, map.revision());
+// Shade & Newman 2011, III-B.1.
+std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
+  const FrontierSurvey& survey = situation().survey();
+  const Platform& platform = situation().platform();
+  Dice dice(situation().setup().seed, situation().map().revision());
   std::optional<TargetView> best;
   double best_value = 0.0;
   const auto consider = [&](TargetView candidate) {
-    ++statistics.views_scored;
+    ++plan.statistics.views_scored;
     const double value =
-        candidate.view.utility - options_.cost_per_m * platform.distance_m(current, candidate.view.pose);
+        candidate.view.utility - options_.cost_per_m * platform.distance_m(situation().current(), candidate.view.pose);
     if (candidate.view.utility > 0.0) {
-      cycle.plan().candidates.push_back(candidate.view);
+      plan.candidates.push_back(candidate.view);
     }
     if (candidate.view.utility > 0.0 && (!best || value > best_value)) {
       best_value = value;
@@ -54,12 +34,12 @@ Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {
   };
   const auto aimed = [&] {
     const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
-    consider(view_of_target(map, platform, setup_.sensor, survey, target, statistics.ray_operations));
+    consider(view_of_target(situation(), target, plan.statistics.ray_operations));
   };
   const auto anywhere = [&] {
     const VoxelIndex& cell = survey.reachable.cells()[dice.below(survey.reachable.size())];
-    const Pose pose = platform.facing(map.frame().centre_of(cell), dice.direction());
-    consider(targets_seen_from(map, setup_.sensor, survey, pose, statistics.ray_operations));
+    const Pose pose = platform.facing(survey.reachable.position_in(cell), dice.direction());
+    consider(targets_seen_from(situation(), pose, plan.statistics.ray_operations));
   };
 
   const auto aimed_count = static_cast<std::size_t>(options_.aimed_share * static_cast<double>(options_.hypotheses));
@@ -69,12 +49,12 @@ Plan FrontierGainPlanner::plan(const OccupancyMap& map, const Pose& current) {
   for (std::size_t i = 0; i < options_.hypotheses && !best; ++i) {
     aimed();
   }
-  if (!best) {
-    return cycle.blocked("no hypothesised pose sees a frontier");
+  if (!best) {  // random poses see none, and what is aimed at lies further off than the sensor resolves it
+    best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
   }
-  const std::vector<VoxelIndex> way =
-      GridPaths(survey.reachable).to(map.frame().cell_of(best->view.pose.translation()));
-  return cycle.go(std::move(*best), way);
+  std::vector<VoxelIndex> way =
+      GridPaths(survey.reachable).to(situation().map().frame().cell_of(best->view.pose.translation()));
+  return ChosenView{std::move(*best), std::move(way)};
 }
 
 }  // namespace vantage

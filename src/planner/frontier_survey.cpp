@@ -17,6 +17,9 @@
 namespace vantage {
 namespace {
 
+// Tried one by one when nothing else is left.
+constexpr std::size_t kExhaustivePairs = 3'000'000;
+
 // No further than the known part of the map can reach: a sensor's range may be without bound.
 double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
   return std::min(sensor.max_range_m, map.frame().box_of(map.bounds()).extent().norm() + map.resolution_m());
@@ -26,12 +29,12 @@ double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
 class ViewpointSearch {
  public:
   ViewpointSearch(const VoxelFrame& frame, const Platform& platform, const RangeSensor& sensor,
-                  const ReachableSpace& reachable, const FailedViews& failed, detail::SightMemory& memory)
+                  const ReachableSpace& reachable, const TriedViews& tried, detail::SightMemory& memory)
       : frame_(frame),
         platform_(platform),
         sensor_(sensor),
         reachable_(reachable),
-        failed_(failed),
+        tried_(tried),
         memory_(memory) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
@@ -43,7 +46,7 @@ class ViewpointSearch {
       return std::nullopt;
     }
     return memory_.look_around(
-        unknown, failed_.failed(unknown), [&](const VoxelIndex& cell) { return passes(cell); },
+        unknown, tried_.tried(unknown) || tried_.any_rests(), [&](const VoxelIndex& cell) { return passes(cell); },
         [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
   // Tries every reachable cell, while there are pairs left to try.
@@ -113,7 +116,7 @@ class ViewpointSearch {
   bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
     const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
-    return !failed_.failed_from(unknown, viewpoint) &&
+    return !tried_.tried_from(unknown, viewpoint) && !tried_.rests(viewpoint) &&
            (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
   }
 
@@ -121,43 +124,21 @@ class ViewpointSearch {
   const Platform& platform_;
   const RangeSensor& sensor_;
   const ReachableSpace& reachable_;
-  const FailedViews& failed_;
+  const TriedViews& tried_;
   detail::SightMemory& memory_;
   std::uint64_t operations_ = 0;
 };
 
-bool is_sought(const OccupancyMap& map, const VoxelIndex& cell, const FailedViews& failed) {
-  return map.in_region(cell) && map.at(cell) == Occupancy::Unknown && !failed.gave_up(cell);
+bool is_sought(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
+  return map.in_region(cell) && map.at(cell) == Occupancy::Unknown && !tried.gave_up(cell);
 }
 
-bool near_contested(const OccupancyMap& map, const std::vector<VoxelIndex>& cluster) {
-  return std::any_of(cluster.begin(), cluster.end(), [&](const VoxelIndex& cell) {
-    bool found = false;
-    for_each_cell(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(2),
-                  [&](const VoxelIndex& other) { found = found || map.contested(other); });
-    return found;
+// Whether it is the evidence alone that makes a frontier cell no target.
+bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
+  return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+    const VoxelIndex unknown = cell + step;
+    return map.in_region(unknown) && map.at(unknown) == Occupancy::Unknown && tried.gave_up(unknown);
   });
-}
-
-// The targets in clusters that are worth a view.
-std::vector<FrontierTarget> large_clusters(const OccupancyMap& map, const FrontierSurveyOptions& options,
-                                           const std::vector<FrontierTarget>& targets) {
-  std::vector<VoxelIndex> cells;
-  cells.reserve(targets.size());
-  for (const FrontierTarget& target : targets) {
-    cells.push_back(target.frontier);
-  }
-  std::unordered_set<VoxelIndex> small;
-  for (const std::vector<VoxelIndex>& cluster : frontier_clusters(cells)) {
-    if (cluster.size() < options.min_cluster_cells ||
-        (cluster.size() < options.min_contested_cluster_cells && near_contested(map, cluster))) {
-      small.insert(cluster.begin(), cluster.end());
-    }
-  }
-  std::vector<FrontierTarget> large;
-  std::copy_if(targets.begin(), targets.end(), std::back_inserter(large),
-               [&](const FrontierTarget& target) { return !small.contains(target.frontier); });
-  return large;
 }
 
 // Cells that touch an occupied one, up to those just beyond what is known.
@@ -184,7 +165,7 @@ std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<
 
 // The platform comes close to a cell if some reachable cell lies within half its body, and one cell more.
 void count_hidden(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
-                  const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
+                  const TriedViews& tried, const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
   if (hidden.empty()) {
     return;
   }
@@ -196,7 +177,9 @@ void count_hidden(const OccupancyMap& map, const Platform& platform, const Reach
   const detail::CellRows near =
       detail::grown(places, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
   for (const VoxelIndex& cell : hidden) {
-    ++(near.contains(cell) ? leftover.unobservable : leftover.unreachable);
+    ++(looked_at_in_vain(map, cell, tried) ? leftover.in_vain
+       : near.contains(cell)               ? leftover.unobservable
+                                           : leftover.unreachable);
   }
 }
 
@@ -212,27 +195,29 @@ FrontierSurveyor::FrontierSurveyor(FrontierSurveyor&&) noexcept = default;
 FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&) noexcept = default;
 FrontierSurveyor::~FrontierSurveyor() = default;
 
-FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed) {
-  return survey(map, current, failed, frontier_cells(map));
+FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried) {
+  return survey(map, current, tried, frontier_cells(map));
 }
 
-FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed,
+FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                         std::vector<VoxelIndex> frontier) {
-  FrontierSurvey survey{.reachable = ReachableSpace(map, *platform_, current)};
+  return survey(map, ReachableSpace(map, *platform_, current), tried, std::move(frontier));
+}
+
+FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,
+                                        std::vector<VoxelIndex> frontier) {
+  FrontierSurvey survey{.reachable = std::move(reachable)};
   survey.frontier_cells = frontier.size();
   if (frontier.empty() || !survey.reachable.start()) {
     survey.leftover.unreachable = frontier.size();
     return survey;
   }
   memory_->follow(map, survey.reachable, furthest_m(map, sensor_), options_.sight_directions);
-  ViewpointSearch search(map.frame(), *platform_, sensor_, survey.reachable, failed, *memory_);
+  ViewpointSearch search(map.frame(), *platform_, sensor_, survey.reachable, tried, *memory_);
   const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
-    if (!options_.worn_frontiers && map.worn(cell)) {
-      return false;
-    }
     for (const VoxelIndex& step : kFaceNeighbours) {
       const VoxelIndex unknown = cell + step;
-      if (const auto viewpoint = is_sought(map, unknown, failed) ? find(unknown) : std::nullopt) {
+      if (const auto viewpoint = is_sought(map, unknown, tried) ? find(unknown) : std::nullopt) {
         survey.targets.push_back({cell, unknown, *viewpoint});
         return true;
       }
@@ -244,31 +229,27 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& cur
     return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
   });
   memory_->forget_others();
-  std::vector<FrontierTarget> large = large_clusters(map, options_, survey.targets);
-  if (large.empty()) {
+  if (survey.targets.empty()) {
     // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
-    std::size_t pairs = options_.exhaustive_pairs;
+    std::size_t pairs = kExhaustivePairs;
     std::erase_if(hidden, [&](const VoxelIndex& cell) {
       return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
     });
     survey.exhausted = pairs > 0;
-    std::sort(survey.targets.begin(), survey.targets.end(),
-              [](const FrontierTarget& a, const FrontierTarget& b) { return RasterOrder{}(a.frontier, b.frontier); });
-    large = large_clusters(map, options_, survey.targets);
   }
-  survey.leftover.too_small = survey.targets.size() - large.size();
-  survey.targets = options_.surfaces_first && !sensor_.reports_no_return ? surfaces_first(map, std::move(large))
-                                                                         : std::move(large);
+  if (!sensor_.reports_no_return) {
+    survey.targets = surfaces_first(map, std::move(survey.targets));
+  }
   survey.ray_operations = search.operations();
-  count_hidden(map, *platform_, survey.reachable, hidden, survey.leftover);
+  count_hidden(map, *platform_, survey.reachable, tried, hidden, survey.leftover);
   return survey;
 }
 
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                                 const Pose& current, const FrontierSurveyOptions& options,
-                                const FailedViews& failed) {
+                                const TriedViews& tried) {
   const std::shared_ptr<const Platform> borrowed(std::shared_ptr<void>(), &platform);
-  return FrontierSurveyor(borrowed, sensor, options).survey(map, current, failed);
+  return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried);
 }
 
 // From the target back: most lines that are blocked are blocked beside it.

@@ -6,12 +6,11 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <vantage/frontier/frontiers.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 #include "map/option_rule.hpp"
-#include "planner/frontier_cycle.hpp"
+#include "planner/planner_tables.hpp"
 #include "raytrace/shared_work.hpp"
 
 namespace vantage {
@@ -20,27 +19,20 @@ namespace {
 constexpr double kSparse = 4.0;  // times the distance between rays, where many views are told apart
 
 void validate(const FrontierVoidOptions& options) {
+  detail::frontier_void_settings().validate(options);
   const FrontierVoidStrategy& strategy = options.strategy;
-  detail::require_option(options.clusters.min_score > 0.0, "VoidClusterOptions::min_score",
-                         options.clusters.min_score, "> 0");
   detail::require_option(options.most_vectors > 0, "FrontierVoidOptions::most_vectors", options.most_vectors, "> 0");
-  detail::require_option(options.views >= 1, "FrontierVoidOptions::views", options.views, ">= 1");
   detail::require_option(strategy.orientations_per_place >= 1, "FrontierVoidStrategy::orientations_per_place",
                          strategy.orientations_per_place, ">= 1");
   detail::require_option(std::isfinite(strategy.place_spacing_m) && strategy.place_spacing_m >= 0.0,
                          "FrontierVoidStrategy::place_spacing_m", strategy.place_spacing_m, ">= 0");
-  detail::require_option(std::isfinite(strategy.cost_per_m) && strategy.cost_per_m >= 0.0,
-                         "FrontierVoidStrategy::cost_per_m", strategy.cost_per_m, ">= 0");
   detail::require_option(strategy.opaque_share > 0.0 && strategy.opaque_share <= 1.0,
                          "FrontierVoidStrategy::opaque_share", strategy.opaque_share, "in (0, 1]");
   detail::require_option(strategy.opaque_beside_surface > 0.0 && strategy.opaque_beside_surface <= 1.0,
                          "FrontierVoidStrategy::opaque_beside_surface", strategy.opaque_beside_surface, "in (0, 1]");
   detail::require_option(strategy.sought_chance >= 0.0 && strategy.sought_chance <= 1.0,
                          "FrontierVoidStrategy::sought_chance", strategy.sought_chance, "in [0, 1]");
-  detail::require_option(std::isfinite(strategy.least_view_dm3) && strategy.least_view_dm3 >= 0.0,
-                         "FrontierVoidStrategy::least_view_dm3", strategy.least_view_dm3, ">= 0");
   detail::require_option(strategy.finalists >= 1, "FrontierVoidStrategy::finalists", strategy.finalists, ">= 1");
-  detail::validate(options.survey);
 }
 
 std::string volume(std::size_t cells, double cell_m) {
@@ -67,78 +59,68 @@ double length_m(const std::vector<Pose>& path) {
 }
 
 // One cell is the least.
-std::size_t least_cells(double volume_dm3, double cell_m) {
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(volume_dm3 / std::pow(10.0 * cell_m, 3))));
+std::size_t least_cells(double volume_m3, double cell_m) {
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(volume_m3 / std::pow(cell_m, 3))));
 }
 
 }  // namespace
 
 FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options)
-    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
-  detail::validate(setup);
+    : FrontierPlanner(setup, options.survey), options_(options) {
   validate(options);
   options_.clusters.seed = setup.seed;
-  failed_ = FailedViews(options.survey.patience);
 }
 
-Plan FrontierVoidPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  follow(map);
-  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_, frontier_->cells());
-  PlanStatistics& statistics = cycle.plan().statistics;
-  statistics.void_cells = void_cells_->cell_count();
-  search_ = {};
-  if (cycle.over()) {
-    return cycle.plan();
+void FrontierVoidPlanner::prepare(Plan& plan) {
+  const OccupancyMap& map = situation().map();
+  if (followed_.is_in_place(map)) {
+    void_cells_->update();
+  } else {
+    followed_ = KnownMap();  // none, if what follows throws
+    void_cells_.emplace(map);
+    sparse_rays_.emplace(situation().sensor().rays_for(kSparse * map.resolution_m()));
+    followed_ = KnownMap(map);
   }
-  const FrontierSurvey& survey = cycle.survey();
-  extract(map, survey);
-  accumulate(map, survey, statistics);
+  plan.statistics.void_cells = void_cells_->cell_count();
+  search_ = {};
+}
 
-  std::vector<Pose> views = sample_views(map, current, statistics);
-  const std::vector<Pose> near = near_views(map, survey, statistics);
+std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
+  const OccupancyMap& map = situation().map();
+  PlanStatistics& statistics = plan.statistics;
+  search_ = {};
+  extract();
+  accumulate(statistics);
+
+  std::vector<Pose> views = sample_views(statistics);
+  const std::vector<Pose> near = near_views(statistics);
   views.insert(views.end(), near.begin(), near.end());
-  std::optional<Choice> choice = choose(map, current, survey, views, statistics);
+  std::optional<ChosenView> choice = best_of(views, plan);
   if (!choice) {
-    choice = choose(map, current, survey, views_of_voids(map, survey, statistics), statistics);
+    choice = best_of(views_of_voids(statistics), plan);
   }
   if (choice) {
-    const auto seen = static_cast<std::size_t>(choice->view.view.utility);
     search_.view = choice->view.view.pose;
-    Plan plan = cycle.go(std::move(choice->view), std::move(choice->path));
-    plan.candidates = std::move(choice->candidates);
-    plan.reason = "a view of " + volume(seen, map.resolution_m());
-    plan.statistics.choose_ms = std::exchange(plan.statistics.path_ms, 0.0);  // ways are part of the choice here
-    return plan;
+    return choice;
   }
   if (!options_.strategy.beyond_voids) {
-    const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
-    return cycle.blocked((least == 1 ? "no view sees a void (the best utility is 0); "
-                                     : "the best utility is below " + volume(least, map.resolution_m()) + "; ") +
-                         std::to_string(survey.targets.size()) + " observable frontier cells are left");
+    const std::size_t least = least_cells(options_.strategy.least_view_m3, map.resolution_m());
+    plan.reason = (least == 1 ? "no view sees a void (the best utility is 0); "
+                              : "the best utility is below " + volume(least, map.resolution_m()) + "; ") +
+                  std::to_string(situation().survey().targets.size()) + " observable frontier cells are left";
+    return std::nullopt;
   }
-  choice = nearest_frontier(map, current, survey, statistics);
+  choice = nearest_frontier(statistics);
   if (!choice) {
-    return cycle.blocked("there is no way to any place that sees a frontier");
+    plan.reason = "there is no way to any place that sees a frontier";
   }
-  Plan plan = cycle.go(std::move(choice->view), std::move(choice->path));
-  plan.reason = "no view sees a void; " + plan.reason;
-  return plan;
-}
-
-void FrontierVoidPlanner::follow(const OccupancyMap& map) {
-  if (looking_.follow(map, setup_.sensor) || !sparse_rays_) {
-    sparse_rays_.reset();  // comes last: where it is, all of them follow this map
-    frontier_.emplace(map);
-    void_cells_.emplace(map);
-    sparse_rays_.emplace(setup_.sensor.rays_for(kSparse * map.resolution_m()));
-  } else {
-    frontier_->update();
-    void_cells_->update();
-  }
+  return choice;
 }
 
 // IV-A and IV-B: frontier clusters, voids and what they have to do with each other.
-void FrontierVoidPlanner::extract(const OccupancyMap& map, const FrontierSurvey& survey) {
+void FrontierVoidPlanner::extract() {
+  const OccupancyMap& map = situation().map();
+  const FrontierSurvey& survey = situation().survey();
   for (const FrontierTarget& target : survey.targets) {
     search_.frontier.push_back(target.frontier);
   }
@@ -146,18 +128,19 @@ void FrontierVoidPlanner::extract(const OccupancyMap& map, const FrontierSurvey&
   search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
   sight_.emplace(map, cells,
                  UnknownSightOptions{options_.strategy.opaque_share, options_.strategy.opaque_beside_surface,
-                                     setup_.sensor.reports_no_return});
+                                     situation().sensor().reports_no_return});
   search_.frontier_voids =
       combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), options_.strategy.share);
 }
 
 // Algorithm 1, over what the platform can reach.
-void FrontierVoidPlanner::accumulate(const OccupancyMap& map, const FrontierSurvey& survey,
-                                     PlanStatistics& statistics) {
+void FrontierVoidPlanner::accumulate(PlanStatistics& statistics) {
+  const OccupancyMap& map = situation().map();
+  const FrontierSurvey& survey = situation().survey();
   const std::vector<UtilityVector> vectors =
       utility_vectors(search_.voids, search_.frontier_voids, map.frame(), options_.most_vectors);
   const AccumulatedUtility utility =
-      accumulate_utility(map, survey.reachable, vectors, setup_.sensor.min_range_m, setup_.sensor.max_range_m);
+      accumulate_utility(map, survey.reachable, vectors, situation().sensor().min_range_m, situation().sensor().max_range_m);
   statistics.ray_operations += utility.operations;
   for (std::size_t i = 0; i < utility.cells.size(); ++i) {
     if (utility.cells[i] > 0) {
@@ -174,11 +157,12 @@ double FrontierVoidPlanner::discounted(double utility, double way_m) const {
 // What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere
 // too often.
 std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays) const {
-  const VoxelIndex place = looking_.caster().frame().cell_of(view.translation());
-  std::vector<SightedCell> seen = sight_->look(looking_.caster(), view, rays);
-  if (failed_.size() > 0) {
+  const VoxelIndex place = situation().caster().frame().cell_of(view.translation());
+  std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays);
+  const TriedViews& tried = situation().tried();
+  if (tried.size() > 0) {
     std::erase_if(seen, [&](const SightedCell& one) {
-      return failed_.gave_up(one.cell) || failed_.failed_from(one.cell, place);
+      return tried.gave_up(one.cell) || tried.tried_from(one.cell, place);
     });
   }
   return seen;
@@ -186,13 +170,12 @@ std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, 
 
 // The void cells that each view sees; the best first.
 std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vector<Candidate> candidates,
-                                                                      const ViewRays& rays,
-                                                                      const Pose& current) const {
-  detail::share_work(candidates.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
+                                                                      const ViewRays& rays) const {
+  detail::share_work(candidates.size(), static_cast<std::size_t>(situation().setup().threads), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     candidate.void_cells = expected(void_cells_seen(candidate.pose, rays));
     candidate.value = discounted(static_cast<double>(candidate.void_cells),
-                                 (candidate.pose.translation() - current.translation()).norm());
+                                 (candidate.pose.translation() - situation().current().translation()).norm());
   });
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
@@ -200,30 +183,32 @@ std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vecto
 }
 
 // Over the cells that the survey has found reachable where the platform can follow them, else by its own search.
-std::optional<std::vector<Pose>> FrontierVoidPlanner::way_to(const OccupancyMap& map, const Pose& current,
-                                                             const FrontierSurvey& survey, const Pose& view) const {
-  const std::vector<VoxelIndex> cells = GridPaths(survey.reachable).to(map.frame().cell_of(view.translation()));
-  auto path = cells.empty() ? std::nullopt : poses_along(map, *setup_.platform, current, cells, view);
-  return path ? std::move(path) : setup_.platform->path(map, current, view);
+std::optional<std::vector<Pose>> FrontierVoidPlanner::way_to(const Pose& view) const {
+  const OccupancyMap& map = situation().map();
+  const Platform& platform = situation().platform();
+  const ReachableSpace& reachable = situation().reachable();
+  if (reachable.only_turns()) {
+    return std::vector<Pose>{situation().current(), view};
+  }
+  const std::vector<VoxelIndex> cells = GridPaths(reachable).to(map.frame().cell_of(view.translation()));
+  auto path = cells.empty() ? std::nullopt : poses_along(map, platform, situation().current(), cells, view);
+  return path ? std::move(path) : platform.path(map, situation().current(), view);
 }
 
-// Equation (3): the best of the views to which there is a way. One that resolves no frontier worth a view does not
-// count: unknown cells behind surfaces worn away are not.
-std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const OccupancyMap& map, const Pose& current,
-                                                                       const FrontierSurvey& survey,
-                                                                       const std::vector<Pose>& views,
-                                                                       PlanStatistics& statistics) const {
-  statistics.views_scored += views.size();
+// Equation (3): the best of the views to which there is a way. One that resolves no target does not count: unknown
+// cells that were looked at in vain are none.
+std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& views, Plan& plan) const {
+  plan.statistics.views_scored += views.size();
   std::vector<Candidate> candidates(views.size());
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{pose}; });
   if (views.size() > options_.strategy.finalists) {
-    candidates = rank(std::move(candidates), *sparse_rays_, current);
+    candidates = rank(std::move(candidates), *sparse_rays_);
     candidates.resize(options_.strategy.finalists);
   }
-  candidates = rank(std::move(candidates), looking_.rays(), current);
-  refine(map, current, survey, candidates, statistics);
-  const std::size_t least = least_cells(options_.strategy.least_view_dm3, map.resolution_m());
-  std::optional<Choice> best;
+  candidates = rank(std::move(candidates), situation().rays());
+  refine(candidates, plan.statistics);
+  const std::size_t least = least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
+  std::optional<ChosenView> best;
   double best_value = 0.0;
   for (const Candidate& candidate : candidates) {
     if (best && candidate.value <= best_value) {
@@ -232,8 +217,8 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
     if (candidate.void_cells < least) {
       continue;
     }
-    TargetView view = targets_seen_from(map, setup_.sensor, survey, candidate.pose, statistics.ray_operations);
-    auto path = view.unknown.empty() ? std::nullopt : way_to(map, current, survey, candidate.pose);
+    TargetView view = targets_seen_from(situation(), candidate.pose, plan.statistics.ray_operations);
+    auto path = view.unknown.empty() ? std::nullopt : way_to(candidate.pose);
     if (!path) {
       continue;
     }
@@ -242,39 +227,38 @@ std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::choose(const Occ
                              : candidate.value;
     if (!best || value > best_value) {
       view.view.utility = static_cast<double>(candidate.void_cells);
-      best = Choice{std::move(view), std::move(*path), {}};
+      best = ChosenView{std::move(view), {}, std::move(*path)};
       best_value = value;
     }
   }
   if (best) {
-    for (const SightedCell& one : void_cells_seen(best->view.view.pose, looking_.rays())) {
+    for (const SightedCell& one : void_cells_seen(best->view.view.pose, situation().rays())) {
       (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
     }
+    plan.candidates.clear();
     for (const Candidate& weighed : candidates) {
-      best->candidates.push_back({weighed.pose, static_cast<double>(weighed.void_cells)});
+      plan.candidates.push_back({weighed.pose, static_cast<double>(weighed.void_cells)});
     }
   }
   return best;
 }
 
-std::optional<FrontierVoidPlanner::Choice> FrontierVoidPlanner::nearest_frontier(const OccupancyMap& map,
-                                                                                 const Pose& current,
-                                                                                 const FrontierSurvey& survey,
-                                                                                 PlanStatistics& statistics) const {
+std::optional<ChosenView> FrontierVoidPlanner::nearest_frontier(PlanStatistics& statistics) const {
+  const std::vector<FrontierTarget>& targets = situation().survey().targets;
   std::vector<VoxelIndex> viewpoints;
-  for (const FrontierTarget& target : survey.targets) {
+  for (const FrontierTarget& target : targets) {
     viewpoints.push_back(target.viewpoint);
   }
-  const GridPaths ways(survey.reachable);
+  const GridPaths ways(situation().reachable());
   for (const double detour_m : {0.0, std::numeric_limits<double>::max()}) {
-    for (const VoxelIndex& viewpoint : ways.nearest_within(viewpoints, detour_m, map.resolution_m())) {
-      const auto target = std::find_if(survey.targets.begin(), survey.targets.end(),
+    for (const VoxelIndex& viewpoint :
+         ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m())) {
+      const auto target = std::find_if(targets.begin(), targets.end(),
                                        [&](const FrontierTarget& one) { return one.viewpoint == viewpoint; });
-      TargetView view =
-          view_of_target(map, *setup_.platform, setup_.sensor, survey, *target, statistics.ray_operations);
-      if (auto path = way_to(map, current, survey, view.view.pose)) {
+      TargetView view = view_of_target(situation(), *target, statistics.ray_operations);
+      if (auto path = way_to(view.view.pose)) {
         view.view.utility = 0.0;
-        return Choice{std::move(view), std::move(*path), {}};
+        return ChosenView{std::move(view), {}, std::move(*path)};
       }
     }
   }

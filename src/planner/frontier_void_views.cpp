@@ -102,17 +102,17 @@ std::vector<const FrontierTarget*> targets_of_voids(const FrontierSurvey& survey
 }  // namespace
 
 // IV-C: orientations sampled at the places in the order of their utility, until there are N valid views.
-std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, const Pose& current,
-                                                    PlanStatistics& statistics) const {
+std::vector<Pose> FrontierVoidPlanner::sample_views(PlanStatistics& statistics) const {
+  const OccupancyMap& map = situation().map();
   const FrontierVoidStrategy& strategy = options_.strategy;
-  Dice dice(setup_.seed, map.revision());
-  DirectionDraw draw(map, setup_.sensor, search_.frontier_voids, dice);
+  Dice dice(situation().setup().seed, map.revision());
+  DirectionDraw draw(map, situation().sensor(), search_.frontier_voids, dice);
   std::vector<double> values(search_.places.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Eigen::Vector3d line = map.frame().centre_of(search_.places[i]) - current.translation();
+    const Eigen::Vector3d line = map.frame().centre_of(search_.places[i]) - situation().current().translation();
     values[i] = discounted(static_cast<double>(search_.utility[i]), line.norm());
   }
-  const std::size_t orientations = sees_all_around(setup_.sensor) ? 1 : strategy.orientations_per_place;
+  const std::size_t orientations = sees_all_around(situation().sensor()) ? 1 : strategy.orientations_per_place;
   std::vector<Pose> views;
   std::vector<Eigen::Vector3d> taken;
   for (BestPlaces best(std::move(values)); !best.empty() && views.size() < options_.views;) {
@@ -125,8 +125,8 @@ std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, con
     for (std::size_t i = 0; i < orientations && views.size() < options_.views; ++i) {
       const Eigen::Vector3d direction =
           strategy.aimed ? draw.at_a_void(place, statistics.ray_operations) : draw.anywhere();
-      const Pose view = setup_.platform->facing(place, direction);
-      if (setup_.platform->admits(map, view)) {
+      const Pose view = situation().platform().facing(place, direction);
+      if (situation().platform().admits(map, view)) {
         views.push_back(view);
       }
     }
@@ -136,14 +136,12 @@ std::vector<Pose> FrontierVoidPlanner::sample_views(const OccupancyMap& map, con
 
 // Views of so many of the targets, spread evenly.
 std::vector<Pose> FrontierVoidPlanner::views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
-                                                const OccupancyMap& map, const FrontierSurvey& survey,
                                                 PlanStatistics& statistics) const {
   std::vector<Pose> views;
   const std::size_t stride = targets.size() / most + 1;
   for (std::size_t i = 0; i < targets.size(); i += stride) {
-    const TargetView view =
-        view_of_target(map, *setup_.platform, setup_.sensor, survey, *targets[i], statistics.ray_operations);
-    if (setup_.platform->admits(map, view.view.pose)) {
+    const TargetView view = view_of_target(situation(), *targets[i], statistics.ray_operations);
+    if (situation().platform().admits(situation().map(), view.view.pose)) {
       views.push_back(view.view.pose);
     }
   }
@@ -152,15 +150,15 @@ std::vector<Pose> FrontierVoidPlanner::views_of(const std::vector<const Frontier
 
 // Views of what the survey knows to be observable: where sampling finds no view of a void, these tell whether there
 // is one.
-std::vector<Pose> FrontierVoidPlanner::views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
-                                                      PlanStatistics& statistics) const {
-  return views_of(targets_of_voids(survey, search_.voids), std::min(options_.views, kProofViews), map, survey,
+std::vector<Pose> FrontierVoidPlanner::views_of_voids(PlanStatistics& statistics) const {
+  return views_of(targets_of_voids(situation().survey(), search_.voids), std::min(options_.views, kProofViews),
                   statistics);
 }
 
 // Views from the nearest places that see a void through its frontier.
-std::vector<Pose> FrontierVoidPlanner::near_views(const OccupancyMap& map, const FrontierSurvey& survey,
-                                                  PlanStatistics& statistics) const {
+std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) const {
+  const OccupancyMap& map = situation().map();
+  const FrontierSurvey& survey = situation().survey();
   if (options_.strategy.near_views == 0) {
     return {};
   }
@@ -174,28 +172,28 @@ std::vector<Pose> FrontierVoidPlanner::near_views(const OccupancyMap& map, const
     near.push_back(*std::find_if(targets.begin(), targets.end(),
                                  [&](const FrontierTarget* target) { return target->viewpoint == viewpoint; }));
   }
-  return views_of(near, options_.strategy.near_views, map, survey, statistics);
+  return views_of(near, options_.strategy.near_views, statistics);
 }
 
 // What is sampled is seldom the best of its surroundings: the best view climbs, one draw after the other.
-void FrontierVoidPlanner::refine(const OccupancyMap& map, const Pose& current, const FrontierSurvey& survey,
-                                 std::vector<Candidate>& candidates, PlanStatistics& statistics) const {
+void FrontierVoidPlanner::refine(std::vector<Candidate>& candidates, PlanStatistics& statistics) const {
+  const OccupancyMap& map = situation().map();
   constexpr double kMostTurn = 0.5;  // radians, nearly
-  Dice dice(setup_.seed, ~map.revision());
+  Dice dice(situation().setup().seed, ~map.revision());
   for (std::size_t i = 0; i < options_.strategy.refinements && !candidates.empty(); ++i) {
     const Pose& best = candidates.front().pose;
     const Eigen::Vector3d shift = options_.strategy.place_spacing_m * dice.share() * dice.direction();
     const Eigen::Vector3d direction = optical_axis(best) + kMostTurn * dice.share() * dice.direction();
     const VoxelIndex cell = map.frame().cell_of(best.translation() + shift);
-    if (!survey.reachable.contains(cell)) {
+    if (!situation().reachable().contains(cell)) {
       continue;
     }
-    const Pose view = setup_.platform->facing(map.frame().centre_of(cell), direction);
-    if (!setup_.platform->admits(map, view)) {
+    const Pose view = situation().platform().facing(map.frame().centre_of(cell), direction);
+    if (!situation().platform().admits(map, view)) {
       continue;
     }
     ++statistics.views_scored;
-    const std::vector<Candidate> counted = rank({Candidate{view}}, looking_.rays(), current);
+    const std::vector<Candidate> counted = rank({Candidate{view}}, situation().rays());
     if (counted.front().value > candidates.front().value) {
       candidates.insert(candidates.begin(), counted.front());
     }

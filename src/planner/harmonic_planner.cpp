@@ -5,17 +5,14 @@
 #include <iterator>
 #include <string>
 #include <utility>
-#include <vantage/field/laplace_guess.hpp>
 #include <vantage/field/laplace_multigrid.hpp>
-#include <vantage/field/sink_flux.hpp>
 #include <vantage/field/streamline.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
-#include "map/option_rule.hpp"
-#include "planner/frontier_cycle.hpp"
 #include "planner/look_directions.hpp"
+#include "planner/planner_tables.hpp"
 
 namespace vantage {
 namespace {
@@ -28,7 +25,6 @@ RelaxationOptions relaxation_options(const HarmonicOptions& options) {
   relaxation.order = options.solver == FieldSolver::GaussSeidel ? SweepOrder::Lexicographic : SweepOrder::RedBlack;
   relaxation.tolerance = options.tolerance;
   relaxation.max_sweeps = options.max_sweeps;
-  relaxation.over_relaxation = options.over_relaxation;
   relaxation.uniform_source = options.uniform_source;
   return relaxation;
 }
@@ -88,118 +84,99 @@ std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const P
 }  // namespace
 
 HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options)
-    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
-  detail::validate(setup);
-  detail::validate(options.survey);
+    : FrontierPlanner(setup, options.survey), options_(options) {
+  detail::harmonic_settings().validate(options);
   relaxation_options(options).validate();
-  detail::require_option(options.strategy.detour_m >= 0.0, "HarmonicStrategy::detour_m", options.strategy.detour_m,
-                         ">= 0");
-  detail::require_option(options.strategy.look_spacing_m >= 0.0, "HarmonicStrategy::look_spacing_m",
-                         options.strategy.look_spacing_m, ">= 0");
-  detail::require_option(options.strategy.look_again_dm3 >= 0.0, "HarmonicStrategy::look_again_dm3",
-                         options.strategy.look_again_dm3, ">= 0");
-  failed_ = FailedViews(options.survey.patience);
 }
 
-Plan HarmonicPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  field_.reset();
-  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
-  if (cycle.over()) {
-    return cycle.plan();
-  }
-  const FrontierSurvey& survey = cycle.survey();
+void HarmonicPlanner::prepare(Plan& /*plan*/) { field_.reset(); }
+
+std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
+  const FrontierSurvey& survey = situation().survey();
   const HarmonicStrategy& strategy = options_.strategy;
-  PlanStatistics& statistics = cycle.plan().statistics;
-  if (chooses_directions(map)) {
-    looking_.follow(map, setup_.sensor);
-  }
-  if (std::optional<TargetView> look = look_again(map, current, survey, statistics.ray_operations)) {
-    return cycle.go(std::move(*look), std::vector<VoxelIndex>{*survey.reachable.start()});
-  }
-  detail::Stopwatch watch;
+  std::uint64_t& operations = plan.statistics.ray_operations;
   std::vector<VoxelIndex> way{*survey.reachable.start()};
+  if (std::optional<TargetView> look = look_again(operations)) {
+    return ChosenView{std::move(*look), std::move(way)};
+  }
   std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
   if (!wanted) {  // else look from where the sensor is
-    const std::vector<VoxelIndex> drawing = sinks(map, survey);
+    const std::vector<VoxelIndex> drawing = sinks();
     if (strategy.shortest_way && drawing.size() == 1) {  // then every way down the field would end there
       way = GridPaths(survey.reachable).to(drawing.front());
     } else {
-      solve(survey, drawing, statistics);
-      way = way_down(map, current, survey);
+      solve(drawing, plan.statistics);
+      way = way_down();
       if (strategy.shortest_way) {
         way = GridPaths(survey.reachable).to(way.back());
       }
     }
-    wanted = strategy.look_early ? first_look(map, survey, way, statistics.ray_operations)
-                                 : target_seen_from(survey, way.back());
+    wanted = strategy.look_early ? first_look(way, operations) : target_seen_from(survey, way.back());
   }
-  const TargetView chosen = look_at(map, survey, *wanted, statistics.ray_operations);
-  const double choose_ms = watch.lap_ms();
-  std::optional<std::vector<Pose>> path;
+  ChosenView chosen{look_at(*wanted, operations)};
   if (field_ && field_->followed && !strategy.shortest_way) {
+    const OccupancyMap& map = situation().map();
     cut_at(field_->streamline, map.frame(), wanted->viewpoint);
-    path = poses_of_curve(map, *setup_.platform, current, field_->streamline, chosen.view.pose);
+    if (auto path = poses_of_curve(map, situation().platform(), situation().current(), field_->streamline,
+                                   chosen.view.view.pose)) {
+      chosen.path = std::move(*path);
+      return chosen;
+    }
   }
-  Plan plan =
-      path ? cycle.go(chosen, std::move(*path)) : cycle.go(chosen, GridPaths(survey.reachable).to(wanted->viewpoint));
-  plan.scan_on_the_way = !(strategy.look_early && strategy.spare_scans);
-  plan.statistics.choose_ms = choose_ms;
-  plan.statistics.path_ms = watch.lap_ms();
-  return plan;
+  chosen.way = GridPaths(survey.reachable).to(wanted->viewpoint);
+  return chosen;
 }
 
-bool HarmonicPlanner::chooses_directions(const OccupancyMap& map) const {
-  return !std::isinf(options_.strategy.look_again_dm3) && detail::LookDirections::choosable(map, setup_.sensor);
+bool HarmonicPlanner::chooses_directions() const {
+  return !std::isinf(options_.strategy.look_again_m3) &&
+         detail::LookDirections::choosable(situation().map(), situation().sensor());
 }
 
 // A view from where the sensor is, if one is worth taking before it moves on.
-std::optional<TargetView> HarmonicPlanner::look_again(const OccupancyMap& map, const Pose& current,
-                                                      const FrontierSurvey& survey, std::uint64_t& operations) const {
-  const Eigen::Vector3d position = current.translation();
-  if (!chooses_directions(map) || map.frame().cell_of(position) != *survey.reachable.start()) {
+std::optional<TargetView> HarmonicPlanner::look_again(std::uint64_t& operations) const {
+  const OccupancyMap& map = situation().map();
+  const Eigen::Vector3d position = situation().current().translation();
+  if (!chooses_directions() || map.frame().cell_of(position) != *situation().reachable().start()) {
     return std::nullopt;
   }
-  std::optional<detail::Look> look =
-      detail::LookDirections({map, looking_.caster(), looking_.rays(), setup_, failed_}, survey, position, operations)
-          .best();
-  const double cell_dm3 = 1e3 * std::pow(map.resolution_m(), 3);
-  return look && look->cells * cell_dm3 >= options_.strategy.look_again_dm3
+  std::optional<detail::Look> look = detail::LookDirections(situation(), position, operations).best();
+  const double cell_m3 = std::pow(map.resolution_m(), 3);
+  return look && look->cells * cell_m3 >= options_.strategy.look_again_m3
              ? std::optional<TargetView>(std::move(look->seen))
              : std::nullopt;
 }
 
 // The view at the end of the way.
-TargetView HarmonicPlanner::look_at(const OccupancyMap& map, const FrontierSurvey& survey,
-                                    const FrontierTarget& wanted, std::uint64_t& operations) const {
-  if (chooses_directions(map)) {
-    const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
+TargetView HarmonicPlanner::look_at(const FrontierTarget& wanted, std::uint64_t& operations) const {
+  if (chooses_directions()) {
+    const Eigen::Vector3d position = situation().reachable().position_in(wanted.viewpoint);
     if (std::optional<detail::Look> look =
-            detail::LookDirections({map, looking_.caster(), looking_.rays(), setup_, failed_}, survey, position,
-                                   operations)
-                .best(wanted.unknown)) {
+            detail::LookDirections(situation(), position, operations).best(wanted.unknown)) {
       return std::move(look->seen);
     }
   }
-  return view_of_target(map, *setup_.platform, setup_.sensor, survey, wanted, operations);
+  return view_of_target(situation(), wanted, operations);
 }
 
-// Whether `target` can be looked at from the centre of a cell: the same rule as FrontierSurvey's, and near enough to
-// be resolved.
-bool HarmonicPlanner::can_look(const OccupancyMap& map, const FrontierTarget& target, const VoxelIndex& from,
+// Whether `target` can be looked at from a cell: the same rule as FrontierSurvey's, and near enough to be resolved.
+bool HarmonicPlanner::can_look(const FrontierTarget& target, const VoxelIndex& from,
                                std::uint64_t& operations) const {
   if (from == target.viewpoint) {
     return true;
   }
-  const RangeSensor& sensor = setup_.sensor;
-  const Eigen::Vector3d position = map.frame().centre_of(from);
+  const OccupancyMap& map = situation().map();
+  const RangeSensor& sensor = situation().sensor();
+  const Eigen::Vector3d position = situation().reachable().position_in(from);
   const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
-  return line.norm() <= sensor.resolving_range_m(map.resolution_m()) && !failed_.failed_from(target.unknown, from) &&
-         sees(map, sensor, setup_.platform->facing(position, line), target.unknown, operations);
+  return line.norm() <= sensor.resolving_range_m(map.resolution_m()) &&
+         !situation().tried().tried_from(target.unknown, from) && !situation().tried().rests(from) &&
+         sees(map, sensor, situation().platform().facing(position, line), target.unknown, operations);
 }
 
 // The first look on the way: at the boundary it leads to or, a while from the start, at any that is in sight.
-FrontierTarget HarmonicPlanner::first_look(const OccupancyMap& map, const FrontierSurvey& survey,
-                                           const std::vector<VoxelIndex>& way, std::uint64_t& operations) const {
+FrontierTarget HarmonicPlanner::first_look(const std::vector<VoxelIndex>& way, std::uint64_t& operations) const {
+  const FrontierSurvey& survey = situation().survey();
+  const VoxelFrame& frame = situation().map().frame();
   const auto looked_at_from = [](FrontierTarget target, const VoxelIndex& cell) {
     target.viewpoint = cell;
     return target;
@@ -207,8 +184,8 @@ FrontierTarget HarmonicPlanner::first_look(const OccupancyMap& map, const Fronti
   const FrontierTarget wanted = *target_seen_from(survey, way.back());
   double gone_m = 0.0;
   for (std::size_t i = 0; i < way.size(); ++i) {
-    gone_m += i == 0 ? 0.0 : (map.frame().centre_of(way[i]) - map.frame().centre_of(way[i - 1])).norm();
-    const auto in_sight = [&](const FrontierTarget& target) { return can_look(map, target, way[i], operations); };
+    gone_m += i == 0 ? 0.0 : (frame.centre_of(way[i]) - frame.centre_of(way[i - 1])).norm();
+    const auto in_sight = [&](const FrontierTarget& target) { return can_look(target, way[i], operations); };
     if (in_sight(wanted)) {
       return looked_at_from(wanted, way[i]);
     }
@@ -223,32 +200,17 @@ FrontierTarget HarmonicPlanner::first_look(const OccupancyMap& map, const Fronti
 }
 
 // The viewpoints that draw the flow.
-std::vector<VoxelIndex> HarmonicPlanner::sinks(const OccupancyMap& map, const FrontierSurvey& survey) const {
-  std::vector<VoxelIndex> cells = viewpoints(survey);
+std::vector<VoxelIndex> HarmonicPlanner::sinks() const {
+  std::vector<VoxelIndex> cells = viewpoints(situation().survey());
   return std::isinf(options_.strategy.detour_m)
              ? cells
-             : GridPaths(survey.reachable).nearest_within(cells, options_.strategy.detour_m, map.resolution_m());
+             : GridPaths(situation().reachable())
+                   .nearest_within(cells, options_.strategy.detour_m, situation().map().resolution_m());
 }
 
-// The field that leads where the strategy wants to go.
-void HarmonicPlanner::solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks,
-                            PlanStatistics& statistics) {
-  solve_once(survey, sinks, statistics);
-  if (options_.strategy.sink_choice == SinkChoice::LargestFlux && field_->followed) {
-    const std::vector<SinkCluster> clusters = sink_clusters(field_->problem, field_->phi);
-    if (clusters.size() > 1) {  // the way to the largest is that of a field of its own
-      const auto largest =
-          std::max_element(clusters.begin(), clusters.end(),
-                           [](const SinkCluster& a, const SinkCluster& b) { return a.flux < b.flux; });
-      solve_once(survey, largest->sinks, statistics);
-    }
-  }
-}
-
-void HarmonicPlanner::solve_once(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks,
-                                 PlanStatistics& statistics) {
-  field_.emplace(
-      HarmonicField{LaplaceProblem(survey.reachable.cells(), sinks, *survey.reachable.start()), {}, {}, {}, 0, true});
+void HarmonicPlanner::solve(const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics) {
+  const ReachableSpace& reachable = situation().reachable();
+  field_.emplace(HarmonicField{LaplaceProblem(reachable.cells(), sinks, *reachable.start()), {}, {}, {}, 0, true});
   if (options_.solver == FieldSolver::Multigrid) {
     solve_by_multigrid();
   } else {
@@ -260,7 +222,7 @@ void HarmonicPlanner::solve_once(const FrontierSurvey& survey, const std::vector
 
 // Only a certified field is followed: then the way down from any cell ends at a sink.
 void HarmonicPlanner::solve_by_multigrid() {
-  const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_, setup_.threads));
+  const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_, situation().setup().threads));
   const MultigridReport& report = multigrid.report();
   field_->phi = multigrid.values(field_->problem);
   field_->stuck_cells = report.stuck_cells;
@@ -273,12 +235,7 @@ void HarmonicPlanner::solve_by_multigrid() {
 
 void HarmonicPlanner::relax() {
   LaplaceRelaxation relaxation(field_->problem, relaxation_options(options_));
-  if (options_.solver == FieldSolver::CoarseToFine) {
-    relaxation.start_from(coarse_to_fine_guess(field_->problem, options_.uniform_source));
-    relaxation.run(std::min(options_.smoothing_sweeps, options_.max_sweeps));
-  } else {
-    relaxation.run();
-  }
+  relaxation.run();
   // The stop rule does not promise a way down: go on until there is one, or enough is enough.
   const auto arrives = [&] {
     return descend(field_->problem, relaxation.phi(), field_->problem.source()).reaches_sink;
@@ -293,12 +250,12 @@ void HarmonicPlanner::relax() {
 }
 
 // The cells that the streamline passes from the start to its sink; the shortest way where the field leads nowhere.
-std::vector<VoxelIndex> HarmonicPlanner::way_down(const OccupancyMap& map, const Pose& current,
-                                                  const FrontierSurvey& survey) {
+std::vector<VoxelIndex> HarmonicPlanner::way_down() {
   const LaplaceProblem& problem = field_->problem;
-  const VoxelFrame& frame = map.frame();
+  const VoxelFrame& frame = situation().map().frame();
+  const Pose& current = situation().current();
   if (!field_->followed) {
-    return GridPaths(survey.reachable).to_nearest(viewpoints(survey));
+    return GridPaths(situation().reachable()).to_nearest(viewpoints(situation().survey()));
   }
   const VoxelIndex start = problem.cell(problem.source());
   const bool inside = frame.cell_of(current.translation()) == start;

@@ -38,16 +38,15 @@ std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eige
 
 }  // namespace
 
-LookDirections::LookDirections(const Scene& scene, const FrontierSurvey& survey, const Eigen::Vector3d& position,
-                               std::uint64_t& operations)
-    : scene_(scene), position_(position), place_(scene.map.frame().cell_of(position)) {
-  const OccupancyMap& map = scene.map;
-  const RangeSensor& sensor = scene.setup.sensor;
+LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d& position, std::uint64_t& operations)
+    : situation_(situation), position_(position), place_(situation.map().frame().cell_of(position)) {
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
   const double furthest_m = std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
-  for (const FrontierTarget& target : survey.targets) {
+  for (const FrontierTarget& target : situation.survey().targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
     const double range_m = line.norm();
-    if (range_m >= sensor.min_range_m && range_m <= furthest_m && !scene.failed.failed_from(target.unknown, place_) &&
+    if (range_m >= sensor.min_range_m && range_m <= furthest_m && !situation.tried().tried_from(target.unknown, place_) &&
         in_plain_sight(map, position, target.unknown, operations)) {
       sightings_.push_back({target.unknown, line});
     }
@@ -70,7 +69,7 @@ bool LookDirections::choosable(const OccupancyMap& map, const RangeSensor& senso
 std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {
   std::vector<Look> looks;
   for (const Eigen::Vector3d& direction : spread_directions(kDirections)) {
-    const Pose pose = scene_.setup.platform->facing(position_, direction);
+    const Pose pose = situation_.platform().facing(position_, direction);
     TargetView seen = targets_in_view(pose);
     const bool serves = wanted ? std::find(seen.unknown.begin(), seen.unknown.end(), *wanted) != seen.unknown.end()
                                : !seen.unknown.empty();
@@ -78,7 +77,7 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
       looks.push_back({std::move(seen)});
     }
   }
-  share_work(looks.size(), static_cast<std::size_t>(scene_.setup.threads),
+  share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
              [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
   const auto best = std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
     return a.cells != b.cells ? a.cells < b.cells : a.seen.unknown.size() < b.seen.unknown.size();
@@ -89,7 +88,7 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
 TargetView LookDirections::targets_in_view(const Pose& pose) const {
   TargetView seen{.view = {.pose = pose}};
   for (const Sighting& sighting : sightings_) {
-    if (scene_.setup.sensor.in_view(pose.linear().transpose() * sighting.line)) {
+    if (situation_.sensor().in_view(pose.linear().transpose() * sighting.line)) {
       seen.unknown.push_back(sighting.unknown);
     }
   }
@@ -99,8 +98,8 @@ TargetView LookDirections::targets_in_view(const Pose& pose) const {
 
 double LookDirections::expected_cells(const Pose& pose) const {
   double cells = 0.0;
-  for (const SightedCell& seen : sight_->look(scene_.caster, pose, scene_.rays)) {
-    if (!scene_.failed.failed_from(seen.cell, place_) && !scene_.failed.gave_up(seen.cell) &&
+  for (const SightedCell& seen : sight_->look(situation_.caster(), pose, situation_.rays())) {
+    if (!situation_.tried().tried_from(seen.cell, place_) && !situation_.tried().gave_up(seen.cell) &&
         !was_in_view(seen.cell)) {
       cells += seen.chance;
     }
@@ -108,12 +107,15 @@ double LookDirections::expected_cells(const Pose& pose) const {
   return cells;
 }
 
-// Of a view from here that failed: another does not resolve it either.
+// Of a scan from here: another does not resolve it either.
 bool LookDirections::was_in_view(const VoxelIndex& cell) const {
-  const std::span<const Pose> views = scene_.failed.views_from(place_);
-  const Eigen::Vector3d line = scene_.map.frame().centre_of(cell) - position_;
-  return std::any_of(views.begin(), views.end(),
-                     [&](const Pose& pose) { return scene_.setup.sensor.in_view(pose.linear().transpose() * line); });
+  const VoxelFrame& frame = situation_.map().frame();
+  const Eigen::Vector3d line = frame.centre_of(cell) - position_;
+  const auto& scans = situation_.tried().scanned_from();
+  return std::any_of(scans.begin(), scans.end(), [&](const Pose& pose) {
+    return frame.cell_of(pose.translation()) == place_ &&
+           situation_.sensor().in_view(pose.linear().transpose() * line);
+  });
 }
 
 }  // namespace vantage::detail

@@ -4,12 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_survey.hpp>
-#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/situation.hpp>
 #include <vantage/planner/target_view.hpp>
-#include <vantage/raytrace/ray_caster.hpp>
-#include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vector>
 
@@ -26,18 +22,8 @@ struct Look {
 /// targets is in sight do not count, so a look always has a boundary to resolve, or to give up.
 class LookDirections {
  public:
-  /// What it needs from whoever follows the map; all of it must outlive it.
-  struct Scene {
-    const OccupancyMap& map;
-    const RayCaster& caster;  ///< that looks at `map` as it is now
-    const ViewRays& rays;     ///< of the sensor, as dense as the cells ask for
-    const PlannerSetup& setup;
-    const FailedViews& failed;
-  };
-
   /// From the place `position`. `operations` counts the cells that lines of sight visit.
-  LookDirections(const Scene& scene, const FrontierSurvey& survey, const Eigen::Vector3d& position,
-                 std::uint64_t& operations);
+  LookDirections(const Situation& situation, const Eigen::Vector3d& position, std::uint64_t& operations);
 
   /// The best view; with `wanted`, of those that have this cell, which must be in sight from here, in view. None if
   /// there is no such view.
@@ -56,7 +42,7 @@ class LookDirections {
   [[nodiscard]] double expected_cells(const Pose& pose) const;
   [[nodiscard]] bool was_in_view(const VoxelIndex& cell) const;
 
-  Scene scene_;
+  const Situation& situation_;
   Eigen::Vector3d position_;
   VoxelIndex place_;
   std::vector<Sighting> sightings_;

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <queue>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/planner/next_best_view_planner.hpp>
-#include <vantage/planner/target_view.hpp>
 #include <vantage/raytrace/hierarchical_ray_tracer.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/view/candidate_views.hpp>
@@ -20,7 +18,7 @@
 
 #include "geometry/dice.hpp"
 #include "map/option_rule.hpp"
-#include "planner/frontier_cycle.hpp"
+#include "planner/stopwatch.hpp"
 #include "raytrace/shared_work.hpp"
 
 namespace vantage {
@@ -49,32 +47,10 @@ void validate(const NextBestViewOptions& options) {
                          "NextBestViewOptions::failed_within_rad", options.failed_within_rad, "in [0, pi]");
   validate(options.aimed);
   validate(options.sensing);
-  detail::validate(options.survey);
 }
 
 // Where something may be seen: the region, or the known cells and those beside them.
 VoxelBox cells_of_interest(const OccupancyMap& map) { return map.region() ? *map.region() : map.bounds().grown(1); }
-
-// The order in which candidates are taken: by utility, ties by number.
-struct Rank {
-  double utility;
-  std::size_t candidate;
-
-  friend bool operator<(const Rank& a, const Rank& b) {
-    return a.utility != b.utility ? a.utility < b.utility : a.candidate > b.candidate;
-  }
-};
-
-// Those of any use, for whoever wants to look.
-std::vector<View> views_of(const std::vector<ScoredView>& scored) {
-  std::vector<View> views;
-  for (const ScoredView& view : scored) {
-    if (view.utility > 0.0) {
-      views.push_back({view.pose, view.utility});
-    }
-  }
-  return views;
-}
 
 // Line 4: straight there or around the object where the platform can go that way, for that is soon known; else by the
 // platform's own search.
@@ -105,14 +81,13 @@ std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Platform&
 }  // namespace
 
 NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options)
-    : setup_(setup), options_(options), surveyor_(setup.platform, setup.sensor, options.survey) {
-  detail::validate(setup);
+    : setup_(setup), options_(options), explorer_(setup, {options.hypotheses, options.survey}) {
   validate(options);
   failed_ = FailedViews(options.survey.patience);
 }
 
 Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  return options_.object ? reconstruct(map, current) : explore(map, current);
+  return options_.object ? reconstruct(map, orthonormalised(current)) : explorer_.plan(map, current);
 }
 
 // Line 8: the candidates that the platform admits, in the orientations that it can take.
@@ -273,7 +248,6 @@ std::vector<std::size_t> NextBestViewPlanner::order_of(const std::vector<Candida
 
 Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& current) {
   detail::Stopwatch stopwatch;
-  detail::validate(map, current);
   failed_.review(map, current);
   looking_.follow(map, setup_.sensor);
   const VoxelBox object = map.frame().cells_centred_in(*options_.object);
@@ -314,63 +288,11 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
   }
   // Lines 22 to 25.
   plan.outcome = any_worthwhile ? Outcome::Blocked : Outcome::Explored;
-  (any_worthwhile ? plan.leftover.unreachable : plan.leftover.too_small) = left.size();
+  (any_worthwhile ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
   plan.reason = any_worthwhile ? "there is no way to any view that sees enough of the object"
                                : "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
                                      " unknown cells of the object; all together see " + std::to_string(left.size());
   return plan;
-}
-
-Plan NextBestViewPlanner::explore(const OccupancyMap& map, const Pose& current) {
-  detail::FrontierCycle cycle(map, current, setup_, surveyor_, failed_);
-  if (cycle.over()) {
-    return cycle.plan();
-  }
-  looking_.follow(map, setup_.sensor);
-  const FrontierSurvey& survey = cycle.survey();
-  const Platform& platform = *setup_.platform;
-  PlanStatistics& statistics = cycle.plan().statistics;
-  Dice dice(setup_.seed, map.revision());
-  std::vector<Pose> candidates;
-  for (std::size_t i = 0; i < options_.hypotheses; ++i) {
-    if (i % 2 == 0) {
-      const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
-      const Eigen::Vector3d from = map.frame().centre_of(target.viewpoint);
-      candidates.push_back(platform.facing(from, map.frame().centre_of(target.unknown) - from));
-    } else {
-      const VoxelIndex& cell = survey.reachable.cells()[dice.below(survey.reachable.size())];
-      candidates.push_back(platform.facing(map.frame().centre_of(cell), dice.direction()));
-    }
-  }
-  UtilityFactors factors;
-  factors.surface = unknown_cells();
-  factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(current, pose); });
-  const std::vector<ScoredView> scored =
-      score_views(looking_.caster(), candidates, looking_.rays(), cells_of_interest(map), factors,
-                  static_cast<std::size_t>(setup_.threads));
-  statistics.views_scored = scored.size();
-  cycle.plan().candidates = views_of(scored);
-  std::priority_queue<Rank> ranks;
-  for (std::size_t i = 0; i < scored.size(); ++i) {
-    ranks.push({scored[i].utility, i});
-  }
-  // A view counts only if it resolves a frontier that is worth one: a few unknown cells beside contested ones are
-  // not.
-  TargetView best;
-  for (; !ranks.empty() && best.unknown.empty(); ranks.pop()) {
-    const ScoredView& view = scored[ranks.top().candidate];
-    best = targets_seen_from(map, setup_.sensor, survey, view.pose, statistics.ray_operations);
-    best.view.utility = view.utility;
-  }
-  for (std::size_t i = 0; i < survey.targets.size() && best.unknown.empty(); ++i) {
-    best = view_of_target(map, platform, setup_.sensor, survey, survey.targets[i], statistics.ray_operations);
-  }
-  if (best.unknown.empty()) {
-    return cycle.blocked("no pose tried sees a frontier");
-  }
-  const std::vector<VoxelIndex> way =
-      GridPaths(survey.reachable).to(map.frame().cell_of(best.view.pose.translation()));
-  return cycle.go(std::move(best), way);
 }
 
 }  // namespace vantage

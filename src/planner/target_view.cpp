@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <vantage/planner/situation.hpp>
 #include <vantage/planner/target_view.hpp>
 
 namespace vantage {
@@ -43,11 +44,12 @@ TargetView keep_in_view(const RangeSensor& sensor, const Pose& pose, const std::
 
 }  // namespace
 
-TargetView targets_seen_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
-                             const Pose& pose, std::uint64_t& operations) {
+TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::uint64_t& operations) {
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
   const double furthest_m = counted_range_m(map, sensor);
   TargetView seen{.view = {.pose = pose}};
-  for (const FrontierTarget& target : survey.targets) {
+  for (const FrontierTarget& target : situation.survey().targets) {
     const double range_m = (map.frame().centre_of(target.unknown) - pose.translation()).norm();
     if (range_m <= furthest_m && sees(map, sensor, pose, target.unknown, operations)) {
       seen.unknown.push_back(target.unknown);
@@ -57,12 +59,14 @@ TargetView targets_seen_from(const OccupancyMap& map, const RangeSensor& sensor,
   return seen;
 }
 
-TargetView view_of_target(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                          const FrontierSurvey& survey, const FrontierTarget& wanted, std::uint64_t& operations) {
-  const Eigen::Vector3d position = map.frame().centre_of(wanted.viewpoint);
+TargetView view_of_target(const Situation& situation, const FrontierTarget& wanted, std::uint64_t& operations) {
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
+  const Platform& platform = situation.platform();
+  const Eigen::Vector3d position = situation.reachable().position_in(wanted.viewpoint);
   const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
   const double furthest_m = std::max(counted_range_m(map, sensor), line.norm());
-  const std::vector<Sighting> sightings = sightings_from(map, sensor, survey, position, furthest_m, operations);
+  const std::vector<Sighting> sightings = sightings_from(map, sensor, situation.survey(), position, furthest_m, operations);
   TargetView best = keep_in_view(sensor, platform.facing(position, line), sightings);
   // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the
   // wanted.

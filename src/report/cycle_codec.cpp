@@ -112,7 +112,7 @@ void put_plan(ByteWriter& out, const RecordedCycle& cycle) {
   }
   out.count(cycle.leftover.unreachable);
   out.count(cycle.leftover.unobservable);
-  out.count(cycle.leftover.too_small);
+  out.count(cycle.leftover.in_vain);
   out.real(cycle.survey_ms);
   out.real(cycle.choose_ms);
   out.real(cycle.path_ms);
@@ -144,7 +144,7 @@ void read_plan(ByteReader& in, RecordedCycle& cycle) {
   }
   cycle.leftover.unreachable = static_cast<std::size_t>(in.count());
   cycle.leftover.unobservable = static_cast<std::size_t>(in.count());
-  cycle.leftover.too_small = static_cast<std::size_t>(in.count());
+  cycle.leftover.in_vain = static_cast<std::size_t>(in.count());
   cycle.survey_ms = in.real();
   cycle.choose_ms = in.real();
   cycle.path_ms = in.real();

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 #include <vantage/robot/reachable_space.hpp>
+
+#include "geometry/box_around.hpp"
 
 namespace vantage {
 namespace {
@@ -12,7 +16,11 @@ std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platfo
   const VoxelFrame& frame = map.frame();
   const VoxelIndex home = frame.cell_of(current.translation());
   std::vector<VoxelIndex> candidates;
-  for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(2), [&](const VoxelIndex& cell) {
+  // A body that is pushed against a wall gets away by half of itself, and one cell more.
+  constexpr double kMostCells = 16.0;
+  const double half_m = 0.5 * platform.body_box(current).extent().maxCoeff();
+  const auto near = static_cast<std::int32_t>(std::clamp(std::ceil(half_m / frame.size_m) + 1.0, 2.0, kMostCells));
+  for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(near), [&](const VoxelIndex& cell) {
     if (admitted.value_or(cell, 0) != 0) {
       candidates.push_back(cell);
     }
@@ -52,12 +60,20 @@ VoxelGrid<std::uint32_t> unnumbered(const VoxelGrid<std::uint8_t>& admitted) {
 }  // namespace
 
 ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current) {
+  frame_ = map.frame();
   const VoxelBox bounds = map.bounds();
   if (bounds.empty() || !map.frame().addressable(current.translation())) {
     return;
   }
   const VoxelGrid<std::uint8_t> admitted = platform.admitted_cells(map, bounds);
   start_ = nearest_admitted(map, platform, current, admitted);
+  if (!start_ && platform.admits(map, current)) {
+    start_ = map.frame().cell_of(current.translation());
+    stands_at_m_ = current.translation();
+    cells_ = {*start_};
+    number_ = VoxelGrid<std::uint32_t>(VoxelBox{*start_, *start_ + VoxelIndex{1, 1, 1}}, 0);
+    return;
+  }
   if (!start_) {
     return;
   }
@@ -85,6 +101,13 @@ ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform
     }
   }
   std::replace(numbers.begin(), numbers.end(), kUnnumbered, kOutside);
+}
+
+ReachableSpace::ReachableSpace(const VoxelFrame& frame, std::vector<VoxelIndex> cells)
+    : frame_(frame), start_(cells.front()), cells_(std::move(cells)), number_(detail::box_around(cells_), kOutside) {
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    number_[cells_[i]] = static_cast<std::uint32_t>(i);
+  }
 }
 
 }  // namespace vantage

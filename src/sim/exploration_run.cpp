@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vantage/planner/plan_check.hpp>
 #include <vantage/sim/exploration_run.hpp>
 
 #include "map/option_rule.hpp"
@@ -238,20 +239,6 @@ void ExplorationRun::move(Progress& progress, const Pose& to) {
   progress.pose = to;
 }
 
-bool ExplorationRun::still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const {
-  for (Pose from = pose; next < path.size(); from = path[next++]) {
-    if (!platform_->admits_motion(known(), from, path[next])) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool ExplorationRun::still_sought(const std::vector<VoxelIndex>& cells) const {
-  return cells.empty() || std::any_of(cells.begin(), cells.end(),
-                                      [&](const VoxelIndex& cell) { return known().at(cell) == Occupancy::Unknown; });
-}
-
 // To the goal, or to where a scan on the way has closed it, made it needless or spent the budget. The last scan is
 // left to be reported with the plan that comes of it.
 void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
@@ -260,13 +247,13 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
     const Pose& to = plan.path[next];
     const double length_m = (to.translation() - from.translation()).norm();
     double done_m = 0.0;
-    while (options_.scan_spacing_m > 0.0 && plan.scan_on_the_way &&
+    while (options_.scan_spacing_m > 0.0 &&
            done_m + options_.scan_spacing_m - progress.since_scan_m < length_m) {
       done_m += options_.scan_spacing_m - progress.since_scan_m;
       move(progress, between(from, to, done_m / length_m));
       scan(progress);
       const bool spent = progress.record.views.size() >= options_.max_views;
-      if (spent || !still_admitted(progress.pose, plan.path, next) || !still_sought(plan.sought)) {
+      if (spent || check(plan, known(), *platform_, progress.pose) != PlanCheck::Good) {
         return;
       }
       if (on_view) {
@@ -321,7 +308,7 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
       on_view(record.views.back(), known());
     }
     if (next.outcome != Outcome::Move || next.path.empty()) {
-      record.outcome = next.outcome == Outcome::Explored ? RunOutcome::Explored : RunOutcome::Blocked;
+      record.outcome = run_outcome_of(next.outcome);
       record.reason = next.reason;
       break;
     }

@@ -90,8 +90,8 @@ TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
   EXPECT_EQ(told, err_.substr(err_.find("  exhaustive"))) << "the same for any number of threads";
   EXPECT_EQ(run("--world crates-open --resolution 0.1 --planner exhaustive --json -"), 0) << err_;
   EXPECT_EQ(nlohmann::json::parse(out_).at("outcome"), "explored");
-  expect_refused("--world crates-open --planner exhaustive --set views=3", "has one setting, least_view_dm3");
-  expect_refused("--world crates-open --planner exhaustive --set least_view_dm3=-1", "must be one number >= 0");
+  expect_refused("--world crates-open --planner exhaustive --set views=3", "has one setting, least_view_m3");
+  expect_refused("--world crates-open --planner exhaustive --set least_view_m3=-1", "must be one number >= 0");
 }
 
 TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {

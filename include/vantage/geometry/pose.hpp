@@ -26,6 +26,10 @@ using Pose = Eigen::Isometry3d;
 /// Whether every entry is finite and the linear part is a rotation (orthonormal, determinant +1) within `tolerance`.
 [[nodiscard]] bool is_rigid(const Pose& pose, double tolerance = 1e-6);
 
+/// The rigid transform nearest to one whose rotation is off by up to 1e-3, as one written with four digits is; one
+/// that is rigid (is_rigid) comes back as it is. Throws std::invalid_argument if it is further off or not finite.
+[[nodiscard]] Pose orthonormalised(const Pose& pose);
+
 /// The optical axis of `world_from_sensor`, a unit vector in the world frame.
 [[nodiscard]] inline Eigen::Vector3d optical_axis(const Pose& world_from_sensor) {
   return world_from_sensor.linear().col(2);

@@ -11,11 +11,12 @@
 
 namespace vantage {
 
-/// How a cycle of planning ended.
+/// What the host is to do after a call of `plan`.
 enum class Outcome : std::uint8_t {
-  Move,      ///< there is a view to take: follow the path
-  Explored,  ///< nothing that this sensor on this platform could observe is left
-  Blocked,   ///< something is left, and `reason` says why it cannot be had
+  Move,         ///< there is a view to take: follow the path
+  Explored,     ///< nothing that this sensor on this platform could observe is left
+  Unreachable,  ///< all that can be reached is seen, but known free space with more to see is cut off: ask again later
+  Blocked,      ///< the platform cannot start or move; `reason` holds the remedy
 };
 
 [[nodiscard]] constexpr std::string_view to_string(Outcome outcome) {
@@ -24,17 +25,26 @@ enum class Outcome : std::uint8_t {
       return "move";
     case Outcome::Explored:
       return "explored";
+    case Outcome::Unreachable:
+      return "unreachable";
     case Outcome::Blocked:
       break;
   }
   return "blocked";
 }
 
-/// Frontier or void cells given up, by cause.
+/// How following a plan ended, as the host knows it.
+enum class GoalResult : std::uint8_t {
+  Reached,    ///< the sensor is as near to the goal as the controller brings it, and has scanned there
+  Failed,     ///< the controller cannot get there
+  Preempted,  ///< the host has other plans; says nothing about the goal
+};
+
+/// Frontier cells that no view is planned for, by cause.
 struct Leftover {
-  std::size_t unreachable = 0;   ///< not joined to the sensor through cells the platform admits
-  std::size_t unobservable = 0;  ///< no reachable pose of this sensor sees what lies behind them
-  std::size_t too_small = 0;     ///< in clusters below the size the options ask for
+  std::size_t unreachable = 0;   ///< not beside any place that the platform can reach
+  std::size_t unobservable = 0;  ///< no reachable pose of this sensor has a line of sight to what lies behind them
+  std::size_t in_vain = 0;       ///< looked at from places that differ, and nothing was learned (TriedViews)
 
   /// The same counts.
   friend bool operator==(const Leftover&, const Leftover&) = default;
@@ -73,9 +83,7 @@ struct Plan {
   /// The views that were weighed against the goal, itself included, with their utilities; for whoever wants to look.
   /// Empty for planners that weigh none.
   std::vector<View> candidates;
-  bool scan_on_the_way =
-      true;           ///< false: before the goal none of `sought` is in sight, so a scan there can be spared
-  Leftover leftover;  ///< what was given up
+  Leftover leftover;  ///< what no view is planned for
   std::string reason = "plan() was not called";  ///< one sentence, for a person
   PlanStatistics statistics;                     ///< what it took
 };
@@ -84,17 +92,24 @@ struct Plan {
 /// follow the path, repeat.
 ///
 /// Every planner keeps this contract, and one test suite holds all of them to it: the path starts at `current`, ends
-/// at `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored exactly when
-/// nothing observable is left but what the options leave as too small; the same map, pose and seed give the same plan
-/// for any number of threads; planning twice without a new scan changes nothing; and but for the memory of failed
-/// goals, which belongs to one map, a planner holds nothing that the map cannot rebuild.
+/// at `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored only when nothing is
+/// left that the sensor could observe and has not looked at in vain; the same map, pose and seed give the same plan
+/// for any number of threads; planning twice without a new scan changes nothing; a goal that the robot does not come
+/// nearer to is not asked for again and again; and but for the memory of views that were tried, which belongs to one
+/// map, a planner holds nothing that the map cannot rebuild.
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;
   /// The NAME that `make_planner` knows it by.
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// `current` is the sensor's pose now. Throws std::invalid_argument if it is not rigid or not in the map's region.
+  /// `current` is the sensor's pose at the last scan; a rotation that is off by up to 1e-3 is made orthonormal. A pose
+  /// that the platform does not admit, or outside of the region, gives a plan as well. Throws std::invalid_argument if
+  /// a number of the pose is not finite or it is no rigid transform.
   [[nodiscard]] virtual Plan plan(const OccupancyMap& map, const Pose& current) = 0;
+  /// Tells how following the last plan ended. Optional: without it a goal counts as reached when `current` of the
+  /// next plan is within PlannerSetup's tolerances of it, and as failed when the robot came no nearer to it while the
+  /// map has grown twice.
+  virtual void report(const OccupancyMap& map, const Pose& current, GoalResult result);
 };
 
 }  // namespace vantage

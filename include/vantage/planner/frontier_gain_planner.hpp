@@ -2,10 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
-#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/frontier_planner.hpp>
 
 namespace vantage {
 
@@ -18,27 +15,25 @@ struct FrontierGainOptions {
   double aimed_share = 0.0;
   /// What a metre of straight distance costs, in frontier cells, >= 0. 0 is the paper's: gain alone decides.
   double cost_per_m = 0.0;
-  FrontierSurveyOptions survey = {};  ///< what counts as a frontier worth a view
+  FrontierSurveyOptions survey = {};  ///< how thoroughly it looks for frontiers
 };
 
 /// The frontier method of Shade & Newman 2011, III-B.1, their baseline: poses are drawn at random in the free space
 /// that the platform can reach, the frontier cells that the sensor would see from each are counted by casting rays
 /// through the map, and the way to the best pose is found by A*. Unlike the paper's, cells further off than the
 /// sensor resolves them do not count.
-class FrontierGainPlanner final : public ExplorationPlanner {
+class FrontierGainPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument naming the option at fault.
   explicit FrontierGainPlanner(const PlannerSetup& setup, const FrontierGainOptions& options = {});
 
   /// "frontier-gain".
   [[nodiscard]] std::string_view name() const override { return "frontier-gain"; }
-  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
  private:
-  PlannerSetup setup_;
+  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+
   FrontierGainOptions options_;
-  FailedViews failed_;
-  FrontierSurveyor surveyor_;
 };
 
 }  // namespace vantage

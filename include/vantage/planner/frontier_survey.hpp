@@ -6,7 +6,7 @@
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
+#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vantage/robot/reachable_space.hpp>
@@ -22,28 +22,10 @@ struct FrontierTarget {
   VoxelIndex viewpoint;
 };
 
-/// What counts as worth a view, for every planner alike.
+/// How thoroughly a survey looks, for every planner alike.
 struct FrontierSurveyOptions {
-  /// Smaller 26-connected clusters of observable frontier cells are left as `too_small`, >= 1.
-  std::size_t min_cluster_cells = 1;
-  /// The same for clusters within two cells of a contested one (OccupancyMap::contested), >= 1: where rays wear
-  /// surfaces away, false frontiers of a few cells open without end.
-  std::size_t min_contested_cluster_cells = 32;
-  /// Whether a worn cell (OccupancyMap::worn) may be a target. In fine cells the state of a surface that rays meet at
-  /// a small angle, a sloping roof for instance, depends on where it was last seen from: false frontiers come and go
-  /// there for ever, and no run would end. If false, worn frontier cells are left over; what is unknown behind a
-  /// thing that has gone is still the target of the other free cells around it. FrontierVoidOptions and
-  /// NextBestViewOptions have it true.
-  bool worn_frontiers = false;
-  /// For a sensor that does not report rays without return: targets whose unknown cell touches an occupied one (26
-  /// neighbours) come first, the others when none of these is left. A ray into the open teaches such a sensor
-  /// nothing, one along a known surface most likely meets more of it.
-  bool surfaces_first = true;
-  int patience = 2;  ///< places from which a view of a cell may fail before it is given up (FailedViews), >= 1
+  int patience = 2;                    ///< places that differ from which a cell is looked at in vain (TriedViews), >= 1
   std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
-  /// When nothing worth a view is observable along those directions, pairs of an unknown and a reachable cell are
-  /// tried one by one before the map may be called explored: all of them, or this many, and the plan says so.
-  std::size_t exhaustive_pairs = 3'000'000;
 };
 
 /// Where the platform can go, which frontier cells are left and which of them some reachable pose can resolve: the
@@ -51,24 +33,27 @@ struct FrontierSurveyOptions {
 ///
 /// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one
 /// of its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest
-/// and longest range, and falls into its field of view in an orientation that the platform can take there. A worn one
-/// is not, unless FrontierSurveyOptions::worn_frontiers says so.
+/// and longest range, and falls into its field of view in an orientation that the platform can take there. It is no
+/// target if every such unknown cell was looked at in vain often enough (TriedViews).
+///
+/// For a sensor that does not report rays without return, targets whose unknown cell touches an occupied one (26
+/// neighbours) come first, the others when none of these is left: a ray into the open teaches such a sensor nothing,
+/// one along a known surface most likely meets more of it.
 struct FrontierSurvey {
   ReachableSpace reachable;  ///< cells the platform can bring the sensor to
-  /// The observable frontier cells to go for now (FrontierSurveyOptions::surfaces_first), in raster order of
-  /// `frontier`.
+  /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};
   std::size_t frontier_cells = 0;  ///< all of them, inside the region
-  bool exhausted = true;   ///< false: FrontierSurveyOptions::exhaustive_pairs ran out before every pair was tried
-  Leftover leftover = {};  ///< frontier cells given up, by cause
+  bool exhausted = true;  ///< false: there were too many pairs of an unknown and a reachable cell to try every one
+  Leftover leftover = {};  ///< frontier cells that are no targets, by cause
   std::uint64_t ray_operations = 0;  ///< cells visited while looking for lines of sight
 };
 
-/// Surveys the map from `current`. Targets that `failed` has given up count as unobservable. Whoever surveys a map
+/// Surveys the map from `current`. Targets that `tried` has given up count as unobservable. Whoever surveys a map
 /// again and again does it cheaper by a FrontierSurveyor.
 [[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
                                               const RangeSensor& sensor, const Pose& current,
-                                              const FrontierSurveyOptions& options, const FailedViews& failed);
+                                              const FrontierSurveyOptions& options, const TriedViews& tried);
 
 /// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free
 /// and not contested.

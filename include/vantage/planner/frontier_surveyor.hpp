@@ -31,10 +31,13 @@ class FrontierSurveyor {
   FrontierSurveyor& operator=(FrontierSurveyor&& other) noexcept;
   ~FrontierSurveyor();
 
-  /// Surveys the map from `current`. Targets that `failed` has given up count as unobservable.
-  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed);
+  /// Surveys the map from `current`. Targets that `tried` has given up count as unobservable.
+  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried);
   /// The same for those who know the frontier cells of the map already (FrontierTracker), in raster order.
-  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const FailedViews& failed,
+  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
+                                      std::vector<VoxelIndex> frontier);
+  /// The same from a space in which the platform may be anywhere.
+  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,
                                       std::vector<VoxelIndex> frontier);
 
  private:

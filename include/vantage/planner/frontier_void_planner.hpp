@@ -5,15 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/frontier/void_tracker.hpp>
-#include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
-#include <vantage/planner/make_planner.hpp>
-#include <vantage/planner/target_view.hpp>
-#include <vantage/raytrace/following_caster.hpp>
+#include <vantage/planner/frontier_planner.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vantage/view/utility_vectors.hpp>
@@ -53,8 +47,8 @@ struct FrontierVoidStrategy {
   /// A view has failed to resolve void cells that it was to make known with at least this chance, in [0, 1], where
   /// they are still unknown after it: with 1 only those that its rays surely end in.
   double sought_chance = 1.0;
-  /// A view that is expected to learn less of the voids than this, dm^3, is none, >= 0.
-  double least_view_dm3 = 0.0;
+  /// A view that is expected to learn less of the voids than this, m^3, is none, >= 0.
+  double least_view_m3 = 0.0;
   /// When no view sees a void any more, frontiers that border none are explored, the nearest first.
   bool beyond_voids = true;
 
@@ -74,6 +68,16 @@ struct FrontierVoidStrategy {
   [[nodiscard]] static FrontierVoidStrategy travelling() {
     return {.cost_per_m = 100.0, .along_way = true, .near_views = 20};
   }
+  /// For a camera on an arm, whose reach is short and whose views are dear: many views are weighed, metres do not count,
+  /// and the search ends where no view sees a void.
+  [[nodiscard]] static FrontierVoidStrategy searching() {
+    return {.orientations_per_place = 8,
+            .place_spacing_m = 0.1,
+            .cost_per_m = 0.0,
+            .finalists = 30,
+            .sought_chance = 0.0,
+            .beyond_voids = false};
+  }
 };
 
 /// Options of FrontierVoidPlanner.
@@ -82,9 +86,8 @@ struct FrontierVoidOptions {
   std::size_t most_vectors = 200'000;  ///< see utility_vectors, > 0
   std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, >= 1
   FrontierVoidStrategy strategy = {};  ///< what to make of the voids
-  /// What counts as observable. Fewer directions than elsewhere: a void is looked into through many frontier cells.
-  /// Worn ones count: what noise has worn just before a surface may lead to a void all the same.
-  FrontierSurveyOptions survey = {.worn_frontiers = true, .sight_directions = 128};
+  /// Fewer directions than elsewhere: a void is looked into through many frontier cells.
+  FrontierSurveyOptions survey = {.sight_directions = 128};
 };
 
 /// What a plan of FrontierVoidPlanner was made from, for pictures and for those who want to look.
@@ -105,14 +108,13 @@ struct VoidSearch {
 /// only what the survey that all planners share finds observable is looked through, so the search ends when
 /// everything is seen that can be, and what is left is reported by cause. docs/frontier_void.md names the place of
 /// every equation.
-class FrontierVoidPlanner final : public ExplorationPlanner {
+class FrontierVoidPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument naming the option or the part of the setup at fault.
   explicit FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options = {});
 
   /// "frontier-void".
   [[nodiscard]] std::string_view name() const override { return "frontier-void"; }
-  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
   /// The options it was made with.
   [[nodiscard]] const FrontierVoidOptions& options() const { return options_; }
@@ -125,48 +127,29 @@ class FrontierVoidPlanner final : public ExplorationPlanner {
     std::size_t void_cells = 0;
     double value = 0.0;
   };
-  struct Choice {
-    TargetView view;
-    std::vector<Pose> path;
-    std::vector<View> candidates;  // that were weighed
-  };
 
+  void prepare(Plan& plan) override;
+  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
   [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays) const;
-  void follow(const OccupancyMap& map);
-  void extract(const OccupancyMap& map, const FrontierSurvey& survey);
-  void accumulate(const OccupancyMap& map, const FrontierSurvey& survey, PlanStatistics& statistics);
-  [[nodiscard]] std::vector<Pose> sample_views(const OccupancyMap& map, const Pose& current,
-                                               PlanStatistics& statistics) const;
+  void extract();
+  void accumulate(PlanStatistics& statistics);
+  [[nodiscard]] std::vector<Pose> sample_views(PlanStatistics& statistics) const;
   [[nodiscard]] std::vector<Pose> views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
-                                           const OccupancyMap& map, const FrontierSurvey& survey,
                                            PlanStatistics& statistics) const;
-  [[nodiscard]] std::vector<Pose> near_views(const OccupancyMap& map, const FrontierSurvey& survey,
-                                             PlanStatistics& statistics) const;
+  [[nodiscard]] std::vector<Pose> near_views(PlanStatistics& statistics) const;
+  [[nodiscard]] std::vector<Pose> views_of_voids(PlanStatistics& statistics) const;
   [[nodiscard]] double discounted(double utility, double way_m) const;
-  [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
-                                            const Pose& current) const;
-  void refine(const OccupancyMap& map, const Pose& current, const FrontierSurvey& survey,
-              std::vector<Candidate>& candidates, PlanStatistics& statistics) const;
-  [[nodiscard]] std::optional<Choice> choose(const OccupancyMap& map, const Pose& current,
-                                             const FrontierSurvey& survey, const std::vector<Pose>& views,
-                                             PlanStatistics& statistics) const;
-  [[nodiscard]] std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Pose& current,
-                                                        const FrontierSurvey& survey, const Pose& view) const;
-  [[nodiscard]] std::vector<Pose> views_of_voids(const OccupancyMap& map, const FrontierSurvey& survey,
-                                                 PlanStatistics& statistics) const;
-  [[nodiscard]] std::optional<Choice> nearest_frontier(const OccupancyMap& map, const Pose& current,
-                                                       const FrontierSurvey& survey,
-                                                       PlanStatistics& statistics) const;
+  [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays) const;
+  void refine(std::vector<Candidate>& candidates, PlanStatistics& statistics) const;
+  [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
+  [[nodiscard]] std::optional<std::vector<Pose>> way_to(const Pose& view) const;
+  [[nodiscard]] std::optional<ChosenView> nearest_frontier(PlanStatistics& statistics) const;
 
-  PlannerSetup setup_;
   FrontierVoidOptions options_;
-  FailedViews failed_;
-  FrontierSurveyor surveyor_;
   VoidSearch search_;
   // Of the map that was planned in last:
-  FollowingCaster looking_;
+  KnownMap followed_;
   std::optional<UnknownSight> sight_;
-  std::optional<FrontierTracker> frontier_;
   std::optional<VoidTracker> void_cells_;
   std::optional<ViewRays> sparse_rays_;
 };

@@ -9,12 +9,7 @@
 #include <string_view>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
-#include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
-#include <vantage/planner/make_planner.hpp>
-#include <vantage/planner/target_view.hpp>
-#include <vantage/raytrace/following_caster.hpp>
+#include <vantage/planner/frontier_planner.hpp>
 #include <vector>
 
 namespace vantage {
@@ -22,14 +17,7 @@ namespace vantage {
 /// How the harmonic field is found.
 enum class FieldSolver : std::uint8_t {
   Multigrid,     ///< to a small residual, with a certificate that the way down from every cell ends at a sink
-  CoarseToFine,  ///< a first guess from coarse to fine, then a few sweeps of the relaxation
   GaussSeidel,  ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
-};
-
-/// Which of the boundaries the way leads to.
-enum class SinkChoice : std::uint8_t {
-  Steepest,     ///< the one at which the streamline from the sensor ends: the paper's
-  LargestFlux,  ///< the cluster of sinks into which most flows, wherever that streamline turns (sink_flux.hpp)
 };
 
 /// What HarmonicPlanner does that the paper leaves open or does otherwise; docs/harmonic.md has what each part earns.
@@ -37,29 +25,22 @@ struct HarmonicStrategy {
   /// Sinks whose way is longer than the way to the nearest by more than this wait for a later plan, metres, >= 0:
   /// what is near is cleared first. Infinity: every frontier draws.
   double detour_m = 0.2;
-  /// Which of these it goes for.
-  SinkChoice sink_choice = SinkChoice::Steepest;
   /// Looks from the first place on the way from which the boundary it came for is in sight, not from beside it.
   bool look_early = true;
   /// With look_early: once it has gone so far, metres, >= 0, any other boundary that comes into sight is looked at,
   /// too.
   double look_spacing_m = 0.5;
   /// Of a sensor that does not see all around: before it moves on it looks from where it is, in the direction that is
-  /// expected to teach most, as long as that is at least so much unknown space, dm^3, >= 0; and at its goal it takes
+  /// expected to teach most, as long as that is at least so much unknown space, m^3, >= 0; and at its goal it takes
   /// such a direction, too. Infinity: it looks once, at most of the boundary. Not in a plane.
-  double look_again_dm3 = 100.0;
+  double look_again_m3 = 0.1;
   /// Takes the shortest way to the place it looks from, not the streamline.
   bool shortest_way = true;
-  /// With look_early: spares the scans on the way, where nothing that is sought is in sight yet. The path gets
-  /// shorter, but the robot passes places that it has seen from afar only: where rays miss thin things, it meets
-  /// them.
-  bool spare_scans = false;
-
   /// The paper's plain method.
   [[nodiscard]] static HarmonicStrategy faithful() {
     return {.detour_m = std::numeric_limits<double>::infinity(),
             .look_early = false,
-            .look_again_dm3 = std::numeric_limits<double>::infinity(),
+            .look_again_m3 = std::numeric_limits<double>::infinity(),
             .shortest_way = false};
   }
 };
@@ -69,9 +50,7 @@ struct HarmonicOptions {
   FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
   double tolerance = 1e-4;            ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
-  std::size_t smoothing_sweeps = 20;  ///< CoarseToFine: sweeps after the guess
   std::size_t max_sweeps = 50000;     ///< of the relaxation; no field takes more, > 0
-  double over_relaxation = 1.0;       ///< in (0, 2); 1 is Gauss-Seidel
   double uniform_source = 1e-4;       ///< see RelaxationOptions; 0 is the field of the paper
   HarmonicStrategy strategy = {};     ///< what to make of the field
   FrontierSurveyOptions survey = {};  ///< what counts as observable
@@ -96,13 +75,12 @@ struct HarmonicField {
 /// The paper's sensor is a point; here the domain is the platform's reachable space, and a frontier cell that lies
 /// outside it is represented by the reachable cell from which its unknown neighbour is seen (FrontierSurvey). Only a
 /// way that is known to end at a sink is ever followed. docs/harmonic.md names the place of every equation.
-class HarmonicPlanner final : public ExplorationPlanner {
+class HarmonicPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument naming the option or the part of the setup at fault.
   explicit HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options = {});
 
   [[nodiscard]] std::string_view name() const override { return "harmonic"; }
-  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
   /// The options it was made with.
   [[nodiscard]] const HarmonicOptions& options() const { return options_; }
@@ -111,29 +89,21 @@ class HarmonicPlanner final : public ExplorationPlanner {
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
 
  private:
-  void solve_once(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
-  void solve(const FrontierSurvey& survey, const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
+  void prepare(Plan& plan) override;
+  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  void solve(const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
   void solve_by_multigrid();
   void relax();
-  [[nodiscard]] std::vector<VoxelIndex> way_down(const OccupancyMap& map, const Pose& current,
-                                                 const FrontierSurvey& survey);
-  [[nodiscard]] std::vector<VoxelIndex> sinks(const OccupancyMap& map, const FrontierSurvey& survey) const;
-  [[nodiscard]] bool can_look(const OccupancyMap& map, const FrontierTarget& target, const VoxelIndex& from,
-                              std::uint64_t& operations) const;
-  [[nodiscard]] FrontierTarget first_look(const OccupancyMap& map, const FrontierSurvey& survey,
-                                          const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
-  [[nodiscard]] std::optional<TargetView> look_again(const OccupancyMap& map, const Pose& current,
-                                                     const FrontierSurvey& survey, std::uint64_t& operations) const;
-  [[nodiscard]] TargetView look_at(const OccupancyMap& map, const FrontierSurvey& survey,
-                                   const FrontierTarget& wanted, std::uint64_t& operations) const;
-  [[nodiscard]] bool chooses_directions(const OccupancyMap& map) const;
+  [[nodiscard]] std::vector<VoxelIndex> way_down();
+  [[nodiscard]] std::vector<VoxelIndex> sinks() const;
+  [[nodiscard]] bool can_look(const FrontierTarget& target, const VoxelIndex& from, std::uint64_t& operations) const;
+  [[nodiscard]] FrontierTarget first_look(const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
+  [[nodiscard]] std::optional<TargetView> look_again(std::uint64_t& operations) const;
+  [[nodiscard]] TargetView look_at(const FrontierTarget& wanted, std::uint64_t& operations) const;
+  [[nodiscard]] bool chooses_directions() const;
 
-  PlannerSetup setup_;
   HarmonicOptions options_;
-  FailedViews failed_;
-  FrontierSurveyor surveyor_;
   std::optional<HarmonicField> field_;
-  FollowingCaster looking_;  // in the map in which it last chose a direction
 };
 
 }  // namespace vantage

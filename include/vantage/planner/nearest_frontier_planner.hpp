@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
-#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/frontier_planner.hpp>
 
 namespace vantage {
 
-/// Goes for the frontier with the shortest way to a place that sees it (after Yamauchi 1997): the plainest baseline.
-/// There it turns so that most other frontier cells come into view beside the one it came for.
-class NearestFrontierPlanner final : public ExplorationPlanner {
+/// Goes to the nearest place from which some frontier is seen (Yamauchi 1997, "A Frontier-Based Approach for Autonomous
+/// Exploration"), and looks at as much of the frontier from there as comes into view.
+class NearestFrontierPlanner final : public FrontierPlanner {
  public:
-  /// Throws std::invalid_argument naming the option at fault.
-  explicit NearestFrontierPlanner(const PlannerSetup& setup, const FrontierSurveyOptions& options = {});
+  using FrontierPlanner::FrontierPlanner;
 
   /// "nearest-frontier".
   [[nodiscard]] std::string_view name() const override { return "nearest-frontier"; }
-  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
 
  private:
-  PlannerSetup setup_;
-  FrontierSurveyOptions options_;
-  FailedViews failed_;
-  FrontierSurveyor surveyor_;
+  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
 };
 
 }  // namespace vantage

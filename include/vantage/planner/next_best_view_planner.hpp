@@ -8,8 +8,7 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
-#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/next_best_view_explorer.hpp>
 #include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/aimed_views.hpp>
 #include <vantage/view/information_gain.hpp>
@@ -71,9 +70,7 @@ struct NextBestViewOptions {
   std::size_t hypotheses =
       100;  ///< poses drawn in the reachable space per plan, every other aimed at a frontier; >= 1
 
-  /// What counts as a frontier worth a view, and the patience with failed views. Worn ones count: noise wears cells
-  /// just before the surface of the object, beside which the rest of it is to be found.
-  FrontierSurveyOptions survey = {.worn_frontiers = true};
+  FrontierSurveyOptions survey = {};  ///< how thoroughly it looks for frontiers, and the patience with failed views
 };
 
 /// The next best view of Vasquez-Gomez et al. 2013, Algorithm 1: of many candidate views, the one of the largest
@@ -91,6 +88,9 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   /// "next-best-view".
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+  void report(const OccupancyMap& map, const Pose& current, GoalResult result) override {
+    explorer_.report(map, current, result);
+  }
 
  private:
   struct Candidate {
@@ -110,12 +110,11 @@ class NextBestViewPlanner final : public ExplorationPlanner {
                                                      std::span<const Pose> views, std::span<CellSet> seen) const;
   [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& candidates) const;
   [[nodiscard]] Plan reconstruct(const OccupancyMap& map, const Pose& current);
-  [[nodiscard]] Plan explore(const OccupancyMap& map, const Pose& current);
 
   PlannerSetup setup_;
   NextBestViewOptions options_;
   FailedViews failed_;
-  FrontierSurveyor surveyor_;
+  NextBestViewExplorer explorer_;
   FollowingCaster looking_;  // in the map that was planned in last
 };
 

@@ -12,12 +12,29 @@
 namespace vantage {
 
 /// How a whole run ended.
-enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget };
+enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget };
+
+/// What the outcome of a planner that is done makes of the run; Budget for Move.
+[[nodiscard]] constexpr RunOutcome run_outcome_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::Explored:
+      return RunOutcome::Explored;
+    case Outcome::Unreachable:
+      return RunOutcome::Unreachable;
+    case Outcome::Blocked:
+      return RunOutcome::Blocked;
+    case Outcome::Move:
+      break;
+  }
+  return RunOutcome::Budget;
+}
 
 [[nodiscard]] constexpr std::string_view to_string(RunOutcome outcome) {
   switch (outcome) {
     case RunOutcome::Explored:
       return "explored";
+    case RunOutcome::Unreachable:
+      return "unreachable";
     case RunOutcome::Blocked:
       return "blocked";
     case RunOutcome::Budget:

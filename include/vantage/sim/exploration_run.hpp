@@ -85,8 +85,6 @@ class ExplorationRun {
   void look_around(Progress& progress, const OnView& on_view);
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);
-  [[nodiscard]] bool still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const;
-  [[nodiscard]] bool still_sought(const std::vector<VoxelIndex>& cells) const;
   [[nodiscard]] bool collides(const Pose& from, const Pose& to, double radius_m) const;
   void move(Progress& progress, const Pose& to);
 

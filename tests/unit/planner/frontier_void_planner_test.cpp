@@ -186,13 +186,13 @@ TEST(FrontierVoidPlanner, FinishesWhatLiesNear) {
 
 TEST(FrontierVoidPlanner, EndsWhereNoViewIsWorthIt) {
   Robot robot;
-  const double of_the_chest_dm3 = static_cast<double>(kChest.size());  // cells of 0.1 m
+  const double of_the_chest_m3 = 1e-3 * static_cast<double>(kChest.size());  // cells of 0.1 m
   FrontierVoidPlanner planner(robot.setup(),
-                              {.strategy = {.least_view_dm3 = 0.05 * of_the_chest_dm3, .beyond_voids = false}});
+                              {.strategy = {.least_view_m3 = 0.05 * of_the_chest_m3, .beyond_voids = false}});
   const Plan last = robot.run(planner);
   EXPECT_EQ(last.outcome, Outcome::Blocked);
   EXPECT_LT(robot.unknown_in_the_chest(), kChest.size() / 5) << last.reason;
-  FrontierVoidPlanner content(robot.setup(), {.strategy = {.least_view_dm3 = 1e6, .beyond_voids = false}});
+  FrontierVoidPlanner content(robot.setup(), {.strategy = {.least_view_m3 = 1e6, .beyond_voids = false}});
   EXPECT_NE(content.plan(robot.map, robot.pose).reason.find("is below"), std::string::npos);
 }
 
@@ -271,8 +271,8 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
             "FrontierVoidStrategy::opaque_beside_surface is 2, must be in (0, 1]");
   EXPECT_EQ(message({.strategy = {.sought_chance = 2.0}}),
             "FrontierVoidStrategy::sought_chance is 2, must be in [0, 1]");
-  EXPECT_EQ(message({.strategy = {.least_view_dm3 = -1.0}}),
-            "FrontierVoidStrategy::least_view_dm3 is -1, must be >= 0");
+  EXPECT_EQ(message({.strategy = {.least_view_m3 = -1.0}}),
+            "FrontierVoidOptions::least_view_m3 is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.finalists = 0}}), "FrontierVoidStrategy::finalists is 0, must be >= 1");
 }
 

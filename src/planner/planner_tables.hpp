@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/planner/frontier_gain_planner.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
+#include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/planner/next_best_view_planner.hpp>
+
+#include "planner/setting_table.hpp"
+
+namespace vantage::detail {
+
+/// One table per options struct: what `make_planner` reads, `planner_settings` lists and the constructors validate.
+[[nodiscard]] const SettingTable<FrontierSurveyOptions>& frontier_survey_settings();
+[[nodiscard]] const SettingTable<FrontierGainOptions>& frontier_gain_settings();
+[[nodiscard]] const SettingTable<FrontierVoidOptions>& frontier_void_settings();
+[[nodiscard]] const SettingTable<HarmonicOptions>& harmonic_settings();
+[[nodiscard]] const SettingTable<NextBestViewOptions>& next_best_view_settings();
+
+}  // namespace vantage::detail

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vantage/planner/situation.hpp>
+
+#include "map/option_rule.hpp"
+#include "planner/stopwatch.hpp"
+
+namespace vantage {
+namespace {
+
+const PlannerSetup& checked(const PlannerSetup& setup, const FrontierSurveyOptions& options) {
+  if (setup.platform == nullptr) {
+    throw std::invalid_argument("PlannerSetup::platform is null, must be a platform");
+  }
+  detail::require_option(setup.threads >= 1, "PlannerSetup::threads", setup.threads, ">= 1");
+  setup.sensor.validate();
+  detail::require_option(options.patience >= 1, "FrontierSurveyOptions::patience", options.patience, ">= 1");
+  detail::require_option(options.sight_directions >= 6, "FrontierSurveyOptions::sight_directions",
+                         options.sight_directions, ">= 6");
+  return setup;
+}
+
+// A way's length in metres and its turn in radians: what shrinks while a robot follows it.
+double way_of(const std::vector<Pose>& path) {
+  double way = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    way += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return path.empty() ? way
+                      : way + std::acos(std::clamp(optical_axis(path.front()).dot(optical_axis(path.back())), -1.0, 1.0));
+}
+
+std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
+
+// Why nothing is left to choose from.
+std::string reason_of(const FrontierSurvey& survey) {
+  if (survey.frontier_cells == 0) {
+    return "no frontier is left";
+  }
+  const Leftover& left = survey.leftover;
+  return "no observable frontier is left; frontier cells given up: " + counted(left.unreachable, "unreachable, ") +
+         counted(left.unobservable, "unobservable, ") + counted(left.in_vain, "looked at in vain") +
+         (survey.exhausted ? "" : " (not every line of sight was tried)");
+}
+
+}  // namespace
+
+Situation::Situation(const PlannerSetup& setup, const FrontierSurveyOptions& options)
+    : setup_(checked(setup, options)),
+      options_(options),
+      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.patience}),
+      surveyor_(setup.platform, setup.sensor, options) {}
+
+void Situation::sync(const OccupancyMap& map, const Pose& current) {
+  detail::Stopwatch watch;
+  current_ = orthonormalised(current);
+  if (followed_.is_in_place(map)) {
+    frontier_->update();
+  } else {
+    followed_ = KnownMap();  // none, if what follows throws
+    frontier_.emplace(map);
+    followed_ = KnownMap(map);
+  }
+  map_ = &map;
+  if (tried_.review(map, current_)) {
+    note_what_was_in_vain();
+  }
+  survey_ = surveyor_.survey(map, current_, tried_, frontier_->cells());
+  if (survey_.targets.empty() && tried_.try_resting_again()) {
+    survey_ = surveyor_.survey(map, current_, tried_, frontier_->cells());
+  }
+  sync_ms_ = watch.lap_ms();
+}
+
+// What is unknown in plain sight of the sensor after a scan, and near enough to be resolved, this scan was to resolve.
+void Situation::note_what_was_in_vain() {
+  const VoxelIndex here = map_->frame().cell_of(current_.translation());
+  const double furthest_m = std::min(sensor().max_range_m, sensor().resolving_range_m(map_->resolution_m()));
+  std::uint64_t operations = 0;
+  for (const VoxelIndex& cell : frontier_->cells()) {
+    if ((map_->frame().centre_of(cell) - current_.translation()).norm() > furthest_m) {
+      continue;
+    }
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex unknown = cell + step;
+      if (map_->in_region(unknown) && map_->at(unknown) == Occupancy::Unknown &&
+          (map_->frame().centre_of(unknown) - current_.translation()).norm() <= furthest_m &&
+          sees(*map_, sensor(), current_, unknown, operations)) {
+        tried_.in_vain(*map_, unknown, here);
+      }
+    }
+  }
+}
+
+Plan Situation::open_plan() const {
+  Plan plan;
+  plan.leftover = survey_.leftover;
+  plan.statistics.frontier_cells = survey_.frontier_cells;
+  plan.statistics.observable_cells = survey_.targets.size();
+  plan.statistics.reachable_cells = survey_.reachable.size();
+  plan.statistics.ray_operations = survey_.ray_operations;
+  plan.statistics.survey_ms = sync_ms_;
+  return plan;
+}
+
+std::optional<Plan> Situation::end() {
+  if (!survey_.targets.empty()) {
+    return std::nullopt;
+  }
+  Plan plan = open_plan();
+  if (map_->bounds().empty()) {
+    plan.reason = "the map is empty: insert a scan, or declare the robot's surroundings free (assume_free)";
+    return plan;
+  }
+  if (survey_.frontier_cells > 0) {
+    if (!survey_.reachable.start()) {
+      plan.reason =
+          "the platform does not admit the place where it is, and there is no free place beside it: move it into known "
+          "free space, or declare the space around it free (assume_free)";
+      return plan;
+    }
+    if (std::optional<Plan> turn = turn_on_the_spot()) {
+      return turn;
+    }
+    if (hardly_moves()) {
+      plan.reason = "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
+                    reason_of(survey_);
+      return plan;
+    }
+    if (const std::size_t places = tried_.places_given_up(); places > 0) {
+      plan.outcome = Outcome::Unreachable;
+      plan.reason = "the robot failed three times to get to each of " + counted(places, "places with more to see; ") +
+                    reason_of(survey_);
+      return plan;
+    }
+    if (const std::optional<VoxelIndex> beyond = place_cut_off()) {
+      const Eigen::Vector3d at = map_->frame().centre_of(*beyond);
+      plan.outcome = Outcome::Unreachable;
+      plan.reason = "there is more to see from free space that is cut off, around (" + std::to_string(at.x()) + ", " +
+                    std::to_string(at.y()) + ", " + std::to_string(at.z()) + "); " + reason_of(survey_);
+      return plan;
+    }
+  }
+  plan.outcome = Outcome::Explored;
+  plan.reason = reason_of(survey_);
+  return plan;
+}
+
+// All places lie within reach of the body, or nearer than the sensor sees.
+bool Situation::hardly_moves() const {
+  const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
+  const double little_m = std::max(body_m, sensor().min_range_m) + map_->resolution_m();
+  return std::all_of(reachable().cells().begin(), reachable().cells().end(), [&](const VoxelIndex& cell) {
+    return (reachable().position_in(cell) - current_.translation()).norm() <= little_m;
+  });
+}
+
+// A sensor of a narrow view sees no way past what lies beside the body: it looks into every direction first. Views
+// overlap by a fifth.
+std::optional<Plan> Situation::turn_on_the_spot() const {
+  constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
+  if (sensor().horizontal_angle_rad() >= kFullTurnRad - 1e-3 || !hardly_moves()) {
+    return std::nullopt;
+  }
+  const double step_rad = 0.8 * sensor().horizontal_angle_rad();
+  const auto turns = static_cast<int>(std::ceil(kFullTurnRad / step_rad));
+  const Eigen::Vector3d here = current_.translation();
+  for (int turn = 1; turn < turns; ++turn) {
+    const Eigen::AngleAxisd by(kFullTurnRad * turn / turns, Eigen::Vector3d::UnitZ());
+    const Pose view = setup_.platform->facing(here, by * optical_axis(current_));
+    const auto looks_there = [&](const Pose& scanned) {
+      return (scanned.translation() - here).norm() <= map_->resolution_m() &&
+             optical_axis(scanned).dot(optical_axis(view)) > std::cos(0.5 * step_rad);
+    };
+    if (std::none_of(tried_.scanned_from().begin(), tried_.scanned_from().end(), looks_there) &&
+        setup_.platform->admits(*map_, view)) {
+      Plan plan = open_plan();
+      plan.outcome = Outcome::Move;
+      plan.goal.pose = view;
+      plan.path = {current_, view};
+      plan.reason = "a turn on the spot: nothing is in sight that could be looked at or driven to";
+      return plan;
+    }
+  }
+  return std::nullopt;
+}
+
+// A place in known free space in which the body fits, not joined to where it stands, from which something would be
+// observable.
+std::optional<VoxelIndex> Situation::place_cut_off() const {
+  const VoxelGrid<std::uint8_t> admitted = setup_.platform->admitted_cells(*map_, map_->bounds());
+  std::vector<VoxelIndex> beyond;
+  for (std::size_t offset = 0; offset < admitted.size(); ++offset) {
+    if (const VoxelIndex cell = admitted.cell_at(offset); admitted.values()[offset] != 0 && !reachable().contains(cell)) {
+      beyond.push_back(cell);
+    }
+  }
+  if (beyond.empty()) {
+    return std::nullopt;
+  }
+  FrontierSurveyor surveyor(setup_.platform, setup_.sensor, options_);
+  const FrontierSurvey survey =
+      surveyor.survey(*map_, ReachableSpace(map_->frame(), std::move(beyond)), tried_, frontier_->cells());
+  return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
+}
+
+void Situation::drop(const VoxelIndex& viewpoint) {
+  std::erase_if(survey_.targets, [&](const FrontierTarget& target) { return target.viewpoint == viewpoint; });
+}
+
+void Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {
+  tried_.expect(*map_, plan.goal.pose, way_of(plan.path), plan.sought, std::move(hoped));
+}
+
+const RayCaster& Situation::caster() const {
+  looking_.follow(*map_, setup_.sensor);
+  return looking_.caster();
+}
+
+const ViewRays& Situation::rays() const {
+  looking_.follow(*map_, setup_.sensor);
+  return looking_.rays();
+}
+
+}  // namespace vantage

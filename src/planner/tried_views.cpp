@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/planner/tried_views.hpp>
+
+#include "map/option_rule.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kMostCells = std::size_t{1} << 18;
+constexpr std::size_t kMostPlaces = 256;
+constexpr std::size_t kMostScans = 64;
+constexpr int kMostFailures = 3;
+constexpr std::uint64_t kFirstRest = 8;  // plans
+constexpr double kNearerM = 0.01;        // less is jitter
+
+int known_neighbours(const OccupancyMap& map, const VoxelIndex& cell) {
+  return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+    return map.at(cell + step) != Occupancy::Unknown;
+  }));
+}
+
+double squared_distance(const VoxelIndex& a, const VoxelIndex& b) {
+  const VoxelIndex d = a - b;
+  return static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y + static_cast<double>(d.z) * d.z;
+}
+
+// As seen from `unknown`: further apart than half of the shorter distance to it.
+bool differ(const VoxelIndex& unknown, const VoxelIndex& a, const VoxelIndex& b) {
+  const double nearer = std::min(squared_distance(unknown, a), squared_distance(unknown, b));
+  return squared_distance(a, b) > 0.25 * nearer;
+}
+
+void add_if_it_differs(const VoxelIndex& unknown, const VoxelIndex& place, std::vector<VoxelIndex>& places) {
+  if (std::all_of(places.begin(), places.end(),
+                  [&](const VoxelIndex& other) { return differ(unknown, place, other); })) {
+    places.push_back(place);
+  }
+}
+
+bool touch(const VoxelIndex& a, const VoxelIndex& b) {
+  return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
+}
+
+double angle_rad(const Pose& a, const Pose& b) {
+  return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
+}
+
+}  // namespace
+
+TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
+    : sensor_(sensor), options_(options) {
+  detail::require_option(std::isfinite(options.goal_tolerance_m) && options.goal_tolerance_m >= 0.0,
+                         "PlannerSetup::goal_tolerance_m", options.goal_tolerance_m, ">= 0");
+  detail::require_option(std::isfinite(options.goal_tolerance_rad) && options.goal_tolerance_rad >= 0.0,
+                         "PlannerSetup::goal_tolerance_rad", options.goal_tolerance_rad, ">= 0");
+  detail::require_option(options.patience >= 1, "patience", options.patience, ">= 1");
+}
+
+void TriedViews::expect(const OccupancyMap& map, const Pose& goal, double way, std::vector<VoxelIndex> sought,
+                        std::vector<VoxelIndex> hoped) {
+  expected_ = Expectation{goal, map.revision(), std::move(sought), std::move(hoped)};
+  Place& place = place_of(map.frame().cell_of(goal.translation()));
+  if (place.revision == map.revision()) {
+    return;  // planned twice in the same map
+  }
+  const bool first = place.revision == 0;
+  place.revision = map.revision();
+  if (first || way < place.nearest_way - kNearerM) {
+    place.nearest_way = way;
+    place.no_nearer = 0;
+  } else {
+    ++place.no_nearer;
+  }
+}
+
+TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
+  const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& one) { return one.cell == cell; });
+  if (found != places_.end()) {
+    return *found;
+  }
+  if (places_.size() == kMostPlaces) {
+    places_.pop_front();
+  }
+  return places_.emplace_back(Place{.cell = cell});
+}
+
+bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
+  const bool same_map = map_.is(map);
+  if (same_map && reviewed_ == map.revision()) {
+    return false;
+  }
+  if (!same_map) {
+    *this = TriedViews(sensor_, options_);
+    cell_m_ = map.resolution_m();
+  }
+  map_ = KnownMap(map);
+  reviewed_ = map.revision();
+  ++plans_;
+  forget(map);
+  if (expected_) {
+    evaluate(map, current);
+  }
+  reported_.reset();
+  rest_now();
+  if (scanned_from_.size() == kMostScans) {
+    scanned_from_.pop_front();
+  }
+  scanned_from_.push_back(current);
+  return same_map;
+}
+
+// By neighbours that are known, not by those that change their state: surfaces flip between free and occupied for
+// ever, while what is known only grows (unless the host makes the map forget).
+void TriedViews::forget(const OccupancyMap& map) {
+  const bool crowded = looks_.size() > kMostCells;
+  std::vector<std::uint64_t> ages;
+  if (crowded) {
+    for (const auto& entry : looks_) {
+      ages.push_back(entry.second.latest);
+    }
+    std::nth_element(ages.begin(), ages.begin() + static_cast<std::ptrdiff_t>(ages.size() / 2), ages.end());
+  }
+  const std::uint64_t oldest = crowded ? ages[ages.size() / 2] : 0;
+  std::erase_if(looks_, [&](const auto& entry) {
+    const auto& [cell, looks] = entry;
+    return looks.latest < oldest || map.at(cell) != Occupancy::Unknown ||
+           known_neighbours(map, cell) > looks.known_neighbours;
+  });
+  may_hold_.clear();
+  for (const auto& entry : looks_) {
+    may_hold_.insert(entry.first);
+  }
+}
+
+bool TriedViews::arrived(const Pose& current) const {
+  const double off_m = (expected_->goal.translation() - current.translation()).norm();
+  return off_m <= std::max(options_.goal_tolerance_m, cell_m_) &&
+         angle_rad(expected_->goal, current) <= options_.goal_tolerance_rad;
+}
+
+// What became of the view that was asked for.
+void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
+  const VoxelIndex goal = map.frame().cell_of(expected_->goal.translation());
+  if (reported_ == GoalResult::Preempted) {
+    std::erase_if(places_, [&](const Place& place) { return place.cell == goal && place.failures == 0; });
+  } else if (reported_ == GoalResult::Failed) {
+    fail(goal);
+  } else if (reported_ == GoalResult::Reached || arrived(current)) {
+    std::erase_if(places_, [&](const Place& place) { return place.cell == goal; });
+    const VoxelIndex here = map.frame().cell_of(current.translation());
+    const auto look = [&](const VoxelIndex& cell) {
+      if (map.at(cell) != Occupancy::Unknown) {
+        return;
+      }
+      Looks& looks = new_look_at(map, cell);
+      was_in_view(map, current, cell) ? add_if_it_differs(cell, here, looks.in_vain)
+                                      : add_if_it_differs(cell, goal, looks.missed);
+    };
+    std::for_each(expected_->sought.begin(), expected_->sought.end(), look);
+    const std::vector<VoxelIndex>& hoped = expected_->hoped;
+    if (std::all_of(hoped.begin(), hoped.end(),
+                    [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
+      std::for_each(hoped.begin(), hoped.end(), look);
+    }
+  } else {
+    if (place_of(goal).no_nearer >= 2) {
+      fail(goal);
+    }
+    return;  // under way
+  }
+  expected_.reset();
+}
+
+// The cells beside an unknown one are left out: the scan may have closed the surface before it.
+bool TriedViews::was_in_view(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) const {
+  const Eigen::Vector3d line = map.frame().centre_of(unknown) - pose.translation();
+  const double range_m = line.norm();
+  return range_m >= sensor_.min_range_m && range_m <= sensor_.max_range_m &&
+         sensor_.in_view(pose.linear().transpose() * line) &&
+         VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
+             .all_from_the_end([&](const VoxelIndex& cell) { return touch(cell, unknown) || map.is_clear(cell); });
+}
+
+void TriedViews::fail(const VoxelIndex& goal) {
+  Place& place = place_of(goal);
+  place.no_nearer = 0;
+  ++place.failures;
+  place.rests_until = plans_ + (kFirstRest << std::min(place.failures - 1, 8));
+}
+
+void TriedViews::rest_now() {
+  resting_.clear();
+  for (const Place& place : places_) {
+    if (place.rests_until > plans_) {
+      resting_.push_back(place.cell);
+    }
+  }
+}
+
+bool TriedViews::try_resting_again() {
+  bool any = false;
+  for (Place& place : places_) {
+    if (place.rests_until > plans_ && place.failures < kMostFailures) {
+      place.rests_until = 0;
+      any = true;
+    }
+  }
+  rest_now();
+  return any;
+}
+
+std::size_t TriedViews::places_given_up() const {
+  return static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), [&](const Place& place) {
+    return place.rests_until > plans_ && place.failures >= kMostFailures;
+  }));
+}
+
+TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& map, const VoxelIndex& unknown) {
+  Looks& looks = looks_[unknown];
+  may_hold_.insert(unknown);
+  looks.known_neighbours = known_neighbours(map, unknown);
+  looks.latest = plans_;
+  return looks;
+}
+
+void TriedViews::in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place) {
+  add_if_it_differs(unknown, place, new_look_at(map, unknown).in_vain);
+}
+
+const TriedViews::Looks* TriedViews::looks_at(const VoxelIndex& unknown) const {
+  if (!may_hold_.contains(unknown)) {
+    return nullptr;
+  }
+  const auto found = looks_.find(unknown);
+  return found == looks_.end() ? nullptr : &found->second;
+}
+
+bool TriedViews::tried_from(const VoxelIndex& unknown, const VoxelIndex& place) const {
+  const Looks* looks = looks_at(unknown);
+  const auto alike = [&](const VoxelIndex& other) { return !differ(unknown, place, other); };
+  return looks != nullptr && (std::any_of(looks->in_vain.begin(), looks->in_vain.end(), alike) ||
+                              std::find(looks->missed.begin(), looks->missed.end(), place) != looks->missed.end());
+}
+
+bool TriedViews::gave_up(const VoxelIndex& unknown) const {
+  const Looks* looks = looks_at(unknown);
+  const auto patience = static_cast<std::size_t>(options_.patience);
+  return looks != nullptr &&
+         (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
+}
+
+bool TriedViews::rests(const VoxelIndex& place) const {
+  const double reach = std::max(options_.goal_tolerance_m / cell_m_, 1.0);
+  return std::any_of(resting_.begin(), resting_.end(),
+                     [&](const VoxelIndex& other) { return squared_distance(place, other) <= reach * reach; });
+}
+
+}  // namespace vantage
