@@ -63,6 +63,16 @@ class ScanMarks {
   void mark_passed(const VoxelIndex& cell) { mark(cell, passed_.get(), &BrickMarks::passed); }
   /// Takes the mark back.
   void unmark_passed(const VoxelIndex& cell);
+  /// Whether rays end in the cell.
+  [[nodiscard]] bool is_hit(const VoxelIndex& cell) const {
+    if (in_window(cell)) {
+      const std::uint64_t position = position_of(cell);
+      return (hit_[position >> 6U] >> (position & 63U) & 1U) != 0;
+    }
+    const BrickDirectory::Number number = far_numbers_.find(Brick::of_cell(cell));
+    const std::uint64_t offset = Brick::offset_of(cell);
+    return number != BrickDirectory::kNone && (far_[number].marks.hit[offset >> 6U] >> (offset & 63U) & 1U) != 0;
+  }
   /// Whether the mark is new.
   bool mark_hit(const VoxelIndex& cell) { return mark(cell, hit_.get(), &BrickMarks::hit); }
 
