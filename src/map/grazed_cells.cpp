@@ -1,10 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <map/grazed_cells.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
 #include <vector>
 
 namespace vantage {
 namespace {
+
+// Where drawn rays end: `visit(end, whether by a return)`.
+template <class Visit>
+void for_each_end(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, const ScanMarks& marks,
+                  Visit&& visit) {
+  const bool to_centres = policy == RayPolicy::EachEndCell;
+  if (to_centres) {
+    marks.for_each_marked_brick([&](const VoxelIndex& address, const std::uint64_t*, const std::uint64_t* hit) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        for_each_offset(hit[word], word, [&](std::size_t offset) {
+          visit(frame.centre_of(Brick::first_cell(address) + Brick::cell_at(offset)), true);
+        });
+      }
+    });
+  }
+  RayBlock block;
+  for (std::size_t number = 0; number < rays.blocks(); ++number) {
+    rays.block(number, 1, block);
+    for (std::size_t i = 0; i < RayBlock::kRays && !(to_centres && block.all_hit()); ++i) {
+      if (block.usable(i) && !(to_centres && block.hits(i))) {
+        visit(Eigen::Vector3d(block.end[0][i], block.end[1][i], block.end[2][i]), block.hits(i));
+      }
+    }
+  }
+}
+
+bool touches_a_surface(const OccupancyMap& map, const VoxelIndex& cell) {
+  for (std::int32_t z = -1; z <= 1; ++z) {
+    for (std::int32_t y = -1; y <= 1; ++y) {
+      for (std::int32_t x = -1; x <= 1; ++x) {
+        if (map.at(cell + VoxelIndex{x, y, z}) == Occupancy::Occupied) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
 
 bool touches_a_hit(const ScanMarks& marks, const VoxelIndex& cell) {
   for (std::int32_t z = -1; z <= 1; ++z) {
@@ -21,7 +60,19 @@ bool touches_a_hit(const ScanMarks& marks, const VoxelIndex& cell) {
 
 }  // namespace
 
-void unmark_grazed_cells(const OccupancyMap& map, ScanMarks& marks) {
+void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks) {
+  static const bool run = std::getenv("RUN") != nullptr, touch = std::getenv("TOUCH") != nullptr;
+  if (run) for_each_end(rays, map.frame(), policy, marks, [&](const Eigen::Vector3d& end, bool is_return) {
+    const VoxelIndex last = map.frame().cell_of(end);
+    (void)VoxelRay(map.frame(), rays.origin(), end).all_from_the_end([&](const VoxelIndex& cell) {
+      const bool in_surface = map.at(cell) == Occupancy::Occupied;
+      if (in_surface) {
+        marks.unmark_passed(cell);
+      }
+      return in_surface || (is_return && cell == last) || touches_a_surface(map, cell);
+    });
+  });
+  if (!touch) return;
   std::vector<VoxelIndex> grazed;
   marks.for_each_marked_brick([&](const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
     const Brick* brick = map.find_brick(address);
