@@ -23,6 +23,21 @@
 namespace vantage::apps {
 namespace {
 
+void check_plan(const ExploreRequest& request) {
+  if (is_plan(request) && !request.band.empty()) {
+    throw std::invalid_argument("--band: --world " + request.world + " is a plane already");
+  }
+}
+
+// In a plane there is one height for the sensor.
+std::optional<Pose> start_in_world(const ExploreRequest& request) {
+  std::optional<Pose> start = start_of(request);
+  if (start && is_plan(request)) {
+    start->translation().z() = 0.5 * request.resolution_m;
+  }
+  return start;
+}
+
 void check_region(const ExploreRequest& request, const World& world, const Box& region,
                   const std::optional<Pose>& start) {
   const Box bounds = world.mesh.bounds();
@@ -40,7 +55,7 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
 }
 
 Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
-  const std::optional<Pose> given = start_of(request);
+  const std::optional<Pose> given = start_in_world(request);
   const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
   if (!start) {
     throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region");
@@ -49,7 +64,7 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
 }
 
 std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
-  if (!request.band.empty()) {
+  if (!request.band.empty() || is_plan(request)) {
     return std::make_shared<const GroundRobot>(GroundRobotOptions{.radius_m = request.robot_radius_m});
   }
   return std::make_shared<const FreeFlyer>(
@@ -81,15 +96,20 @@ PathBound bound_of(const ExplorationRun& run, const Platform& platform, const Ra
 int explore(const ExploreRequest& request) {
   check_numbers(request);
   check_targets(request.out, request.json);
-  const std::optional<Pose> start = start_of(request);
-  const RangeSensor sensor = sensor_of(request);
+  check_plan(request);
+  const std::optional<Pose> start = start_in_world(request);
+  const RangeSensor sensor = is_plan(request) ? in_plane(sensor_of(request)) : sensor_of(request);
   const std::shared_ptr<const Platform> platform = platform_of(request);
   const auto planner = make_planner(
       request.planner, {.sensor = sensor, .platform = platform, .seed = request.seed, .threads = request.threads},
       settings_of(request));
   const std::optional<Box> asked_region = region_of(request);
   const World world = world_of(request);
-  const Box region = asked_region.value_or(world.region);
+  Box region = asked_region.value_or(world.region);
+  if (world.plan) {
+    region.min.z() = 0.0;
+    region.max.z() = request.resolution_m;
+  }
   check_region(request, world, region, start);
 
   ExplorationRun run(world, sensor, platform, run_options_of(request, region));
@@ -131,8 +151,10 @@ int explore(const ExploreRequest& request) {
 
 void add_world_options(CLI::App& command, ExploreRequest& request) {
   command
-      .add_option("--world", request.world,
-                  "By name (vantage list), a mesh, or an OctoMap taken as the truth; must be given")
+      .add_option(
+          "--world", request.world,
+          "By name (vantage list), a mesh, an OctoMap taken as the truth, or a nav2 map (.yaml), a plane for a robot "
+          "that drives; must be given")
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");

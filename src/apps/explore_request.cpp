@@ -107,6 +107,10 @@ World world_of(const ExploreRequest& request) {
                                           .scale = request.scale});
 }
 
+bool is_plan(const ExploreRequest& request) {
+  return !is_known(World::names(), request.world) && World::is_plan_file(request.world);
+}
+
 RangeSensor sensor_of(const ExploreRequest& request) {
   const std::string& sensor = request.sensor;
   const bool is_file = sensor.size() > 5 && sensor.compare(sensor.size() - 5, 5, ".json") == 0;

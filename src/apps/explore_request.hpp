@@ -48,6 +48,8 @@ struct ExploreRequest {
 
 // What the words mean; each throws std::invalid_argument or std::runtime_error naming the flag or file at fault.
 [[nodiscard]] World world_of(const ExploreRequest& request);
+/// Whether `--world` is a plane for a robot that drives.
+[[nodiscard]] bool is_plan(const ExploreRequest& request);
 [[nodiscard]] RangeSensor sensor_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
 /// `--band`, of a robot that drives; none: it flies.

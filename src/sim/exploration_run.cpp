@@ -39,6 +39,13 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   if (!options.map.region) {
     options.map.region = world.region;
   }
+  if (world.plan) {
+    if (options.band) {
+      throw std::invalid_argument("ExplorationRunOptions::band: a world that is a plane has no heights");
+    }
+    options.map.region->min.z() = 0.0;
+    options.map.region->max.z() = options.map.resolution_m;
+  }
   return options;
 }
 

@@ -22,7 +22,9 @@ namespace vantage {
 
 /// How a simulated exploration goes.
 struct ExplorationRunOptions {
-  OccupancyMapOptions map = {};  ///< without a region: the world's own
+  /// Without a region: the world's own. Where the world is a plane, z of a region counts for nothing: the map is the
+  /// layer of cells above z = 0.
+  OccupancyMapOptions map = {};
   /// The robot drives, and explores the plane of these heights: the planner gets the map's HeightBand instead of the
   /// map, and collisions and coverage are those of the plane. None: it flies, and explores space.
   std::optional<HeightBandOptions> band = std::nullopt;

@@ -27,8 +27,9 @@ enum class CellTruth : std::uint8_t {
 /// A world as cells, at one resolution and in one region: what a map of it ought to say.
 class Truth {
  public:
-  /// Rasterises the world exactly (separating axes of each triangle and cell). Throws std::invalid_argument for a
-  /// resolution that is not positive or a region that is empty.
+  /// Rasterises the world exactly (separating axes of each triangle and cell; of each solid pixel and cell where the
+  /// world is a plane). Throws std::invalid_argument for a resolution that is not positive or a region that is empty,
+  /// and if the world is a plane and the region not one layer of cells.
   Truth(const World& world, double resolution_m, const Box& region);
 
   /// The same for a robot that explores the plane of a band of heights (HeightBand): a column is occupied if a cell
