@@ -298,7 +298,8 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
                     .surface = SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
                     .record = {}};
   if (options_.measure_coverage) {
-    progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
+    progress.observable =
+        truth_.observable(*platform_, sensor_, start, options_.threads, options_.on_observable_share);
   }
   progress.body_radius_m = options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
   RunRecord& record = progress.record;

@@ -145,11 +145,11 @@ std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& sta
 }
 
 std::vector<VoxelIndex> Truth::observable(const Platform& platform, const RangeSensor& sensor, const Pose& start,
-                                          int threads) const {
+                                          int threads, const std::function<void(double)>& on_share) const {
   sensor.validate();
   const std::vector<VoxelIndex> poses = lattice(platform, start);
   const Sight sight(cells_, map_.frame(), sensor, platform.can_tilt());
-  return seen_cells(sight, region_, poses, threads);
+  return seen_cells(sight, region_, poses, threads, on_share);
 }
 
 double Truth::coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const {

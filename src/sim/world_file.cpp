@@ -8,28 +8,22 @@
 
 namespace vantage {
 
-namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
+World::FileKind World::kind_of_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-}  // namespace
-
-bool World::is_plan_file(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".yaml" || extension == ".yml";
+  if (extension == ".yaml" || extension == ".yml") {
+    return FileKind::Plan;
+  }
+  return extension == ".bt" || extension == ".ot" ? FileKind::OctoMap : FileKind::Mesh;
 }
 
 World World::from_file(const std::filesystem::path& path, const MeshFileOptions& options) {
-  if (is_plan_file(path)) {
+  const FileKind kind = kind_of_file(path);
+  if (kind == FileKind::Plan) {
     return from_plan(path.filename().string(), read_nav2_map(path));
   }
-  const std::string extension = lower_extension(path);
-  if (extension != ".bt" && extension != ".ot") {
+  if (kind == FileKind::Mesh) {
     return from_mesh_file(path, options);
   }
   const OccupancyMap map = load_octomap(path).map;

@@ -43,6 +43,8 @@ struct ExplorationRunOptions {
   int threads = 1;  ///< for the observable cells, > 0
   /// Whether coverage is measured, which takes finding all observable cells of the world first.
   bool measure_coverage = true;
+  /// Told of that search as Truth::observable tells of it; none: nobody is.
+  std::function<void(double share)> on_observable_share = {};
   /// Cells of the world that do not touch this box are known from the start, as a room may be in which an object is
   /// to be looked at; none: nothing is.
   std::optional<Box> unknown_box = std::nullopt;

@@ -66,8 +66,9 @@ struct World {
   /// By what the file is: .yaml and .yml are nav2 maps (read_nav2_map), .bt and .ot OctoMaps (`options` has no say in
   /// either), everything else a mesh. Throws std::runtime_error naming the path.
   [[nodiscard]] static World from_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
-  /// Whether `from_file` takes a file of this name for a plane.
-  [[nodiscard]] static bool is_plan_file(const std::filesystem::path& path);
+  /// What `from_file` takes a file of this name for.
+  enum class FileKind : std::uint8_t { Mesh, OctoMap, Plan };
+  [[nodiscard]] static FileKind kind_of_file(const std::filesystem::path& path);
 };
 
 }  // namespace vantage
