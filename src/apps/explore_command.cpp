@@ -8,12 +8,15 @@
 #include <vantage/report/report_json.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
+#include <vantage/sim/audit.hpp>
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/sim/watchman_route.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/mesh_doubts.hpp"
+#include "apps/observable_progress.hpp"
 #include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
@@ -22,6 +25,21 @@
 
 namespace vantage::apps {
 namespace {
+
+void check_plan(const ExploreRequest& request) {
+  if (is_world_file(request, World::FileKind::Plan) && !request.band.empty()) {
+    throw std::invalid_argument("--band: --world " + request.world + " is a plane already");
+  }
+}
+
+// In a plane there is one height for the sensor.
+std::optional<Pose> start_in_world(const ExploreRequest& request) {
+  std::optional<Pose> start = start_of(request);
+  if (start && is_world_file(request, World::FileKind::Plan)) {
+    start->translation().z() = 0.5 * request.resolution_m;
+  }
+  return start;
+}
 
 void check_region(const ExploreRequest& request, const World& world, const Box& region,
                   const std::optional<Pose>& start) {
@@ -40,7 +58,7 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
 }
 
 Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
-  const std::optional<Pose> given = start_of(request);
+  const std::optional<Pose> given = start_in_world(request);
   const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
   if (!start) {
     throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region");
@@ -49,7 +67,7 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
 }
 
 std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
-  if (!request.band.empty()) {
+  if (!request.band.empty() || is_world_file(request, World::FileKind::Plan)) {
     return std::make_shared<const GroundRobot>(GroundRobotOptions{.radius_m = request.robot_radius_m});
   }
   return std::make_shared<const FreeFlyer>(
@@ -69,6 +87,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& r
   options.noise = noise_of(request);
   options.body_radius_m = request.robot_radius_m;
   options.threads = request.threads;
+  options.measure_coverage = !request.no_coverage;
   return options;
 }
 
@@ -78,21 +97,55 @@ PathBound bound_of(const ExplorationRun& run, const Platform& platform, const Ra
   return {route.length_m, route.sees_all};
 }
 
+AuditRecord audit_of(const ExplorationRun& run, const Platform& platform, const RangeSensor& sensor,
+                     const RunRecord& record, int threads) {
+  std::vector<Pose> looked_from;
+  for (const ViewRecord& view : record.views) {
+    looked_from.push_back(view.pose);
+  }
+  const AuditResult found = audit(run.known(), platform, sensor, looked_from.back(), looked_from, threads);
+  return {.cells_checked = found.cells_checked,
+          .looked_at_in_vain = found.looked_at_in_vain,
+          .observable_left = found.observable_left};
+}
+
+void tell_doubts(const ExploreRequest& request, const Box& bounds) {
+  if (!is_world_file(request, World::FileKind::Mesh)) {
+    return;
+  }
+  if (request.scale == 1.0) {
+    std::cerr << doubt_about_world_unit(request.world, bounds);
+  }
+  if (request.up.empty()) {
+    std::cerr << doubt_about_axis(request.world, bounds);
+  }
+}
+
 int explore(const ExploreRequest& request) {
   check_numbers(request);
   check_targets(request.out, request.json);
-  const std::optional<Pose> start = start_of(request);
-  const RangeSensor sensor = sensor_of(request);
+  check_plan(request);
+  const std::optional<Pose> start = start_in_world(request);
+  const RangeSensor sensor =
+      is_world_file(request, World::FileKind::Plan) ? in_plane(sensor_of(request)) : sensor_of(request);
   const std::shared_ptr<const Platform> platform = platform_of(request);
   const auto planner = make_planner(
       request.planner, {.sensor = sensor, .platform = platform, .seed = request.seed, .threads = request.threads},
       settings_of(request));
   const std::optional<Box> asked_region = region_of(request);
   const World world = world_of(request);
-  const Box region = asked_region.value_or(world.region);
+  tell_doubts(request, world.mesh.bounds());
+  Box region = asked_region.value_or(world.region);
+  if (world.plan) {
+    region.min.z() = 0.0;
+    region.max.z() = request.resolution_m;
+  }
   check_region(request, world, region, start);
 
-  ExplorationRun run(world, sensor, platform, run_options_of(request, region));
+  ExplorationRunOptions options = run_options_of(request, region);
+  ObservableProgress observable(request.quiet);
+  options.on_observable_share = [&](double share) { observable.tell(share); };
+  ExplorationRun run(world, sensor, platform, options);
 
   ProgressStream told(request);
   std::ostream& progress = told.stream();
@@ -117,8 +170,16 @@ int explore(const ExploreRequest& request) {
   record.threads = request.threads;
   record.resolution_m = request.resolution_m;
   printer.summary(record);
+  if (record.coverage) {
+    printer.observable(observable.seconds());
+  }
+  if (request.audit) {
+    printer.working("audit", "checking what could still be observed ...");
+    record.audit = audit_of(run, *platform, sensor, record, request.threads);
+    printer.audit(record);
+  }
   if (request.bound) {
-    printer.seek_bound();
+    printer.working("bound", "seeking the shortest way that sees all ...");
     record.path_bound = bound_of(run, *platform, sensor, record.views.front().pose, request.threads);
     printer.bound(record);
   }
@@ -131,14 +192,15 @@ int explore(const ExploreRequest& request) {
 
 void add_world_options(CLI::App& command, ExploreRequest& request) {
   command
-      .add_option("--world", request.world,
-                  "By name (vantage list), a mesh, or an OctoMap taken as the truth; must be given")
+      .add_option(
+          "--world", request.world,
+          "By name (vantage list), a mesh, an OctoMap taken as the truth, or a nav2 map (.yaml), a plane for a robot "
+          "that drives; must be given")
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
-  command.add_option("--up", request.up, "Axis of a mesh file that points up")
+  command.add_option("--up", request.up, "Axis of a mesh file that points up; unless given as the file says, else z")
       ->type_name("y|z")
-      ->capture_default_str()
       ->group("World");
   command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
       ->type_name("S")
@@ -190,6 +252,14 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   command
       ->add_flag("--bound", request->bound,
                  "At the end, tell how short a way sees all, for one who knows the world; slow")
+      ->group("Run");
+  command
+      ->add_flag("--no-coverage", request->no_coverage,
+                 "Do not look, before the first view, for all that can be observed: coverage is not told")
+      ->group("Run");
+  command
+      ->add_flag("--audit", request->audit,
+                 "At the end, check by brute force that nothing is left that could be observed; slow")
       ->group("Run");
   add_setting_option(*command, *request, "A setting of the planner, as often as needed; a wrong key lists them");
   add_run_options(*command, *request);

@@ -54,7 +54,7 @@ void check_numbers(const ExploreRequest& request) {
   (void)noise_of(request);
   detail::require_option(request.max_views > 0, "--max-views", request.max_views, "> 0");
   detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
-  if (request.up != "y" && request.up != "z") {
+  if (!request.up.empty() && request.up != "y" && request.up != "z") {
     throw std::invalid_argument("--up is '" + request.up + "', must be y or z");
   }
 }
@@ -84,6 +84,14 @@ void check_cell_count(const Box& region, double resolution_m) {
   }
 }
 
+MeshFileOptions mesh_options_of(const ExploreRequest& request) {
+  MeshFileOptions options{.scale = request.scale};
+  if (!request.up.empty()) {
+    options.up = request.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z;
+  }
+  return options;
+}
+
 World world_of(const ExploreRequest& request) {
   if (is_known(World::names(), request.world)) {
     WorldOptions options{.seed = request.seed};
@@ -103,8 +111,11 @@ World world_of(const ExploreRequest& request) {
   if (!request.size.empty()) {
     throw std::invalid_argument("--size: the world of a file has a size of its own");
   }
-  return World::from_file(request.world, {.up = request.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z,
-                                          .scale = request.scale});
+  return World::from_file(request.world, mesh_options_of(request));
+}
+
+bool is_world_file(const ExploreRequest& request, World::FileKind kind) {
+  return !is_known(World::names(), request.world) && World::kind_of_file(request.world) == kind;
 }
 
 RangeSensor sensor_of(const ExploreRequest& request) {

@@ -20,7 +20,7 @@ namespace vantage::apps {
 /// `vantage explore` as it was typed.
 struct ExploreRequest {
   std::string world;
-  std::string up = "z";
+  std::string up;  // "y", "z"; as the file has it
   double scale = 1.0;
   std::string size;
   std::string planner = "harmonic";
@@ -35,6 +35,8 @@ struct ExploreRequest {
   bool look_around = false;
   bool wear = false;
   bool bound = false;
+  bool audit = false;
+  bool no_coverage = false;
   double noise = 0.0;
   std::string pose_noise;  // "metres,degrees"
   std::size_t max_views = 500;
@@ -48,6 +50,10 @@ struct ExploreRequest {
 
 // What the words mean; each throws std::invalid_argument or std::runtime_error naming the flag or file at fault.
 [[nodiscard]] World world_of(const ExploreRequest& request);
+/// How `--up` and `--scale` have a mesh file taken.
+[[nodiscard]] MeshFileOptions mesh_options_of(const ExploreRequest& request);
+/// Whether `--world` is a file of this kind, not a name.
+[[nodiscard]] bool is_world_file(const ExploreRequest& request, World::FileKind kind);
 [[nodiscard]] RangeSensor sensor_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
 /// `--band`, of a robot that drives; none: it flies.

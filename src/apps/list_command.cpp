@@ -57,7 +57,7 @@ void print_names(const char* title, const std::vector<std::string_view>& names) 
 }
 
 void list() {
-  print_names("worlds (or a mesh file, or a .bt/.ot map)", World::names());
+  print_names("worlds (or a mesh file, a .bt/.ot map, or a nav2 .yaml)", World::names());
   print_names("planners", planner_names());
   std::cout << "sensors (or a .json file)\n";
   for (const std::string_view name : RangeSensor::preset_names()) {

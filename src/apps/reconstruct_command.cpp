@@ -17,6 +17,7 @@
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/mesh_doubts.hpp"
 #include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
@@ -54,8 +55,7 @@ constexpr double kTableTopM = 0.427277;
 
 // The object where it stands: as told, or in the middle of the table, or where its file has it.
 TriangleMesh placed_object(const ReconstructRequest& request) {
-  const TriangleMesh mesh =
-      read_mesh_file(request.object, {.up = request.run.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z});
+  const TriangleMesh mesh = read_mesh_file(request.object, mesh_options_of(request.run));
   double scale = 1.0;
   Pose pose = Pose::Identity();
   if (!request.place.empty()) {
@@ -201,6 +201,9 @@ int reconstruct(const ReconstructRequest& request) {
   detail::require_option(request.gap_m >= 0.0, "--gap", request.gap_m, ">= 0 metres");
   const RangeSensor sensor = sensor_of(shared);
   const TriangleMesh object = placed_object(request);
+  if (shared.scale == 1.0) {
+    std::cerr << doubt_about_object_unit(request.object, object.bounds());
+  }
   const Box box = object_box_of(request, object);
   const double furthest_m = *std::max_element(radii_m.begin(), radii_m.end());
   const World world = world_around(request, object, box, furthest_m);
@@ -253,7 +256,8 @@ void add_object_options(CLI::App& command, ReconstructRequest& request) {
     return command.add_option(name, value, about)->type_name(type)->group("Object");
   };
   option("--object", request.object, "FILE", "The object, a mesh; must be given")->required();
-  option("--up", request.run.up, "y|z", "Axis of the file that points up")->capture_default_str();
+  option("--up", request.run.up, "y|z", "Axis of the file that points up; unless given as the file says, else z");
+  option("--scale", request.run.scale, "S", "Metres per unit of the file")->check(a_number())->capture_default_str();
   option("--place", request.place, "scale,x,y,z,qx,qy,qz,qw",
          "Where it stands; in the middle of the table, or where the file has it, unless given");
   command

@@ -137,9 +137,22 @@ void RunPrinter::summary(const RunRecord& record) {
        << std::flush;
 }
 
-void RunPrinter::seek_bound() {
+void RunPrinter::observable(double seconds) {
+  out_ << format("  %-12s found in %.1f s, before the first view\n", "observable", seconds) << std::flush;
+}
+
+void RunPrinter::working(const char* what, const char* doing) {
   if (terminal_) {
-    out_ << format("  %-12s %s", "bound", "seeking the shortest way that sees all ...") << std::flush;
+    out_ << format("  %-12s %s", what, doing) << std::flush;
+  }
+}
+
+void RunPrinter::audit(const RunRecord& record) {
+  if (record.audit) {
+    out_ << (terminal_ ? "\r\033[K" : "")
+         << format("  %-12s %zu of %zu unknown cells beside free space could still be observed", "audit",
+                   record.audit->observable_left, record.audit->cells_checked)
+         << format("; %zu more were looked at in vain\n", record.audit->looked_at_in_vain) << std::flush;
   }
 }
 

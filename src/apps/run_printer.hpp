@@ -26,8 +26,11 @@ class RunPrinter {
             std::uint64_t seed);
   void view(const ViewRecord& view);
   void summary(const RunRecord& record);
-  // Says, on a terminal, that it is being sought; `bound` takes the place of that.
-  void seek_bound();
+  // How long it took to find the observable cells.
+  void observable(double seconds);
+  // Says, on a terminal, what takes time; what comes of it takes the place of that.
+  void working(const char* what, const char* doing);
+  void audit(const RunRecord& record);
   void bound(const RunRecord& record);
 
  private:

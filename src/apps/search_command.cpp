@@ -184,6 +184,9 @@ int search(const SearchRequest& request) {
   const PlannerSetup setup{.sensor = sensor, .platform = arm, .seed = shared.seed, .threads = shared.threads};
   const auto planner = planner_of(request, arm, setup);
   const World world = world_of(shared);
+  if (world.plan) {
+    throw std::invalid_argument("--world " + shared.world + ": an arm cannot search a plane");
+  }
 
   const ExplorationRunOptions options = options_of(shared, world, arm_options.declared_clear);
   ExplorationRun run(world, sensor, arm, options);

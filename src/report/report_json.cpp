@@ -89,6 +89,11 @@ ordered_json summary_json(const RunRecord& record) {
   if (record.path_bound) {
     summary["path_bound"] = {{"length_m", record.path_bound->length_m}, {"is_met", record.path_bound->is_met}};
   }
+  if (record.audit) {
+    summary["audit"] = {{"observable_left", record.audit->observable_left},
+                        {"looked_at_in_vain", record.audit->looked_at_in_vain},
+                        {"cells_checked", record.audit->cells_checked}};
+  }
   return summary;
 }
 

@@ -40,6 +40,13 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   if (!options.map.region) {
     options.map.region = world.region;
   }
+  if (world.plan) {
+    if (options.band) {
+      throw std::invalid_argument("ExplorationRunOptions::band: a world that is a plane has no heights");
+    }
+    options.map.region->min.z() = 0.0;
+    options.map.region->max.z() = options.map.resolution_m;
+  }
   return options;
 }
 
@@ -278,7 +285,8 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
                     .surface = SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
                     .record = {}};
   if (options_.measure_coverage) {
-    progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads);
+    progress.observable =
+        truth_.observable(*platform_, sensor_, start, options_.threads, options_.on_observable_share);
   }
   progress.body_radius_m = options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
   RunRecord& record = progress.record;

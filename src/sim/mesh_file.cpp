@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -50,6 +53,13 @@ void check_vertices(const std::filesystem::path& path, const TriangleMesh& mesh)
   }
 }
 
+bool is_read_with_y_up(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".dae" || extension == ".zae" || extension == ".gltf" || extension == ".glb";
+}
+
 }  // namespace
 
 TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options) {
@@ -63,6 +73,8 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
     refuse(path, "is not a file");
   }
   Assimp::Importer importer;
+  // What a COLLADA file says of its axis, Assimp obeys: the scene's y is up.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up.has_value());
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   if (scene == nullptr) {
     refuse(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
@@ -76,7 +88,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
   }
   check_vertices(path, mesh);
   Pose z_up = Pose::Identity();
-  if (options.up == MeshFileOptions::Up::Y) {
+  if (options.up ? *options.up == MeshFileOptions::Up::Y : is_read_with_y_up(path)) {
     z_up.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   }
   TriangleMesh placed;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <vantage/geometry/voxel_ray.hpp>
 
 #include "raytrace/shared_work.hpp"
+#include "sim/pose_tree.hpp"
 
 namespace vantage {
 namespace {
@@ -43,56 +45,6 @@ std::vector<VoxelIndex> candidates(const Sight& sight, const VoxelBox& region, c
   });
   return found;
 }
-
-// The poses in blocks of space, so that those near a cell are asked first: nearly every cell is seen from one of
-// them.
-class PoseBlocks {
- public:
-  PoseBlocks(const VoxelBox& region, const std::vector<VoxelIndex>& poses)
-      : blocks_({block_of(region.lo), block_of(region.hi) + VoxelIndex{1, 1, 1}}) {
-    for (const VoxelIndex& pose : poses) {
-      blocks_[block_of(pose)].push_back(pose);
-    }
-  }
-
-  // Calls `ask(pose)` for the poses in growing cubic shells about the cell until one says true; whether one did.
-  template <class Ask>
-  bool any_from_near(const VoxelIndex& cell, std::int32_t furthest_cells, Ask&& ask) const {
-    const VoxelIndex home = block_of(cell);
-    const std::int32_t shells = furthest_cells / kEdge + 1;
-    for (std::int32_t shell = 0; shell <= shells; ++shell) {
-      for (std::int32_t z = -shell; z <= shell; ++z) {
-        for (std::int32_t y = -shell; y <= shell; ++y) {
-          const bool face = std::abs(z) == shell || std::abs(y) == shell;
-          for (std::int32_t x = -shell; x <= shell; x += face || shell == 0 ? 1 : 2 * shell) {
-            const VoxelIndex block = home + VoxelIndex{x, y, z};
-            if (blocks_.contains(block) && std::any_of(blocks_[block].begin(), blocks_[block].end(), ask)) {
-              return true;
-            }
-          }
-        }
-      }
-      if (holds_all_blocks(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(shell))) {
-        return false;
-      }
-    }
-    return false;
-  }
-
- private:
-  static constexpr std::int32_t kEdge = 8;
-  static VoxelIndex block_of(const VoxelIndex& cell) {
-    const auto down = [](std::int32_t value) { return value >= 0 ? value / kEdge : -((kEdge - 1 - value) / kEdge); };
-    return {down(cell.x), down(cell.y), down(cell.z)};
-  }
-  bool holds_all_blocks(const VoxelBox& cube) const {
-    const VoxelBox& all = blocks_.box();
-    return cube.lo.x <= all.lo.x && cube.lo.y <= all.lo.y && cube.lo.z <= all.lo.z && cube.hi.x >= all.hi.x &&
-           cube.hi.y >= all.hi.y && cube.hi.z >= all.hi.z;
-  }
-
-  VoxelGrid<std::vector<VoxelIndex>> blocks_;
-};
 
 }  // namespace
 
@@ -150,18 +102,24 @@ bool Sight::ends_on_a_surface(const Eigen::Vector3d& pose_m, const Eigen::Vector
 }
 
 std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region, const std::vector<VoxelIndex>& poses,
-                                   int threads) {
+                                   int threads, const std::function<void(double)>& on_share) {
   const std::vector<VoxelIndex> cells = candidates(sight, region, poses);
-  const PoseBlocks blocks(region, poses);
-  const auto furthest =
-      static_cast<std::int32_t>(std::min(1e6, sight.sensor().max_range_m / sight.frame().size_m)) + 1;
+  const detail::PoseTree tree(poses);
+  const double furthest_cells = sight.sensor().max_range_m / sight.frame().size_m;
+  const auto is_solid = [&](const VoxelIndex& cell) { return !sight.is_free(cell); };
   std::vector<std::uint8_t> seen(cells.size(), 0);
   constexpr std::size_t kChunk = 1024;
   const std::size_t chunks = (cells.size() + kChunk - 1) / kChunk;
+  std::mutex telling;
+  std::size_t done = 0;
   detail::share_work(chunks, static_cast<std::size_t>(threads), [&](std::size_t chunk) {
     for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, cells.size()); ++i) {
       const auto ask = [&](const VoxelIndex& pose) { return sight.sees(pose, cells[i]); };
-      seen[i] = blocks.any_from_near(cells[i], furthest, ask) ? 1 : 0;
+      seen[i] = tree.any(cells[i], furthest_cells, is_solid, ask) ? 1 : 0;
+    }
+    if (on_share) {
+      const std::scoped_lock lock(telling);
+      on_share(static_cast<double>(++done) / static_cast<double>(chunks));
     }
   });
   std::vector<VoxelIndex> found;

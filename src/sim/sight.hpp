@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/sim/truth.hpp>
@@ -34,8 +35,9 @@ class Sight {
   bool can_tilt_;
 };
 
-/// The cells of the region that at least one of the poses sees, in raster order.
+/// The cells of the region that at least one of the poses sees, in raster order; `on_share` as Truth::observable.
 [[nodiscard]] std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region,
-                                                 const std::vector<VoxelIndex>& poses, int threads);
+                                                 const std::vector<VoxelIndex>& poses, int threads,
+                                                 const std::function<void(double)>& on_share = {});
 
 }  // namespace vantage

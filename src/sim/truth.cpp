@@ -34,6 +34,22 @@ VoxelBox covering(const VoxelFrame& frame, const VoxelBox& region, const Box& me
   return {frame.cell_of(outer.min) - VoxelIndex{1, 1, 1}, frame.cell_of(outer.max) + VoxelIndex{2, 2, 2}};
 }
 
+// The layer of the region.
+VoxelGrid<CellTruth> cells_of_plan(const GroundPlan& plan, const VoxelFrame& frame, const VoxelBox& covered,
+                                   const VoxelBox& region) {
+  VoxelGrid<CellTruth> cells({{covered.lo.x, covered.lo.y, region.lo.z}, {covered.hi.x, covered.hi.y, region.hi.z}},
+                             CellTruth::Free);
+  const Eigen::Vector3d grazed = Eigen::Vector3d::Constant(kGrazedShare * frame.size_m);
+  for_each_cell(cells.box(), [&](const VoxelIndex& cell) {
+    const Box box = frame.box_of(cell);
+    if (plan.touches_solid(box)) {
+      cells[cell] =
+          plan.touches_solid({box.min + grazed, box.max - grazed}) ? CellTruth::Occupied : CellTruth::Grazed;
+    }
+  });
+  return cells;
+}
+
 // The largest set of nonzero cells joined face to face; of equals the first in raster order.
 std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitted) {
   VoxelGrid<std::uint8_t> seen(admitted.box(), 0);
@@ -69,9 +85,17 @@ Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(
     message << "the region holds no cell of " << resolution_m << " m";
     throw std::invalid_argument(message.str());
   }
+  if (world.plan && region_.extent().z != 1) {
+    throw std::invalid_argument("Truth: the world is a plane, and the region not one layer of cells");
+  }
   const VoxelFrame& frame = map_.frame();
-  cells_ = VoxelGrid<CellTruth>(covering(frame, region_, world.mesh.bounds()), CellTruth::Free);
-  rasterise(world.mesh, frame, kGrazedShare, cells_);
+  const VoxelBox covered = covering(frame, region_, world.mesh.bounds());
+  if (world.plan) {
+    cells_ = cells_of_plan(*world.plan, frame, covered, region_);
+  } else {
+    cells_ = VoxelGrid<CellTruth>(covered, CellTruth::Free);
+    rasterise(world.mesh, frame, kGrazedShare, cells_);
+  }
   for_each_cell(region_, [&](const VoxelIndex& cell) {
     map_.set(cell, at(cell) == CellTruth::Free ? Occupancy::Free : Occupancy::Occupied);
   });
@@ -121,11 +145,11 @@ std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& sta
 }
 
 std::vector<VoxelIndex> Truth::observable(const Platform& platform, const RangeSensor& sensor, const Pose& start,
-                                          int threads) const {
+                                          int threads, const std::function<void(double)>& on_share) const {
   sensor.validate();
   const std::vector<VoxelIndex> poses = lattice(platform, start);
   const Sight sight(cells_, map_.frame(), sensor, platform.can_tilt());
-  return seen_cells(sight, region_, poses, threads);
+  return seen_cells(sight, region_, poses, threads, on_share);
 }
 
 double Truth::coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const {

@@ -94,6 +94,16 @@ World World::from_mesh_file(const std::filesystem::path& path, const MeshFileOpt
   return world;
 }
 
+World World::from_plan(std::string name, GroundPlan plan) {
+  plan.validate();
+  World world;
+  world.name = std::move(name);
+  world.mesh = plan.walls();
+  world.region = plan.bounds();
+  world.plan = std::move(plan);
+  return world;
+}
+
 World World::from_map(std::string name, const OccupancyMap& map) {
   if (map.counts().free == 0) {
     throw std::invalid_argument("World::from_map: the map has no free cell");

@@ -3,15 +3,27 @@
 #include <cctype>
 #include <stdexcept>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/sim/nav2_map_file.hpp>
 #include <vantage/sim/world.hpp>
 
 namespace vantage {
 
-World World::from_file(const std::filesystem::path& path, const MeshFileOptions& options) {
+World::FileKind World::kind_of_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".bt" && extension != ".ot") {
+  if (extension == ".yaml" || extension == ".yml") {
+    return FileKind::Plan;
+  }
+  return extension == ".bt" || extension == ".ot" ? FileKind::OctoMap : FileKind::Mesh;
+}
+
+World World::from_file(const std::filesystem::path& path, const MeshFileOptions& options) {
+  const FileKind kind = kind_of_file(path);
+  if (kind == FileKind::Plan) {
+    return from_plan(path.filename().string(), read_nav2_map(path));
+  }
+  if (kind == FileKind::Mesh) {
     return from_mesh_file(path, options);
   }
   const OccupancyMap map = load_octomap(path).map;

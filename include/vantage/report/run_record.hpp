@@ -66,6 +66,13 @@ struct PathBound {
   bool is_met = false;    ///< there is one that long
 };
 
+/// What a check of the end of a run by brute force found (sim's `audit`, which has the words).
+struct AuditRecord {
+  std::size_t cells_checked = 0;      ///< unknown cells beside free ones
+  std::size_t looked_at_in_vain = 0;  ///< of these, in view of the run from places that differ, and still unknown
+  std::size_t observable_left = 0;    ///< of these, the others that could still be observed
+};
+
 /// The record of a run, by whatever host: enough for the report, the pictures and the tables.
 struct RunRecord {
   std::string command;                       ///< "explore", "reconstruct", "search", "replay"
@@ -85,6 +92,7 @@ struct RunRecord {
   std::uint64_t planning_operations = 0;     ///< PlanStatistics::ray_operations, summed
   double peak_memory_mb = 0.0;               ///< of the whole process
   std::optional<PathBound> path_bound;       ///< for one who knows the world, where it was sought
+  std::optional<AuditRecord> audit;          ///< of the end, where it was asked for
   std::vector<ViewRecord> views;             ///< one entry per scan
   std::vector<Eigen::Vector3d> travelled;    ///< successive sensor positions, the start first
 

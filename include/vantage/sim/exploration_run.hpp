@@ -22,7 +22,9 @@ namespace vantage {
 
 /// How a simulated exploration goes.
 struct ExplorationRunOptions {
-  OccupancyMapOptions map = {};  ///< without a region: the world's own
+  /// Without a region: the world's own. Where the world is a plane, z of a region counts for nothing: the map is the
+  /// layer of cells above z = 0.
+  OccupancyMapOptions map = {};
   /// The robot drives, and explores the plane of these heights: the planner gets the map's HeightBand instead of the
   /// map, and collisions and coverage are those of the plane. None: it flies, and explores space.
   std::optional<HeightBandOptions> band = std::nullopt;
@@ -41,6 +43,8 @@ struct ExplorationRunOptions {
   int threads = 1;  ///< for the observable cells, > 0
   /// Whether coverage is measured, which takes finding all observable cells of the world first.
   bool measure_coverage = true;
+  /// Told of that search as Truth::observable tells of it; none: nobody is.
+  std::function<void(double share)> on_observable_share = {};
   /// Cells of the world that do not touch this box are known from the start, as a room may be in which an object is
   /// to be looked at; none: nothing is.
   std::optional<Box> unknown_box = std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vantage/sim/triangle_mesh.hpp>
 
 namespace vantage {
@@ -11,8 +12,10 @@ namespace vantage {
 struct MeshFileOptions {
   /// Which axis of the file points up.
   enum class Up : std::uint8_t { Y, Z };
-  Up up = Up::Z;       ///< the file's upward axis; Y is turned about x so that z points up
-  double scale = 1.0;  ///< metres per unit of the file, > 0
+  /// Which axis of the file's coordinates points up; Y is turned about x so that z points up. None: as the file has
+  /// it. COLLADA files say (`up_axis`), in glTF it is y by definition, and in other formats z is taken.
+  std::optional<Up> up = std::nullopt;
+  double scale = 1.0;  ///< metres per unit of the file, > 0; a COLLADA file's own unit counts besides
 };
 
 /// The triangles of a mesh file in any format that Assimp reads (PLY, OBJ, STL, glTF, COLLADA ...), with the

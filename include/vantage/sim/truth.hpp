@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vantage/geometry/pose.hpp>
@@ -27,8 +28,9 @@ enum class CellTruth : std::uint8_t {
 /// A world as cells, at one resolution and in one region: what a map of it ought to say.
 class Truth {
  public:
-  /// Rasterises the world exactly (separating axes of each triangle and cell). Throws std::invalid_argument for a
-  /// resolution that is not positive or a region that is empty.
+  /// Rasterises the world exactly (separating axes of each triangle and cell; of each solid pixel and cell where the
+  /// world is a plane). Throws std::invalid_argument for a resolution that is not positive or a region that is empty,
+  /// and if the world is a plane and the region not one layer of cells.
   Truth(const World& world, double resolution_m, const Box& region);
 
   /// The same for a robot that explores the plane of a band of heights (HeightBand): a column is occupied if a cell
@@ -53,8 +55,10 @@ class Truth {
   /// and, for a free cell and a sensor that does not report rays without a return, the line goes on to a surface
   /// within range: nothing else would clear the cell. Orientation is free, but for a platform that cannot tilt the
   /// cell must be in view of the level sensor turned towards it. In raster order; the same for any number of threads.
+  /// `on_share` is told which share of the cells has been asked, now and then, from one thread at a time.
   [[nodiscard]] std::vector<VoxelIndex> observable(const Platform& platform, const RangeSensor& sensor,
-                                                   const Pose& start, int threads = 1) const;
+                                                   const Pose& start, int threads = 1,
+                                                   const std::function<void(double share)>& on_share = {}) const;
 
   /// Share of `cells` that the map knows with the right state; 1 if there are none.
   [[nodiscard]] double coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const;

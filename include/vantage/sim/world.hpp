@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
+#include <vantage/sim/ground_plan.hpp>
 #include <vantage/sim/mesh_file.hpp>
 #include <vantage/sim/triangle_mesh.hpp>
 #include <vector>
@@ -30,6 +31,8 @@ struct World {
   /// The part of the region that a search of voids means, metres; around it all is known before the first scan. None
   /// for most worlds.
   std::optional<Box> searched = std::nullopt;
+  /// The world is a plane, that of these pixels; its mesh are their walls. None: it is a space.
+  std::optional<GroundPlan> plan = std::nullopt;
 
   /// A world by NAME:
   /// - `rooms`: the test of Shade & Newman 2011: a closed cube of 10.2 m, 51 x 51 x 51 cells of 0.2 m, with
@@ -56,9 +59,16 @@ struct World {
   /// A map as ground truth: its free cells are the free space, and whatever bounds them is solid, occupied or not
   /// known: a truth with holes would have no end to explore. Throws std::invalid_argument if no cell is free.
   [[nodiscard]] static World from_map(std::string name, const OccupancyMap& map);
-  /// By what the file is: .bt and .ot are OctoMaps (`options` has no say), everything else a mesh. Throws
-  /// std::runtime_error naming the path.
+  /// A plane, for a robot that drives (GroundRobot) and a sensor of it (in_plane). A cell of it is
+  /// occupied where any solid pixel reaches into it, however large its cells are. Throws std::invalid_argument as
+  /// GroundPlan::validate.
+  [[nodiscard]] static World from_plan(std::string name, GroundPlan plan);
+  /// By what the file is: .yaml and .yml are nav2 maps (read_nav2_map), .bt and .ot OctoMaps (`options` has no say in
+  /// either), everything else a mesh. Throws std::runtime_error naming the path.
   [[nodiscard]] static World from_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
+  /// What `from_file` takes a file of this name for.
+  enum class FileKind : std::uint8_t { Mesh, OctoMap, Plan };
+  [[nodiscard]] static FileKind kind_of_file(const std::filesystem::path& path);
 };
 
 }  // namespace vantage

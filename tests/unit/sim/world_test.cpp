@@ -45,6 +45,52 @@ TEST_F(MeshFile, ReadsTrianglesAndTurnsYUpIntoZUp) {
   EXPECT_TRUE(turned.bounds().max.isApprox(Eigen::Vector3d(0.1, 0, 0.2), 1e-6));
 }
 
+// A triangle that reaches 1 along x, 2 along y and 3 along z of its file.
+std::string collada_triangle(const std::string& up_axis, const std::string& metres) {
+  return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+         "<asset><unit meter=\"" +
+         metres + "\"/><up_axis>" + up_axis +
+         "</up_axis></asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
+         "<float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 2 3</float_array><technique_common>"
+         "<accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+         "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+         "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"1\">"
+         "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+         "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node>"
+         "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes><scene>"
+         "<instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+}
+
+std::string gltf_triangle() {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)"
+         R"("componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,3]}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":)"
+         R"("data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAEBA"}]})";
+}
+
+TEST_F(MeshFile, KnowsItsAxisAndUpOverrules) {
+  const Eigen::Vector3d as_it_is(1, 2, 3);
+  const Eigen::Vector3d turned(1, 3, 2);  // y up: the file's z is what is deep
+  const auto extent = [](const std::filesystem::path& path, const MeshFileOptions& options) {
+    return Eigen::Vector3d(read_mesh_file(path, options).bounds().extent());
+  };
+  const auto y_up = write("y.dae", collada_triangle("Y_UP", "1"));
+  const auto z_up = write("z.DAE", collada_triangle("Z_UP", "1"));
+  const auto gltf = write("y.gltf", gltf_triangle());
+  const auto obj = write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\n");
+  for (const auto& [path, by_itself] : {std::pair{y_up, turned}, {z_up, as_it_is}, {gltf, turned}, {obj, as_it_is}}) {
+    EXPECT_TRUE(extent(path, {}).isApprox(by_itself, 1e-6)) << path << " " << extent(path, {}).transpose();
+    EXPECT_TRUE(extent(path, {.up = MeshFileOptions::Up::Y}).isApprox(turned, 1e-6)) << path;
+    EXPECT_TRUE(extent(path, {.up = MeshFileOptions::Up::Z}).isApprox(as_it_is, 1e-6)) << path;
+  }
+  // Not mirrored, and with the unit of the file.
+  EXPECT_TRUE(read_mesh_file(y_up).bounds().min.isApprox(Eigen::Vector3d(0, -3, 0), 1e-6));
+  EXPECT_TRUE(read_mesh_file(z_up).bounds().max.isApprox(Eigen::Vector3d(1, 2, 3), 1e-6));
+  const auto small = write("small.dae", collada_triangle("Z_UP", "0.01"));
+  EXPECT_TRUE(extent(small, {}).isApprox(0.01 * as_it_is, 1e-5)) << extent(small, {}).transpose();
+}
+
 TEST_F(MeshFile, SaysWhatIsWrongAndWhere) {
   const std::string missing = complaint([] { (void)read_mesh_file("/nowhere/house.ply"); });
   EXPECT_EQ(missing, "/nowhere/house.ply: there is no such file");

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vantage::detail {
+
+/// The words of each key, one or a list of them.
+using FlatYaml = std::map<std::string, std::vector<std::string>>;
+
+/// Reads a YAML file of keys with a scalar or a list of scalars each, block ("- 1") or flow ("[1, 2]"), plain or
+/// quoted, and comments. Whatever else there is in YAML is refused. Throws std::runtime_error naming the file and the
+/// line.
+[[nodiscard]] FlatYaml read_flat_yaml(const std::filesystem::path& path);
+
+}  // namespace vantage::detail

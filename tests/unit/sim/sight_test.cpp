@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "sim/sight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+// Rooms with openings, and specks: boxes of walls and single cells, so that cells are hidden near and far.
+VoxelGrid<CellTruth> drawn_cells(std::mt19937_64& engine, const VoxelBox& box) {
+  VoxelGrid<CellTruth> cells(box, CellTruth::Free);
+  const auto below = [&](std::int32_t n) {
+    return static_cast<std::int32_t>(engine() % static_cast<std::uint64_t>(n));
+  };
+  for_each_cell(box, [&](const VoxelIndex& cell) {
+    const bool border = !VoxelBox{box.lo + VoxelIndex{1, 1, 1}, box.hi - VoxelIndex{1, 1, 1}}.contains(cell);
+    cells[cell] = border && box.extent().z > 1 ? CellTruth::Occupied : CellTruth::Free;
+  });
+  for (int wall = 0; wall < 6; ++wall) {
+    const int axis = below(box.extent().z > 1 ? 3 : 2);
+    const std::int32_t at = (axis == 0   ? box.lo.x + below(box.extent().x)
+                             : axis == 1 ? box.lo.y + below(box.extent().y)
+                                         : box.lo.z + below(box.extent().z));
+    const VoxelIndex gap = box.lo + VoxelIndex{below(box.extent().x), below(box.extent().y), below(box.extent().z)};
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      const std::int32_t along = axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
+      const VoxelIndex off = cell - gap;
+      const bool open = std::abs(off.x) <= 1 + 99 * (axis == 0) && std::abs(off.y) <= 1 + 99 * (axis == 1) &&
+                        std::abs(off.z) <= 1 + 99 * (axis == 2);
+      if (along == at && !open) {
+        cells[cell] = CellTruth::Occupied;
+      }
+    });
+  }
+  for (std::size_t speck = 0; speck < cells.size() / 20; ++speck) {
+    cells.values()[engine() % cells.size()] = engine() % 2 == 0 ? CellTruth::Occupied : CellTruth::Grazed;
+  }
+  return cells;
+}
+
+// The definition asks every cell about every pose; cells behind solid ones cannot be seen and are asked as well.
+TEST(SeenCells, AreThoseThatAnyOfThePosesSees) {
+  std::mt19937_64 engine(5);
+  std::size_t seen = 0;
+  std::size_t hidden = 0;
+  std::size_t told = 0;
+  for (int world = 0; world < 60; ++world) {
+    const VoxelBox box{{-13, 4, -6}, {17, 30, world % 3 == 0 ? -5 : 6}};
+    const VoxelGrid<CellTruth> cells = drawn_cells(engine, box);
+    std::vector<VoxelIndex> poses;
+    const std::size_t many = world % 2 == 0 ? 5 : 60;
+    for (std::size_t i = 0; i < many; ++i) {
+      if (const VoxelIndex cell = cells.cell_at(engine() % cells.size()); cells[cell] == CellTruth::Free) {
+        poses.push_back(cell);
+      }
+    }
+    RangeSensor sensor =
+        RangeSensor::pinhole(64, 48, 1.0, 0.7, world % 5 == 0 ? 0.6 : 0.0, world % 4 == 0 ? 9.0 : 2.1);
+    sensor.reports_no_return = world % 7 != 0;
+    const Sight sight(cells, {0.1}, sensor, world % 6 != 0);
+    std::vector<VoxelIndex> expected;
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      const bool is_seen =
+          std::any_of(poses.begin(), poses.end(), [&](const VoxelIndex& pose) { return sight.sees(pose, cell); });
+      if (is_seen) {
+        expected.push_back(cell);
+      }
+      ++(is_seen ? seen : hidden);
+    });
+    double last_share = 0.0;
+    const auto on_share = [&](double share) {
+      EXPECT_GT(share, last_share);
+      last_share = share;
+      ++told;
+    };
+    EXPECT_EQ(seen_cells(sight, box, poses, 1 + world % 3, on_share), expected) << "in world " << world;
+    EXPECT_EQ(last_share, poses.empty() ? 0.0 : 1.0);
+  }
+  EXPECT_GT(seen, 50'000U);
+  EXPECT_GT(hidden, 50'000U);
+  EXPECT_GT(told, 100U);
+}
+
+}  // namespace
+}  // namespace vantage
