@@ -44,7 +44,8 @@ class CellMoments {
   VoxelIndex origin_;
   std::int64_t size_ = 0;
   Eigen::Matrix<std::int64_t, 3, 1> sum_ = Eigen::Matrix<std::int64_t, 3, 1>::Zero();
-  Eigen::Matrix<std::int64_t, 6, 1> products_ = Eigen::Matrix<std::int64_t, 6, 1>::Zero();  // xx yy zz xy xz yz
+  // xx yy zz xy xz yz
+  Eigen::Matrix<std::int64_t, 6, 1, Eigen::DontAlign> products_ = Eigen::Matrix<std::int64_t, 6, 1>::Zero();
 };
 
 }  // namespace vantage

@@ -31,7 +31,7 @@ struct Registration {
   double rms_m = 0.0;                             ///< distance of those from the planes of their partners
   /// Of a small turn and shift of the scan in the world (rotation vector, then translation, about the scan's middle),
   /// radians and metres, from how well its points hold it: large along what slides.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Aligns points to other points of the world (Dornhege & Kleiner 2011, IV, step 2), by OpenCV's point-to-plane ICP,
