@@ -2,7 +2,7 @@
 # cmake -D ROOT=<source tree> -P check_floors.cmake
 # Folders under include/vantage and src are floors. A folder includes itself and lower floors only; folders on the same
 # floor never see each other; nothing in the library includes the umbrella header or the applications.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22...3.25)
 
 set(floor_geometry 0)
 set(floor_map 1)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A cheap first guess at the solution, from coarse to fine: cells are paired along x, y, z in turn, the smallest
 /// problem is solved outright, and each finer one starts from the coarser and is smoothed by a few sweeps.

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Sinks that hang together, and what flows into them.
 struct SinkCluster {

@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/voxel.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Centroid and covariance of a body made of cells, kept while it grows or shrinks (Dornhege & Kleiner 2011, eq. 1).
 ///

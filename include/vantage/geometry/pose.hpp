@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vantage/compiler.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A rigid transform, named `a_from_b`: it takes coordinates in frame b to coordinates in frame a, in metres.
 ///
@@ -11,8 +12,9 @@ namespace vantage {
 /// +y down in the image (Vasquez-Gomez et al. 2013, V-B, and every camera driver). A planner speaks of the pose of
 /// the sensor, `world_from_sensor`; a host with another body frame multiplies by its own mounting transform.
 ///
-/// Unaligned: an `Eigen::Isometry3d` is as aligned as the instruction set that a file is compiled for, so a struct that
-/// holds one differs between a host built with `-march=native` and this library. The two convert into each other.
+/// Unaligned: an `Eigen::Isometry3d` is as aligned as the instruction set that a file is compiled for, so a struct
+/// that holds one differs between a host built with `-march=native` and this library. The two convert into each
+/// other.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// The sensor at `position_m`, looking level along `yaw_rad` (0 = world +x, counter-clockwise seen from above), then

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Options of FrontierGainPlanner.
 struct FrontierGainOptions {

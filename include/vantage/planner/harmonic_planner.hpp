@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -17,7 +18,7 @@
 #include <vantage/raytrace/following_caster.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How the harmonic field is found.
 enum class FieldSolver : std::uint8_t {

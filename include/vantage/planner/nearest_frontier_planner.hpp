@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/make_planner.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Goes for the frontier with the shortest way to a place that sees it (after Yamauchi 1997): the plainest baseline.
 /// There it turns so that most other frontier cells come into view beside the one it came for.

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A view and what it is meant to resolve.
 struct TargetView {

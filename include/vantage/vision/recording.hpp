@@ -8,13 +8,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/vision/depth_camera.hpp>
 #include <vantage/vision/depth_image.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One moment of a recording: where the sensor was, and the files of what it saw.
 struct RecordedFrame {

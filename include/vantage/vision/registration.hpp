@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/scan.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How scans are aligned, and when the result is to be believed.
 struct RegistrationOptions {
