@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -D OUTPUT=... -D "FILES=name|path;..." -P embed_files.cmake: a C++ source with `page_file(name)`, the bytes of
 # those files, so that an installed library needs none of them where it runs.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22...3.25)
 set(pieces "")
 set(cases "")
 set(number 0)

@@ -17,22 +17,21 @@ function(vantage_add_library component)
     configure_file("${PROJECT_SOURCE_DIR}/cmake/umbrella.hpp.in" "${PROJECT_BINARY_DIR}/include/${arg_UMBRELLA}" @ONLY)
     list(APPEND arg_GENERATED_HEADERS ${arg_UMBRELLA})
   endif()
-  list(TRANSFORM arg_HEADERS PREPEND "${PROJECT_SOURCE_DIR}/include/")
-  list(TRANSFORM arg_GENERATED_HEADERS PREPEND "${PROJECT_BINARY_DIR}/include/")
   add_library(${target} ${arg_SOURCES})
   add_library(vantage::${component} ALIAS ${target})
   vantage_unite_folders(${target})
-  target_sources(
-    ${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include"
-                     FILES ${arg_HEADERS} ${arg_GENERATED_HEADERS})
-  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_include_directories(
+    ${target}
+    PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
+           "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+    PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} ${arg_LINKS})
   target_compile_features(${target} PUBLIC cxx_std_20)
   # The same bits on every processor: a * b + c rounds twice, as written. And no errno, which keeps sqrt out of vectors.
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
   set_target_properties(
-    ${target} PROPERTIES EXPORT_NAME ${component} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON
-                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    ${target} PROPERTIES EXPORT_NAME ${component} POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                         VISIBILITY_INLINES_HIDDEN ON VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   vantage_warnings(${target})
   if(VANTAGE_INSTALL)
     install(
@@ -40,9 +39,39 @@ function(vantage_add_library component)
       EXPORT vantage-${component}-targets
       RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
       LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-      FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    vantage_install_headers("${PROJECT_SOURCE_DIR}/include" ${arg_HEADERS})
+    vantage_install_headers("${PROJECT_BINARY_DIR}/include" ${arg_GENERATED_HEADERS})
   endif()
+  if(VANTAGE_BUILD_TESTS)
+    vantage_check_headers(${component} ${arg_HEADERS} ${arg_GENERATED_HEADERS})
+  endif()
+endfunction()
+
+# Each header into its own folder; CMake 3.22 has no header sets, which would do so.
+function(vantage_install_headers root)
+  foreach(header IN LISTS ARGN)
+    get_filename_component(folder "${header}" DIRECTORY)
+    install(FILES "${root}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
+  endforeach()
+endfunction()
+
+# The target public_headers compiles every public header alone.
+function(vantage_check_headers component)
+  set(sources)
+  foreach(header IN LISTS ARGN)
+    set(source "${PROJECT_BINARY_DIR}/public_headers/${header}.cpp")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "#include <${header}>\n")
+    list(APPEND sources "${source}")
+  endforeach()
+  add_library(vantage_${component}_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(vantage_${component}_headers PRIVATE vantage::${component})
+  set_target_properties(vantage_${component}_headers PROPERTIES UNITY_BUILD OFF)
+  vantage_warnings(vantage_${component}_headers)
+  if(NOT TARGET public_headers)
+    add_custom_target(public_headers)
+  endif()
+  add_dependencies(public_headers vantage_${component}_headers)
 endfunction()
 
 # What a unity build (CMAKE_UNITY_BUILD) compiles as one: the sources of a folder.

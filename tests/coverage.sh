@@ -5,7 +5,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cmake/install_dependencies.sh build test check
-cmake --workflow --preset coverage
+cmake --preset coverage
+cmake --build --preset coverage
+ctest --preset coverage
 
 # Each source file's report lies beside its object; what no test ran has none and counts as nothing run.
 gcovr --root . --filter 'include/vantage/' --filter 'src/' --exclude-throw-branches build/coverage --txt /dev/stdout |

@@ -30,7 +30,7 @@ Recording recording_of(const ReplayRequest& request) {
     if (n.size() != 4) {
       throw std::invalid_argument("--intrinsics has " + std::to_string(n.size()) + " numbers, must be fx,fy,cx,cy");
     }
-    options.intrinsics = Eigen::Vector4d(n[0], n[1], n[2], n[3]);
+    options.intrinsics = {n[0], n[1], n[2], n[3]};
   }
   return Recording::open(request.format, request.dataset, options);
 }

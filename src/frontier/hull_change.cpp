@@ -8,6 +8,7 @@
 #include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
 #include "geometry/box_around.hpp"
+#include "geometry/plane_distance.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -42,7 +43,7 @@ struct PointBox {
 std::uint64_t within(const ConvexHull::Plane& plane, const VoxelIndex& first) {
   std::uint64_t cells = 0;
   for (std::int32_t row = 0; row < 16; ++row) {
-    const double start = plane.distance(lattice_point(first + VoxelIndex{0, row & 3, row >> 2})) - kOnFacet;
+    const double start = distance_from(plane, lattice_point(first + VoxelIndex{0, row & 3, row >> 2})) - kOnFacet;
     for (std::int32_t x = 0; x < 4; ++x) {
       cells |= std::uint64_t{start + x * plane.normal.x() <= 0.0} << (row * 4 + x);
     }
@@ -113,7 +114,7 @@ HullChange::Cutting HullChange::narrow(Planes& planes, const Cutting& from, cons
   Cutting cutting{planes.size(), planes.size()};
   for (std::size_t i = from.first; i < from.last; ++i) {
     const ConvexHull::Plane plane = planes[i];
-    const double distance = plane.distance(box.middle) - kOnFacet;
+    const double distance = distance_from(plane, box.middle) - kOnFacet;
     const double reach = box.reach(plane) + kOnFacet;  // and what rounding may add
     if (distance > -reach) {
       planes.push_back(plane);
@@ -131,7 +132,7 @@ BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutting& common, co
     const PointBox box({first, first + VoxelIndex{4, 4, 4}});
     inside[word] = ~std::uint64_t{0};
     const auto cut_by = [&](const ConvexHull::Plane& plane) {
-      if (inside[word] != 0 && plane.distance(box.middle) + box.reach(plane) > 0.0) {
+      if (inside[word] != 0 && distance_from(plane, box.middle) + box.reach(plane) > 0.0) {
         inside[word] &= within(plane, first);
       }
     };

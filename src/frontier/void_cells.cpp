@@ -8,6 +8,7 @@
 #include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
 #include "geometry/box_overlap.hpp"
+#include "geometry/plane_distance.hpp"
 
 namespace vantage {
 namespace {
@@ -19,7 +20,8 @@ std::pair<std::int32_t, std::int32_t> row_span(const ConvexHull& hull, const Vox
   double hi = box.hi.x - 1;
   for (const ConvexHull::Plane& plane : hull.planes()) {
     const double slope = plane.normal.x();
-    const double rest = plane.distance({0.0, static_cast<double>(y), static_cast<double>(z)}) - detail::kOnFacet;
+    const double rest =
+        detail::distance_from(plane, {0.0, static_cast<double>(y), static_cast<double>(z)}) - detail::kOnFacet;
     if (std::abs(slope) < 1e-12) {
       if (rest > 0.0) {
         return {box.lo.x, box.lo.x};

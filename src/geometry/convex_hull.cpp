@@ -11,6 +11,8 @@ extern "C" {
 #include <stdexcept>
 #include <vantage/geometry/convex_hull.hpp>
 
+#include "geometry/plane_distance.hpp"
+
 namespace vantage {
 namespace {
 
@@ -103,8 +105,9 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
 }
 
 bool ConvexHull::contains(const Eigen::Vector3d& point, double tolerance) const {
-  return !empty() && std::all_of(planes_.begin(), planes_.end(),
-                                 [&](const Plane& plane) { return plane.distance(point) <= tolerance; });
+  return !empty() && std::all_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+    return detail::distance_from(plane, point) <= tolerance;
+  });
 }
 
 }  // namespace vantage

@@ -85,8 +85,8 @@ ConvexHull::Plane LatticeHull::Plane::plane() const {
   return {unit, -unit.dot(Eigen::Vector3d(point.x, point.y, point.z))};
 }
 
-bool operator==(const LatticeHull::Plane& a, const LatticeHull::Plane& b) {
-  return a.normal == b.normal && dot(a.normal, difference(a.point, b.point)) == 0;
+bool LatticeHull::Plane::operator==(const Plane& other) const {
+  return normal == other.normal && dot(normal, difference(point, other.point)) == 0;
 }
 
 LatticeHull::LatticeHull(std::span<const VoxelIndex> points) {

@@ -3,6 +3,8 @@
 #include <map/ray_marker.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 
+#include "geometry/face_crossings.hpp"
+
 namespace vantage {
 
 RayMarker::RayMarker(const VoxelFrame& frame, const Eigen::Vector3d& origin, ScanMarks& marks)
@@ -30,7 +32,7 @@ void RayMarker::start(std::size_t lane, const DrawnRay& ray) {
   std::array<FaceCrossings, 3> faces;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
-    faces[axis] = FaceCrossings::between(origin_[i], ray.end[i], first[axis], last[axis], frame_.size_m);
+    faces[axis] = detail::crossings_between(origin_[i], ray.end[i], first[axis], last[axis], frame_.size_m);
   }
   const bool from_origin = ray.faces_before == 0;
   const std::int64_t start_time =

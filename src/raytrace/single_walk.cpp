@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <raytrace/single_walk.hpp>
 
+#include "geometry/face_crossings.hpp"
+
 namespace vantage {
 
 SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& first,
@@ -10,7 +12,7 @@ SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& from, con
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     sign_[axis] = end[axis] >= cell_[axis] ? 1 : -1;
-    faces_[axis] = FaceCrossings::between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
+    faces_[axis] = detail::crossings_between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
   }
 }
 

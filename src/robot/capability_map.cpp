@@ -151,11 +151,11 @@ std::size_t CapabilityMap::reachable_cells() const {
   return count;
 }
 
-bool operator==(const CapabilityMap& a, const CapabilityMap& b) {
+bool CapabilityMap::operator==(const CapabilityMap& other) const {
   const auto options = [](const CapabilityMapOptions& o) {
     return std::tie(o.cell_m, o.direction_bins_per_edge, o.samples, o.seed);
   };
-  return options(a.options_) == options(b.options_) && a.cells_ == b.cells_ && a.bits_ == b.bits_;
+  return options(options_) == options(other.options_) && cells_ == other.cells_ && bits_ == other.bits_;
 }
 
 }  // namespace vantage

@@ -54,6 +54,8 @@ class EdgeFilter {
 
 }  // namespace
 
+double DepthNoise::sigma_m(double z_m) const { return constant_m + z_m * (linear + z_m * quadratic_per_m); }
+
 double DepthNoise::range_for(double sigma_m) const {
   if (constant_m > sigma_m) {
     return 0.0;

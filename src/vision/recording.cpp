@@ -103,11 +103,11 @@ Recording RecordingReader::finish(DepthCamera camera, bool sized) {
     throw std::runtime_error(folder_.string() + ": none of its images can be read; the first: " + unread);
   }
   if (options_.intrinsics) {
-    const Eigen::Vector4d& given = *options_.intrinsics;
-    camera.fx = given[0];
-    camera.fy = given[1];
-    camera.cx = given[2];
-    camera.cy = given[3];
+    const auto& [fx, fy, cx, cy] = *options_.intrinsics;
+    camera.fx = fx;
+    camera.fy = fy;
+    camera.cx = cx;
+    camera.cy = cy;
   }
   camera.max_range_m = options_.max_range_m.value_or(camera.max_range_m);
   camera.min_range_m = options_.min_range_m.value_or(camera.min_range_m);

@@ -4,19 +4,22 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace {
 
-// Prints, after the usual table, how many times as much processor time the peer took in the same run: for every
-// benchmark with a part of ours in its name, each peer's that differs in that part alone. Of repetitions, the least
-// time counts on both sides: what disturbs a run only ever adds to it.
-class RatioReporter : public benchmark::ConsoleReporter {
+// Reports in the format that was asked for (--benchmark_format), and prints to stderr, at the end, how many times as
+// much processor time the peer took in the same run: for every benchmark with a part of ours in its name, each peer's
+// that differs in that part alone. Of repetitions, the least time counts on both sides: what disturbs a run only ever
+// adds to it.
+class RatioReporter : public benchmark::BenchmarkReporter {
  public:
+  bool ReportContext(const Context& context) override { return format_->ReportContext(context); }
   void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
+    format_->ReportRuns(runs);
     for (const Run& run : runs) {
       failed_ = failed_ || run.error_occurred;
       if (run.run_type == Run::RT_Iteration && !run.error_occurred) {
@@ -27,6 +30,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
     }
   }
   void Finalize() override {
+    format_->Finalize();
     for (const std::string& ours : names_) {
       for (const auto& [our_part, peers] : kPeers) {
         const std::size_t at = ours.find(our_part);
@@ -34,8 +38,8 @@ class RatioReporter : public benchmark::ConsoleReporter {
           const auto theirs = least_times_.find(
               at == std::string::npos ? std::string() : std::string(ours).replace(at, our_part.size(), peer));
           if (theirs != least_times_.end()) {
-            std::printf("%-60s %8.1f x\n", (theirs->first + " : " + std::string(our_part.substr(1))).c_str(),
-                        theirs->second / least_times_.at(ours));
+            std::fprintf(stderr, "%-60s %8.1f x\n", (theirs->first + " : " + std::string(our_part.substr(1))).c_str(),
+                         theirs->second / least_times_.at(ours));
           }
         }
       }
@@ -69,6 +73,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
     }
   }
 
+  std::unique_ptr<benchmark::BenchmarkReporter> format_{benchmark::CreateDefaultDisplayReporter()};
   std::map<std::string, double> least_times_;
   std::vector<std::string> names_;  // in the order of the run
   bool failed_ = false;

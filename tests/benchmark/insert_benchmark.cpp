@@ -45,7 +45,7 @@ void insert_vantage(benchmark::State& state, const Case& c) {
 // there.
 void insert_octomap(benchmark::State& state, const Case& c) {
   octomap::Pointcloud cloud;
-  const Eigen::Isometry3d& pose = c.scan.world_from_sensor;
+  const Pose& pose = c.scan.world_from_sensor;
   for (const Eigen::Vector3f& point : c.scan.points) {
     const Eigen::Vector3f p = (pose * point.cast<double>()).cast<float>();
     cloud.push_back(p.x(), p.y(), p.z());

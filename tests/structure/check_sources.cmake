@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -D ROOT=<source tree> -D HEADERS=<installed headers> -D COMPONENTS=<what is built> -P check_sources.cmake
 # Every file of ours names its licence, every header is guarded and installed, and no file is longer than one can read: 300 lines for a header, 400 for a source.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22...3.25)
 
 set(faults)
 set(core_folders geometry map frontier field raytrace robot view planner)
@@ -32,6 +32,9 @@ foreach(file IN LISTS files)
   if(file MATCHES "^include/(vantage/([a-z]+)/.*\\.hpp)$")
     set(header "${CMAKE_MATCH_1}")
     set(folder "${CMAKE_MATCH_2}")
+    if(NOT text MATCHES "\nnamespace VANTAGE_EXPORT vantage {\n")
+      list(APPEND faults "${file}: no `namespace VANTAGE_EXPORT vantage`, so a shared library hides its names")
+    endif()
     if(folder IN_LIST built_folders AND NOT header IN_LIST HEADERS)
       list(APPEND faults "${file}: in no component's HEADERS, so nobody gets it installed")
     endif()

@@ -7,16 +7,17 @@
 #include <optional>
 #include <span>
 #include <vantage/arm/kinematic_chain.hpp>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/robot/capability_map.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vector>
 
-namespace vantage {
-
-namespace detail {
+namespace vantage::detail {
 class ClearSpace;
 }
+
+namespace VANTAGE_EXPORT vantage {
 
 /// Where an Arm stands and how it moves.
 struct ArmOptions {

@@ -9,11 +9,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/robot/capability_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Values of the joints of a chain, from the base outwards: radians, or metres where a joint slides.
 using Joints = std::vector<double>;

@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vantage/compiler.hpp>
 #include <vantage/robot/platform.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How an RrtPlatform searches.
 struct RrtOptions {

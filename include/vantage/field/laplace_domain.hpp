@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The cells of a boundary value problem (see LaplaceProblem) as bit planes in sparse bricks of 16 x 8 x 8 cells.
 ///

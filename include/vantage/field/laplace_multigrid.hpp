@@ -6,13 +6,14 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_domain.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Options of LaplaceMultigrid.
 struct MultigridOptions {

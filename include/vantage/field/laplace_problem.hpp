@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a cell of a LaplaceProblem is held to.
 enum class LaplaceCell : std::uint8_t {

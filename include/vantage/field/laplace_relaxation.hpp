@@ -7,10 +7,11 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How a closed face enters the difference equation of its cell.
 enum class NeumannScheme : std::uint8_t {

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The open neighbour that lies lowest, if it lies strictly lower than the cell itself; the first in the order of
 /// kFaceNeighbours among equals. `phi` is by position in the problem, here and below.

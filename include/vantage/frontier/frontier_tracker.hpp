@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/voxel_clusters.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The frontier cells of a map and their clusters, kept up to date from the map's change log.
 ///

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/void_clusters.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Which cells of the frontier clusters that neighbour a void are looked through into it.
 enum class FrontierShare : std::uint8_t {

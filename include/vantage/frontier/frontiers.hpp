@@ -3,11 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel_clusters.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One bit per cell of a brick, in the order of the planes of Brick.
 using BrickPlane = std::array<std::uint64_t, Brick::kWords>;

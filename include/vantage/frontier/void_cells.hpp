@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/convex_hull.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The convex hull of the centres of the map's occupied cells, in units of cells: the centre of cell (x, y, z) is the
 /// point (x, y, z), so the coordinates are exact.

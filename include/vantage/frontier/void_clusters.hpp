@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How well an ellipsoid stands for the void cells of a cluster, Dornhege & Kleiner 2011, eq. 2.
 enum class FitScore : std::uint8_t {

@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/lattice_hull.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The void cells of a map, kept up to date from what changed in it alone (Dornhege & Kleiner 2011, IV-B).
 ///

@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <vantage/compiler.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// An axis-aligned box in metres, half-open: it holds `min` and not `max`. A default box is empty.
 struct Box {

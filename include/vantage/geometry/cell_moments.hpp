@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/voxel.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Centroid and covariance of a body made of cells, kept while it grows or shrinks (Dornhege & Kleiner 2011, eq. 1).
 ///
@@ -44,7 +45,8 @@ class CellMoments {
   VoxelIndex origin_;
   std::int64_t size_ = 0;
   Eigen::Matrix<std::int64_t, 3, 1> sum_ = Eigen::Matrix<std::int64_t, 3, 1>::Zero();
-  Eigen::Matrix<std::int64_t, 6, 1> products_ = Eigen::Matrix<std::int64_t, 6, 1>::Zero();  // xx yy zz xy xz yz
+  // xx yy zz xy xz yz
+  Eigen::Matrix<std::int64_t, 6, 1, Eigen::DontAlign> products_ = Eigen::Matrix<std::int64_t, 6, 1>::Zero();
 };
 
 }  // namespace vantage

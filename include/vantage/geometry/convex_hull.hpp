@@ -3,9 +3,10 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The smallest convex body that holds a set of points, by Quickhull (Barber, Dobkin & Huhdanpaa 1996).
 class ConvexHull {
@@ -16,9 +17,6 @@ class ConvexHull {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     /// Signed distance of the origin from the plane, metres.
     double offset = 0.0;
-
-    /// Signed distance of a point from the plane, metres.
-    [[nodiscard]] double distance(const Eigen::Vector3d& point) const { return normal.dot(point) + offset; }
   };
 
   /// An empty hull, which holds nothing.

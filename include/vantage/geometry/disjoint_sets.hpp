@@ -5,9 +5,10 @@
 #include <limits>
 #include <numeric>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The partition of 0 .. size - 1 into sets that only ever merge (Tarjan 1975): union by size, paths halved on the
 /// way, so a call costs next to nothing however many came before.

@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
 #include <numbers>
+#include <vantage/compiler.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A solid ellipsoid.
 struct Ellipsoid {
@@ -17,22 +17,9 @@ struct Ellipsoid {
   /// Volume, cubic metres.
   [[nodiscard]] double volume_m3() const { return 4.0 / 3.0 * std::numbers::pi * semi_axes_m.prod(); }
   /// Whether a point is inside or on the surface.
-  [[nodiscard]] bool contains(const Eigen::Vector3d& point_m) const {
-    const Eigen::Vector3d along = axes.transpose() * (point_m - centre_m);
-    return along.cwiseQuotient(semi_axes_m).squaredNorm() <= 1.0;
-  }
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point_m) const;
   /// The centre and the six ends of the axes: `corners(v)` of Dornhege & Kleiner 2011, IV-C.
-  [[nodiscard]] std::array<Eigen::Vector3d, 7> corners() const {
-    std::array<Eigen::Vector3d, 7> all;
-    all[0] = centre_m;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<Eigen::Index>(axis);
-      const Eigen::Vector3d reach = semi_axes_m[i] * axes.col(i);
-      all[1 + 2 * axis] = centre_m + reach;
-      all[2 + 2 * axis] = centre_m - reach;
-    }
-    return all;
-  }
+  [[nodiscard]] std::array<Eigen::Vector3d, 7> corners() const;
 };
 
 }  // namespace vantage

@@ -4,11 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/convex_hull.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The convex hull of cells' centres that grows with them: cell (x, y, z) is the point (x, y, z). All is decided in
 /// integers, so that no order of cells and no wall of cells in one plane can make it differ from the hull of all.
@@ -26,7 +27,7 @@ class LatticeHull {
     /// The same in metres where a cell is one metre wide.
     [[nodiscard]] ConvexHull::Plane plane() const;
     /// The same plane, whatever point it is given by.
-    friend bool operator==(const Plane& a, const Plane& b);
+    [[nodiscard]] bool operator==(const Plane& other) const;
   };
 
   /// An empty hull, which holds nothing.

@@ -2,15 +2,20 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vantage/compiler.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A rigid transform, named `a_from_b`: it takes coordinates in frame b to coordinates in frame a, in metres.
 ///
 /// The frames of this library: **world** has +z up; **sensor** has +z forward along the optical axis, +x right and
 /// +y down in the image (Vasquez-Gomez et al. 2013, V-B, and every camera driver). A planner speaks of the pose of
 /// the sensor, `world_from_sensor`; a host with another body frame multiplies by its own mounting transform.
-using Pose = Eigen::Isometry3d;
+///
+/// Unaligned: an `Eigen::Isometry3d` is as aligned as the instruction set that a file is compiled for, so a struct
+/// that holds one differs between a host built with `-march=native` and this library. The two convert into each
+/// other.
+using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 /// The sensor at `position_m`, looking level along `yaw_rad` (0 = world +x, counter-clockwise seen from above), then
 /// tilted up by `pitch_rad` (positive looks up). No roll: the image's x axis stays horizontal.

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <tuple>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The order in which lists of cells are given: by z, then y, then x, as `for_each_cell` visits a box.
 struct RasterOrder {

@@ -8,9 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The integer address of one cell: cell (x, y, z) covers [x r, (x + 1) r) on each axis, as OctoMap aligns its own.
 struct VoxelIndex {

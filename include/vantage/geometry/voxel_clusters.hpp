@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Which cells count as neighbours: those that share a face, those and the ones that share an edge, or all 26.
 enum class Connectivity : std::uint8_t { Face6, Edge18, Corner26 };

@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A dense array over a box of cells, x running fastest: the slow, obvious counterpart of every sparse structure
 /// here, and the work space of algorithms whose domain is small.

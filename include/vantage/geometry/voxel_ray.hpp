@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// When a segment crosses the faces between cells across one axis: at `next`, and every `delta` from there, where
 /// kEnd is the time of its end. Faces up to the cell of its end are crossed up to kEnd, all others after it.
@@ -25,22 +25,7 @@ struct FaceCrossings {
   /// Later than any face a walk meets.
   static constexpr std::int64_t kNever = std::int64_t{1} << 62U;
 
-  /// For the coordinates of a segment from `from`, in cell `first`, to `to`, in cell `last`, of cells of `size_m`.
-  [[nodiscard]] static FaceCrossings between(double from, double to, std::int32_t first, std::int32_t last,
-                                             double size_m) {
-    if (first == last) {
-      return {kNever, 0};
-    }
-    constexpr auto kUnit = static_cast<double>(kEnd);
-    const double per_metre = std::min(kUnit / std::abs(to - from), 1e200);
-    const bool up = last > first;
-    const double face_m = (first + (up ? 1 : 0)) * size_m;
-    const double next = (up ? face_m - from : from - face_m) * per_metre;
-    const FaceCrossings crossings{static_cast<std::int64_t>(std::clamp(next, 0.0, kUnit)),
-                                  static_cast<std::int64_t>(std::min(size_m * per_metre, 2.0 * kUnit))};
-    return crossings.ending_after(std::abs(last - first));
-  }
-  /// The same where the first `faces` are crossed up to kEnd, and the next one is not: what rounding may have undone.
+  /// These, changed where rounding made it necessary, so that the first `faces` are crossed up to kEnd and no more.
   [[nodiscard]] FaceCrossings ending_after(std::int64_t faces) const {
     FaceCrossings crossings = *this;
     if (next + (faces - 1) * delta > kEnd) {
@@ -64,22 +49,12 @@ struct FaceCrossings {
 ///
 /// Each step crosses one face; the walk takes exactly as many steps as the two end cells differ, so rounding can
 /// never make it miss its end. Where the segment passes exactly through an edge or a corner, the lower axis steps
-/// first.
+/// first. The times are computed in the library, so the cells do not depend on the instructions that a host is built
+/// for.
 class VoxelRay {
  public:
   /// Both points must be addressable in `frame`.
-  VoxelRay(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    const VoxelIndex first = frame.cell_of(from);
-    const VoxelIndex last = frame.cell_of(to);
-    cell_ = {first.x, first.y, first.z};
-    const std::array<std::int32_t, 3> end{last.x, last.y, last.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<Eigen::Index>(axis);
-      steps_ += std::abs(end[axis] - cell_[axis]);
-      sign_[axis] = end[axis] >= cell_[axis] ? 1 : -1;
-      faces_[axis] = FaceCrossings::between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
-    }
-  }
+  VoxelRay(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
   class iterator;
 

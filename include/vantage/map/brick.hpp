@@ -5,9 +5,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/map/occupancy.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// 8 x 8 x 8 cells of an OccupancyMap: the leaf of its directory.
 ///

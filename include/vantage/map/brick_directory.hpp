@@ -7,9 +7,10 @@
 #include <deque>
 #include <limits>
 #include <unordered_map>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Where the brick of an address is stored: a sparse array of brick numbers that grows with the map and has no preset
 /// bounds. Tiles of 8 x 8 x 8 numbers hang in a hash table, so that walking from brick to brick mostly stays in a

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Which heights of a map count for a robot that drives, and where its plane lies. Cells count whose centres lie
 /// between the two heights.

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <vantage/compiler.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Which map something was made from: for whatever follows a map from call to call, and must not take another one for
 /// it. Does not keep the map.

@@ -3,8 +3,9 @@
 
 #include <memory>
 #include <utility>
+#include <vantage/compiler.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Tells a map from every other, wherever and whenever they are: each map has one of its own, a copy gets a new one,
 /// and a map that is moved takes it along. Two addresses cannot say that, for another map may come to lie at one.

@@ -4,9 +4,10 @@
 #include <concepts>
 #include <cstdint>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What the map knows of a cell. Unknown is not free.
 enum class Occupancy : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/brick.hpp>
@@ -14,7 +15,7 @@
 #include <vantage/map/scan.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The beam model of Shade & Newman 2011, eq. 11-13, with OctoMap's clamping.
 struct OccupancyMapOptions {

@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <vantage/compiler.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
 namespace octomap {
 class OcTree;
 }
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How an octree becomes an OccupancyMap.
 struct OctomapImportOptions {

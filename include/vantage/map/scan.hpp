@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <limits>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One reading of a range sensor.
 ///

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <unordered_set>
+#include <vantage/compiler.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/map/scan.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The cells that a scan updates, each once: those it hits, and those its rays pass and do not hit.
 struct ScanCells {

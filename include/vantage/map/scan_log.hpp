@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/map/scan.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The scans that a map was made of, so that it can be made again when poses turn out to have been others: a loop was
 /// closed, a scan was registered.

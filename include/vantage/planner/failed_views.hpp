@@ -5,12 +5,13 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Remembers what the sensor has looked at without resolving it, so that no planner stares forever at what its sensor
 /// cannot measure: a surface without texture, the open sky, the inside of a wall that rays at a grazing angle have

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a strategy chose: a view and the way there.
 struct ChosenView {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -12,7 +13,7 @@
 #include <vantage/robot/reachable_space.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A frontier cell that the sensor can resolve, and one place to do it from.
 struct FrontierTarget {

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <memory>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vector>
 
-namespace vantage {
-
-namespace detail {
+namespace vantage::detail {
 class SightMemory;
 }
+
+namespace VANTAGE_EXPORT vantage {
 
 /// Surveys a map again and again, as it changes.
 ///

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/planner/frontier_planner.hpp>
@@ -13,7 +14,7 @@
 #include <vantage/view/utility_vectors.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What FrontierVoidPlanner does that the paper leaves open or does otherwise; docs/frontier_void.md says what each
 /// part earns.

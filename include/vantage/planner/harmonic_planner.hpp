@@ -7,12 +7,13 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How the harmonic field is found.
 enum class FieldSolver : std::uint8_t {

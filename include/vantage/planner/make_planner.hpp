@@ -5,11 +5,12 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/planner_setup.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Options by name, as `--set key=value` gives them.
 using PlannerSettings = std::map<std::string, std::string, std::less<>>;

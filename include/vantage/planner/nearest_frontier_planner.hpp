@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vantage/compiler.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Goes to the nearest place from which some frontier is seen (Yamauchi 1997, "A Frontier-Based Approach for Autonomous
 /// Exploration"), and looks at as much of the frontier from there as comes into view.

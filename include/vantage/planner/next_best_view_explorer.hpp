@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Options of NextBestViewExplorer.
 struct NextBestViewExplorerOptions {

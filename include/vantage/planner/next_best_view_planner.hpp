@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/failed_views.hpp>
@@ -16,7 +17,7 @@
 #include <vantage/view/view_utility.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How a NextBestViewPlanner counts what a view of an object sees.
 enum class VisibilityMethod : std::uint8_t {

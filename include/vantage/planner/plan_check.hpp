@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/robot/platform.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Whether a plan that is being followed is still worth following.
 enum class PlanCheck : std::uint8_t {

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <vantage/compiler.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What every planner needs to know of the robot.
 struct PlannerSetup {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/map/scan.hpp>
@@ -14,7 +15,7 @@
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What was known after each of the views of an order, as shares of what is known after all of them.
 struct ViewOrderCurve {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/frontier_survey.hpp>
@@ -14,7 +15,7 @@
 #include <vantage/raytrace/following_caster.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a plan is made from: the map and its frontier, where the platform can go, which frontier cells can be seen
 /// from where, and which views were tried before. Owned by a planner, brought up to date once per plan; a strategy

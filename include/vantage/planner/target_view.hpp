@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/frontier_survey.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 class Situation;
 

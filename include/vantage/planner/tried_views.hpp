@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -14,7 +15,7 @@
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// When a goal counts as reached, and when evidence suffices.
 struct TriedViewsOptions {

@@ -6,10 +6,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A set of cells of a box, one bit each: what a view sees of an object. Words hold 4 x 4 x 4 cells, x running
 /// fastest, as those of Brick.

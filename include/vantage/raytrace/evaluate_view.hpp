@@ -3,13 +3,14 @@
 
 #include <cstddef>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a view sees of an object box: distinct cells (Vasquez-Gomez et al. 2013, IV-A).
 struct ViewEvaluation {

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A RayCaster and the rays of a sensor, for whoever is given a map again and again: they follow it through its
 /// changes and begin anew with another map.

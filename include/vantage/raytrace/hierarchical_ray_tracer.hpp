@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/ray_tree.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What hierarchical ray tracing counts of a view: rays, not cells, and so more than there are cells.
 struct HierarchicalCounts {
@@ -65,7 +66,10 @@ class HierarchicalRayTracer {
   std::vector<RayCaster> casters_;  // by level of the tree
 };
 
-namespace detail {
+}  // namespace vantage
+
+namespace vantage::detail {
+
 // Lines 1 to 10: the children of a ray, or of the root, in the map of their level.
 template <class Tree, class Cast, class Rays>
 void trace_rays(const Tree& tree, int level, const Rays& rays, const Cast& cast, HierarchicalCounts& counts) {
@@ -87,7 +91,10 @@ void trace_rays(const Tree& tree, int level, const Rays& rays, const Cast& cast,
     }
   }
 }
-}  // namespace detail
+
+}  // namespace vantage::detail
+
+namespace VANTAGE_EXPORT vantage {
 
 template <class Tree, class Cast>
 HierarchicalCounts trace_hierarchically(const Tree& tree, const Cast& cast) {

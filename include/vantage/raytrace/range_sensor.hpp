@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a range sensor sees: a pinhole camera, or a spherical scanner (lidar). Sensor frame: +z forward, +x right,
 /// +y down. Aggregate; `validate` is called once by everything that takes one.

@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Where a ray comes to its end.
 struct RayEnd {

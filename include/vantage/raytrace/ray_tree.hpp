@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Directions in the sensor frame, row by row.
 struct RayImage {

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <vantage/compiler.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The surface of the occupied cells as a mesh in a PLY file (binary): every face towards a cell that is not
 /// occupied, two triangles each, seen counter-clockwise from outside, corners shared, coloured by height. Metres, +z

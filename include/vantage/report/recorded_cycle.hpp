@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -10,7 +11,7 @@
 #include <vantage/report/run_record.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The cells of one brick of a map as they are after a cycle that has changed some of them.
 struct BrickState {

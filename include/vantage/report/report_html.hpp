@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One run of a page.
 struct ReportedRun {

@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/report/run_record.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The record of a run as one JSON object, indented, with a line per cycle. Its keys are a contract and never change
 /// meaning; what is not known is null. Poses are [x, y, z, qx, qy, qz, qw], world_from_sensor, with qw >= 0. The

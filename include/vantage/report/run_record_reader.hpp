@@ -6,13 +6,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/recorded_cycle.hpp>
 #include <vantage/report/run_record.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Reads what a RunRecorder wrote, cycle by cycle, also while it is still being written or after it was cut off.
 ///

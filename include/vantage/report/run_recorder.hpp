@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -13,7 +14,7 @@
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_record.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a record says of the run before its first cycle.
 struct RunRecorderSetup {

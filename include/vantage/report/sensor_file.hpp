@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vantage/compiler.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A range sensor from a JSON file: one object with the fields of RangeSensor by their own names, for instance
 ///

@@ -8,11 +8,12 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The values a joint can take, radians or metres.
 struct JointRange {
@@ -80,7 +81,7 @@ class CapabilityMap {
   [[nodiscard]] Eigen::Vector3d middle_of(std::size_t bin) const;
 
   /// The same options, cells and directions.
-  friend bool operator==(const CapabilityMap& a, const CapabilityMap& b);
+  [[nodiscard]] bool operator==(const CapabilityMap& other) const;
 
  private:
   CapabilityMap() = default;

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <limits>
+#include <vantage/compiler.hpp>
 #include <vantage/robot/platform.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The body of a FreeFlyer and how it may move.
 struct FreeFlyerOptions {

@@ -3,11 +3,12 @@
 
 #include <optional>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vantage/robot/reachable_space.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Shortest ways over the cells of a ReachableSpace. A step goes to one of the 26 neighbours and cuts no corner:
 /// every cell of the block it crosses must be reachable. Ties are settled by cell number, so the way never depends on

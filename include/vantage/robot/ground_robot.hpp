@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vantage/compiler.hpp>
 #include <vantage/robot/platform.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The body of a GroundRobot.
 struct GroundRobotOptions {

@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What carries the sensor: which poses it admits in the map as known now, how far apart two are, and how it gets
 /// from one to the other. All poses are of the sensor, `world_from_sensor`. Unknown space is never admitted.

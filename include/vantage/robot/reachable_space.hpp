@@ -4,11 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The cells to whose centres a platform can bring the sensor from where it is now: admitted cells joined face to
 /// face with the cell it starts from. Ground for every planner's decision: a robot plans in this space and in no

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -10,7 +11,7 @@
 #include <vantage/robot/platform.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// An unknown cell, and a place from which it could still be observed.
 struct ObservableCell {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/map/height_band.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -18,7 +19,7 @@
 #include <vantage/sim/world.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How a simulated exploration goes.
 struct ExplorationRunOptions {

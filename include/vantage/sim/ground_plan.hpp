@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/sim/triangle_mesh.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A floor as pixels, solid or free: the world of a robot that drives in one plane (a nav2 map, read_nav2_map).
 /// Aggregate; `validate` is called once by everything that takes one.

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/sim/triangle_mesh.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How to take the coordinates of a mesh file.
 struct MeshFileOptions {

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vantage/compiler.hpp>
 #include <vantage/sim/ground_plan.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A map as nav2's and ROS 1's map_server keep it: a YAML file with `image` (a PGM file, plain or binary, beside it),
 /// `resolution` (metres a pixel), `origin` ([x, y, yaw] of the lower left corner), `negate`, `occupied_thresh`,

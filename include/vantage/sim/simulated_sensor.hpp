@@ -3,13 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/scan.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/sim/triangle_scene.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How measurements differ from the truth. The default is a perfect sensor.
 struct SensorNoise {

@@ -4,12 +4,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Surfaces as triangles, in metres, z up. Both sides of a triangle are solid to a sensor: the winding says nothing.
 struct TriangleMesh {

@@ -4,9 +4,10 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/sim/triangle_mesh.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A mesh made ready for questions about rays and distances (a bounding volume hierarchy of Embree). Immutable: any
 /// number of threads may ask. Copies share it.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/height_band.hpp>
@@ -15,7 +16,7 @@
 #include <vantage/sim/world.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a cell of the true world holds.
 enum class CellTruth : std::uint8_t {

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <vantage/compiler.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vantage/sim/truth.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How a watchman_route is sought.
 struct WatchmanOptions {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/sim/ground_plan.hpp>
@@ -13,7 +14,7 @@
 #include <vantage/sim/triangle_mesh.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a generated world is drawn from.
 struct WorldOptions {

@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Options of aimed_views.
 struct AimedViewOptions {

@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Unit directions all around, evenly spread: the middles of the 20 * 4^subdivisions faces of an icosahedron whose
 /// faces are divided into four, again and again, and put on the sphere. Two subdivisions give the 320 directions of

@@ -3,9 +3,10 @@
 
 #include <cstddef>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How many views it takes at least to see all that they can: a number that no choice among `seen`, sets of cells of
 /// one box, falls short of whose union holds every cell of `wanted`. Cells of `wanted` that no set holds do not

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -11,7 +12,7 @@
 #include <vantage/raytrace/view_rays.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A cell that a ray passes in the box of an object.
 struct RayCell {

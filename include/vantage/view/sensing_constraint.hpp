@@ -5,12 +5,13 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The sensing constraint of Vasquez-Gomez et al. 2013, II-C: takes from the cells that a view sees, from this pose,
 /// those that its sensor would not measure. Any function will do. Must be safe to call from several threads.

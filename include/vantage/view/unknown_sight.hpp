@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -10,7 +11,7 @@
 #include <vantage/raytrace/view_rays.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What the unknown is thought to be like.
 struct UnknownSightOptions {

@@ -5,12 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/robot/reachable_space.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A line along which a void may be looked into: `uv = (vp, dir, u)` of Dornhege & Kleiner 2011, Algorithm 1.
 struct UtilityVector {

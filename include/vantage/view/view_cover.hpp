@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Few views that together see what all of them see: numbers of sets of cells of one box, chosen one after the other,
 /// each the one that adds the most cells not yet seen (the greedy set cover, Chvatal 1979; ties to the lower number),

@@ -4,11 +4,12 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// The factors of `u(v) = pos(v) reg(v) sur(v) dist(v)`, the utility of a view (Vasquez-Gomez et al. 2013, eq. 1).
 /// Each may be replaced by one of your own; what is not given is 1. They are asked in the order below, as a cascade:

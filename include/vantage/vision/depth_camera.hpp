@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <limits>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/scan.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/vision/depth_image.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How uncertain a distance is: sigma(z) = constant + linear z + quadratic z^2, one standard deviation, metres.
 ///
@@ -20,7 +21,7 @@ struct DepthNoise {
   double quadratic_per_m = 0.0;  ///< per square metre of distance, >= 0
 
   /// Standard deviation at a distance, metres.
-  [[nodiscard]] double sigma_m(double z_m) const { return constant_m + z_m * (linear + z_m * quadratic_per_m); }
+  [[nodiscard]] double sigma_m(double z_m) const;
   /// The largest distance with at most this standard deviation, metres: 0 if there is none, infinity if all have.
   [[nodiscard]] double range_for(double sigma_m) const;
 };

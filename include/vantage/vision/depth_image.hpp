@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <vantage/compiler.hpp>
 #include <vantage/vision/picture.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// Distances along the optical axis: rows from the top, pixels from the left.
 struct DepthImage {

@@ -5,12 +5,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/vision/picture.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A potential over cells and what belongs to it. Spans must outlive the call only.
 struct FieldContent {

@@ -4,13 +4,14 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/vision/picture.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a floor plan shows besides the map.
 struct FloorPlanContent {

@@ -5,12 +5,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/vision/picture.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A map at one moment of its growth.
 struct GrowthMoment {

@@ -5,10 +5,11 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vantage/compiler.hpp>
 #include <vantage/vision/picture.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One curve of a LinePlot: points in order, NaN where there is none.
 struct LineSeries {

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vantage/compiler.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// A colour picture: rows from the top, pixels from the left, three bytes each (red, green, blue).
 struct Picture {

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/vision/depth_camera.hpp>
 #include <vantage/vision/depth_image.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One moment of a recording: where the sensor was, and the files of what it saw.
 struct RecordedFrame {
@@ -35,7 +37,7 @@ struct RecordingOptions {
   std::optional<double> max_range_m = std::nullopt;  ///< see DepthCamera::max_range_m
   std::optional<double> min_range_m = std::nullopt;  ///< see DepthCamera::min_range_m
   /// fx, fy, cx, cy of the depth images, pixels: for formats whose files do not tell (tum).
-  std::optional<Eigen::Vector4d> intrinsics = std::nullopt;
+  std::optional<std::array<double, 4>> intrinsics = std::nullopt;
   double max_stamp_gap_s = 0.02;  ///< time stamps further apart than this have nothing to do with each other, > 0
   double cell_m =
       0.1;  ///< cells of the map to be made, metres: stereo is trusted as far as it lands in the right one

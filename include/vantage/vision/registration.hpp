@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/scan.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How scans are aligned, and when the result is to be believed.
 struct RegistrationOptions {
@@ -31,7 +32,7 @@ struct Registration {
   double rms_m = 0.0;                             ///< distance of those from the planes of their partners
   /// Of a small turn and shift of the scan in the world (rotation vector, then translation, about the scan's middle),
   /// radians and metres, from how well its points hold it: large along what slides.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Aligns points to other points of the world (Dornhege & Kleiner 2011, IV, step 2), by OpenCV's point-to-plane ICP,

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <vantage/compiler.hpp>
 #include <vantage/vision/depth_camera.hpp>
 #include <vantage/vision/depth_image.hpp>
 #include <vantage/vision/stereo_rig.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// How left and right pixels are matched.
 enum class StereoMethod : std::uint8_t {

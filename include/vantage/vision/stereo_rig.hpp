@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vector>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// One camera of an unrectified pair.
 struct LensModel {

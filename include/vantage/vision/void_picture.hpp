@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/pose.hpp>
@@ -13,7 +14,7 @@
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/vision/picture.hpp>
 
-namespace vantage {
+namespace VANTAGE_EXPORT vantage {
 
 /// What a search of voids found and chose. Spans must outlive the call only.
 struct VoidContent {

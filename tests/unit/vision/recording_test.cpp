@@ -140,8 +140,8 @@ TEST_F(TumFolder, JoinsTheNearestStampsAndNamesThoseWithoutPartner) {
 }
 
 TEST_F(TumFolder, TakesTheIntrinsicsOfIclNuim) {
-  const Recording recording = Recording::open(
-      "tum", folder_ / ".", {.max_range_m = 3.0, .intrinsics = Eigen::Vector4d(481.2, -480.0, 3.5, 2.5)});
+  const Recording recording =
+      Recording::open("tum", folder_ / ".", {.max_range_m = 3.0, .intrinsics = {{481.2, -480.0, 3.5, 2.5}}});
   const Scan scan = recording.read(0).scan.scan;
   EXPECT_GT(scan.points.front().y(), 0.0F) << "the first row is the uppermost, and y points up";
   EXPECT_GT(recording.sensor().fy, 0.0);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/geometry/convex_hull.hpp>
+
+namespace vantage::detail {
+
+/// Signed distance of a point from a facet's plane, metres: negative inside.
+[[nodiscard]] inline double distance_from(const ConvexHull::Plane& plane, const Eigen::Vector3d& point) {
+  return plane.normal.dot(point) + plane.offset;
+}
+
+}  // namespace vantage::detail
