@@ -46,7 +46,9 @@ Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
     plan.statistics.path_ms += watch.lap_ms();
     TargetView& view = choice->view;
     if (!path) {
-      situation_.drop(map.frame().cell_of(view.view.pose.translation()));
+      if (!situation_.drop(view)) {
+        return plan;
+      }
       continue;
     }
     plan.outcome = Outcome::Move;

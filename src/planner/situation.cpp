@@ -208,8 +208,12 @@ std::optional<VoxelIndex> Situation::place_cut_off() const {
   return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
 }
 
-void Situation::drop(const VoxelIndex& viewpoint) {
-  std::erase_if(survey_.targets, [&](const FrontierTarget& target) { return target.viewpoint == viewpoint; });
+bool Situation::drop(const TargetView& view) {
+  const VoxelIndex place = map_->frame().cell_of(view.view.pose.translation());
+  return std::erase_if(survey_.targets, [&](const FrontierTarget& target) {
+           return target.viewpoint == place ||
+                  std::find(view.unknown.begin(), view.unknown.end(), target.unknown) != view.unknown.end();
+         }) > 0;
 }
 
 void Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {

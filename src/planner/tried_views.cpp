@@ -49,6 +49,11 @@ double angle_rad(const Pose& a, const Pose& b) {
   return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
 }
 
+// In metres and radians.
+double off_by(const Pose& goal, const Pose& pose) {
+  return (goal.translation() - pose.translation()).norm() + angle_rad(goal, pose);
+}
+
 }  // namespace
 
 TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
@@ -91,6 +96,12 @@ TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
 bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
   const bool same_map = map_.is(map);
   if (same_map && reviewed_ == map.revision()) {
+    if (expected_ && reported_ == GoalResult::Failed) {  // needs no scan to be known
+      fail(map.frame().cell_of(expected_->goal.translation()));
+      expected_.reset();
+      reported_.reset();
+      rest_now();
+    }
     return false;
   }
   if (!same_map) {
@@ -167,7 +178,9 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
       std::for_each(hoped.begin(), hoped.end(), look);
     }
   } else {
-    if (place_of(goal).no_nearer >= 2) {
+    // A way can be told only once a plan is made, so the last stretch is judged by how far off the robot is.
+    const bool nearer = off_by(expected_->goal, current) < off_by(expected_->goal, scanned_from_.back()) - kNearerM;
+    if (const int no_nearer = place_of(goal).no_nearer; no_nearer >= 2 || (no_nearer == 1 && !nearer)) {
       fail(goal);
     }
     return;  // under way

@@ -88,9 +88,6 @@ void PrintTo(const Setting& setting, std::ostream* out) {  // NOLINT(readability
   *out << setting.planner << (setting.narrow ? ", camera" : ", all round");
 }
 
-/// Every frontier cell counts here, however small its cluster and whatever it was before.
-const PlannerSettings kEveryCell{{"min_contested_cluster_cells", "1"}, {"worn_frontiers", "true"}};
-
 /// One robot in one world, driven by the simplest host there can be.
 class Robot {
  public:
@@ -133,7 +130,7 @@ class PlannerContract : public ::testing::TestWithParam<Setting> {
     for (const Furniture furniture : {Furniture::Rooms, Furniture::Pillars, Furniture::Boxes}) {
       for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
         Robot robot(GetParam(), furniture, seed);
-        const auto planner = make_planner(GetParam().planner, robot.setup(), kEveryCell);
+        const auto planner = make_planner(GetParam().planner, robot.setup());
         std::size_t views = 0;
         for (; views < kMaxViews; ++views) {
           const Plan plan = planner->plan(robot.map(), robot.pose());
@@ -190,7 +187,7 @@ TEST_P(PlannerContract, ItSaysExploredExactlyWhenNothingObservableIsLeft) {
 TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedTheMap) {
   const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan& plan) {
     EXPECT_TRUE(
-        same(plan, make_planner(GetParam().planner, robot.setup(), kEveryCell)->plan(robot.map(), robot.pose())));
+        same(plan, make_planner(GetParam().planner, robot.setup())->plan(robot.map(), robot.pose())));
   });
   EXPECT_GE(plans, 3U * kSeeds * 2U);
 }
@@ -200,7 +197,7 @@ TEST_P(PlannerContract, PlanningTwiceAndOnMoreThreadsChangesNothing) {
     EXPECT_TRUE(same(plan, planner.plan(robot.map(), robot.pose())));
     const OccupancyMap::Revision before = robot.map().revision();
     EXPECT_TRUE(
-        same(plan, make_planner(GetParam().planner, robot.setup(2), kEveryCell)->plan(robot.map(), robot.pose())));
+        same(plan, make_planner(GetParam().planner, robot.setup(2))->plan(robot.map(), robot.pose())));
     EXPECT_EQ(robot.map().revision(), before);
   });
   EXPECT_GE(plans, 3U * kSeeds * 2U);
@@ -211,10 +208,10 @@ TEST_P(PlannerContract, ItFollowsTheMapAndNotItsAddress) {
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     Robot robot(GetParam(), Furniture::Rooms, seed);
     Robot elsewhere(GetParam(), Furniture::Boxes, seed);
-    const auto planner = make_planner(GetParam().planner, robot.setup(), kEveryCell);
+    const auto planner = make_planner(GetParam().planner, robot.setup());
     const auto plans_as_one_made_now = [&](const OccupancyMap& map, const Pose& pose) {
       const Plan plan = planner->plan(map, pose);
-      EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup(), kEveryCell)->plan(map, pose)));
+      EXPECT_TRUE(same(plan, make_planner(GetParam().planner, robot.setup())->plan(map, pose)));
       ++plans;
       return plan;
     };
@@ -238,15 +235,42 @@ TEST_P(PlannerContract, ItFollowsTheMapAndNotItsAddress) {
 
 TEST_P(PlannerContract, RefusesAPoseThatIsNone) {
   const Robot robot(GetParam(), Furniture::Boxes, 1);
-  const auto planner = make_planner(GetParam().planner, robot.setup(), kEveryCell);
+  const auto planner = make_planner(GetParam().planner, robot.setup());
   Pose bad = robot.pose();
   bad.linear() *= 2.0;
   EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
   bad = robot.pose();
   bad.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
-  bad.translation().x() = 1e6;
+  bad.translation().x() = std::numeric_limits<double>::infinity();
   EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
+  bad = robot.pose();
+  bad.linear().col(0) *= 1.0 + 2e-3;
+  EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
+}
+
+// A few centimetres beyond the region or the wall, far away, a rotation written with four digits: all of it happens to
+// robots, and none of it may stop one.
+TEST_P(PlannerContract, AnyPoseThatARobotMayHaveGivesAPlan) {
+  const Robot robot(GetParam(), Furniture::Boxes, 1);
+  std::size_t plans = 0;
+  const auto outcome_at = [&](const Pose& pose) {
+    const Plan plan = make_planner(GetParam().planner, robot.setup())->plan(robot.map(), pose);
+    EXPECT_FALSE(plan.reason.empty());
+    EXPECT_EQ(plan.outcome == Outcome::Move, !plan.path.empty());
+    ++plans;
+    return plan.outcome;
+  };
+  Pose pose = robot.pose();
+  pose.matrix() = (1e4 * pose.matrix()).array().round() / 1e4;
+  ASSERT_FALSE(is_rigid(pose));
+  EXPECT_EQ(outcome_at(pose), Outcome::Move);
+  for (const double x_m : {-0.05, 0.05, -1.0, 3.7, -1e4, 1e6, -1e12, 1e300}) {
+    pose = robot.pose();
+    pose.translation().x() = x_m;
+    EXPECT_EQ(outcome_at(pose), Outcome::Blocked) << x_m;
+  }
+  EXPECT_EQ(plans, 9U);
 }
 
 TEST_P(PlannerContract, SaysWhyItIsBlockedWhenThePlatformCannotMove) {
@@ -291,8 +315,8 @@ TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {
   EXPECT_NE(message("frontier-gain", {{"hypotheses", "many"}}).find("must be a whole number"), std::string::npos);
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "0"}}), "FrontierGainOptions::hypotheses is 0, must be >= 1");
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "30"}, {"cost_per_m", "2.5"}}), "");
-  EXPECT_EQ(message("frontier-void", {{"travelling", "true"}, {"near_views", "5"}}), "");
-  EXPECT_NE(message("frontier-void", {{"travelling", "true"}, {"faithful", "true"}}).find("exclude each other"),
+  EXPECT_EQ(message("frontier-void", {{"mode", "travelling"}, {"views", "5"}}), "");
+  EXPECT_NE(message("frontier-void", {{"mode", "hasty"}}).find("must be one of default, faithful, travelling, searching"),
             std::string::npos);
   EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), nullptr, 1, 1}), std::invalid_argument);
   EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), std::make_shared<FreeFlyer>(), 1, 0}),

@@ -29,12 +29,8 @@ struct SurveyedWorld {
   RangeSensor sensor;
   Pose current;
   double furthest_m;  // that anything is looked at from
-  FrontierSurveyOptions options{.min_cluster_cells = 1,
-                                .min_contested_cluster_cells = 1,
-                                .surfaces_first = false,
-                                .sight_directions = kDirections,
-                                .exhaustive_pairs = 10'000};
-  FailedViews failed{};
+  FrontierSurveyOptions options{.sight_directions = kDirections};
+  TriedViews tried{sensor};
 };
 
 // Rooms, walls between them, worn walls, and holes in what is known.
@@ -71,6 +67,7 @@ SurveyedWorld random_world(std::mt19937& engine) {
   const double resolution_m = engine() % 2 == 0 ? 0.1 : 0.05;
   const double far_m = (engine() % 4 == 0 ? 1000.0 : static_cast<double>(5 + engine() % 30)) * resolution_m;
   RangeSensor sensor = RangeSensor::spherical(90, 60, 1.2, 1.0, 2.0 * resolution_m, far_m);
+  sensor.reports_no_return = true;
   const OccupancyMap map = random_rooms(engine, resolution_m);
   const double across_m = map.frame().box_of(map.bounds()).extent().norm() + resolution_m;
   return {map, FreeFlyer({.radius_m = (engine() % 2 == 0 ? 0.4 : 1.6) * resolution_m, .yaw_only = engine() % 3 == 0}),
@@ -92,7 +89,8 @@ bool serves(const SurveyedWorld& world, const VoxelIndex& viewpoint, const Voxel
   const Eigen::Vector3d line = world.map.frame().centre_of(unknown) - from;
   std::uint64_t operations = 0;
   return line.norm() >= world.sensor.min_range_m && line.norm() <= world.sensor.max_range_m &&
-         in_plain_sight(world.map, from, unknown, operations) && !world.failed.failed_from(unknown, viewpoint) &&
+         in_plain_sight(world.map, from, unknown, operations) && !world.tried.tried_from(unknown, viewpoint) &&
+         !world.tried.rests(viewpoint) &&
          (world.flyer.can_tilt() || world.sensor.in_view(world.flyer.facing(from, line).linear().transpose() * line));
 }
 
@@ -115,13 +113,10 @@ std::optional<VoxelIndex> along(const SurveyedWorld& world, const ReachableSpace
 std::optional<FrontierTarget> target_of(const SurveyedWorld& world, const ReachableSpace& reachable,
                                         const VoxelIndex& frontier) {
   static const std::vector<Eigen::Vector3d> all_around = directions(kDirections);
-  if (world.map.worn(frontier) && !world.options.worn_frontiers) {
-    return std::nullopt;
-  }
   for (const VoxelIndex& step : kFaceNeighbours) {
     const VoxelIndex unknown = frontier + step;
     if (!world.map.in_region(unknown) || world.map.at(unknown) != Occupancy::Unknown ||
-        world.failed.gave_up(unknown)) {
+        world.tried.gave_up(unknown)) {
       continue;
     }
     if (const auto straight = along(world, reachable, unknown, Eigen::Vector3d(-step.x, -step.y, -step.z))) {
@@ -146,37 +141,39 @@ bool body_comes_near(const SurveyedWorld& world, const ReachableSpace& reachable
   return near;
 }
 
-// Lets views from some of the viewpoints found fail, of all the cells that were to be seen from there; and some
-// twice.
-void fail_some(SurveyedWorld& world, const FrontierSurvey& survey) {
+// Lets views from some of the viewpoints found be in vain, of all the cells that were to be seen from there; and some
+// twice. Some places are not reached at all.
+void look_in_vain(SurveyedWorld& world, const FrontierSurvey& survey) {
   std::map<VoxelIndex, std::vector<VoxelIndex>> sought;
   for (const FrontierTarget& target : survey.targets) {
     sought[target.viewpoint].push_back(target.unknown);
   }
+  world.tried.review(world.map, world.current);
   std::size_t number = 0;
   for (const auto& [viewpoint, cells] : sought) {
-    if (++number % (1 + sought.size() / 20) == 0) {
-      for (const VoxelIndex& from : {viewpoint, sought.begin()->first}) {
-        const Pose goal = pose_looking(world.map.frame().centre_of(from), 0.0);
-        world.failed.expect(world.map, goal, cells);
-        world.map.confirm();
-        world.failed.review(world.map, goal);
+    if (++number % (1 + sought.size() / 20) != 0) {
+      continue;
+    }
+    for (const VoxelIndex& from : {viewpoint, sought.begin()->first}) {
+      for (const VoxelIndex& cell : cells) {
+        world.tried.in_vain(world.map, cell, from);
       }
     }
+    const Pose goal = pose_looking(world.map.frame().centre_of(viewpoint), 0.0);
+    world.tried.expect(world.map, goal, 1.0, cells);
+    world.tried.report(number % 8 == 0 ? GoalResult::Failed : GoalResult::Reached);
+    world.map.confirm();
+    world.tried.review(world.map, goal);
   }
 }
 
-// Lets every seventh of the frontier cells found become a surface and wear away again; how many.
-std::size_t wear_some(SurveyedWorld& world, const FrontierSurvey& survey) {
-  std::size_t worn = 0;
-  for (std::size_t i = 0; i < survey.targets.size(); i += 7) {
-    const VoxelIndex& cell = survey.targets[i].frontier;
-    const double log_odds = world.map.log_odds(cell).value();
-    world.map.set_log_odds(cell, 3.0);
-    world.map.set_log_odds(cell, log_odds);
-    ++worn;
-  }
-  return worn;
+// Whether it is the looks in vain that leave nothing to seek there.
+bool was_given_up(const SurveyedWorld& world, const VoxelIndex& frontier) {
+  return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+    const VoxelIndex unknown = frontier + step;
+    return world.map.in_region(unknown) && world.map.at(unknown) == Occupancy::Unknown &&
+           world.tried.gave_up(unknown);
+  });
 }
 
 TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
@@ -184,18 +181,16 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   std::size_t compared = 0;
   std::size_t targets = 0;
   std::size_t hidden = 0;
-  std::size_t failed = 0;
-  std::size_t worn = 0;
+  std::size_t given_up = 0;
+  std::size_t resting = 0;
   for (int i = 0; i < 40; ++i) {
     SurveyedWorld world = random_world(engine);
     const auto survey_of = [&] {
-      return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.failed);
+      return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
     };
-    worn += wear_some(world, survey_of());
-    world.options.worn_frontiers = i % 5 == 0;
     if (i % 2 == 1) {
-      fail_some(world, survey_of());
-      failed += world.failed.size();
+      look_in_vain(world, survey_of());
+      resting += world.tried.any_rests() ? 1U : 0U;
     }
     const FrontierSurvey survey = survey_of();
     std::vector<FrontierTarget> expected;
@@ -204,7 +199,9 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       if (const auto target = target_of(world, survey.reachable, cell)) {
         expected.push_back(*target);
       } else {
-        ++(body_comes_near(world, survey.reachable, cell) ? leftover.unobservable : leftover.unreachable);
+        ++(was_given_up(world, cell)                         ? leftover.in_vain
+           : body_comes_near(world, survey.reachable, cell) ? leftover.unobservable
+                                                            : leftover.unreachable);
       }
     }
     if (expected.empty()) {
@@ -216,21 +213,21 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       ASSERT_EQ(survey.targets[k].unknown, expected[k].unknown) << "world " << i;
       ASSERT_EQ(survey.targets[k].viewpoint, expected[k].viewpoint) << "world " << i;
     }
-    EXPECT_EQ(survey.leftover.unobservable, leftover.unobservable) << "world " << i;
-    EXPECT_EQ(survey.leftover.unreachable, leftover.unreachable) << "world " << i;
+    EXPECT_EQ(survey.leftover, leftover) << "world " << i;
     ++compared;
     targets += expected.size();
     hidden += leftover.unobservable + leftover.unreachable;
+    given_up += leftover.in_vain;
   }
   EXPECT_EQ(compared, 40U);
   EXPECT_GT(targets, 30'000U);
   EXPECT_GT(hidden, 30'000U);
-  EXPECT_GT(failed, 1'000U);
-  EXPECT_GT(worn, 1'000U);
+  EXPECT_GT(given_up, 100U);
+  EXPECT_GT(resting, 10U);
 }
 
 FrontierSurvey survey_from_nothing(const SurveyedWorld& world) {
-  return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.failed);
+  return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
 }
 
 // Throws out of some survey, where it is asked how to face.
@@ -295,9 +292,7 @@ void wall_in(OccupancyMap& map, bool closed) {
 void expect_equal(const FrontierSurvey& survey, const FrontierSurvey& expected) {
   EXPECT_EQ(survey.frontier_cells, expected.frontier_cells);
   EXPECT_EQ(survey.exhausted, expected.exhausted);
-  EXPECT_EQ(survey.leftover.unreachable, expected.leftover.unreachable);
-  EXPECT_EQ(survey.leftover.unobservable, expected.leftover.unobservable);
-  EXPECT_EQ(survey.leftover.too_small, expected.leftover.too_small);
+  EXPECT_EQ(survey.leftover, expected.leftover);
   EXPECT_EQ(survey.reachable.cells(), expected.reachable.cells());
   ASSERT_EQ(survey.targets.size(), expected.targets.size());
   for (std::size_t i = 0; i < expected.targets.size(); ++i) {
@@ -317,8 +312,7 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
   std::uint64_t operations_from_nothing = 0;
   for (int i = 0; i < 12; ++i) {
     SurveyedWorld world = random_world(engine);
-    world.options.surfaces_first = i % 2 == 0;
-    world.options.min_contested_cluster_cells = i % 3 == 0 ? 32 : 1;
+    world.sensor.reports_no_return = i % 2 == 0;
     const auto flyer = std::make_shared<FailingFlyer>(world.flyer);
     FrontierSurveyor surveyor(flyer, world.sensor, world.options);
     OccupancyMap elsewhere = random_rooms(engine, world.map.resolution_m());
@@ -328,11 +322,11 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
         wall_in(world.map, step % 6 == 2);
       }
       if (step % 8 == 3) {
-        fail_some(world, survey_from_nothing(world));
-        failed += world.failed.size();
+        look_in_vain(world, survey_from_nothing(world));
+        failed += world.tried.size();
       }
       if (step % 8 == 5) {
-        world.failed = FailedViews();
+        world.tried = TriedViews(world.sensor);
       }
       if (step % 8 == 7) {
         std::swap(world.map, elsewhere);
@@ -340,13 +334,13 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
       if (step % 6 == 5) {
         flyer->left = 20;
         try {
-          (void)surveyor.survey(world.map, world.current, world.failed);
+          (void)surveyor.survey(world.map, world.current, world.tried);
         } catch (const std::runtime_error&) {
           ++thrown;
         }
         flyer->left = 0;
       }
-      const FrontierSurvey survey = surveyor.survey(world.map, world.current, world.failed);
+      const FrontierSurvey survey = surveyor.survey(world.map, world.current, world.tried);
       const FrontierSurvey expected = survey_from_nothing(world);
       ASSERT_NO_FATAL_FAILURE(expect_equal(survey, expected)) << "world " << i << ", step " << step;
       ++compared;

@@ -135,13 +135,13 @@ TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
     if (plan.outcome != Outcome::Move || plan.candidates.empty()) {
       break;
     }
-    const FrontierSurvey survey = survey_frontiers(robot.map, *robot.platform, robot.sensor, robot.pose,
-                                                   options.survey, FailedViews(options.survey.patience));
+    Situation situation(robot.setup(), options.survey);
+    situation.sync(robot.map, robot.pose);
     const double chosen = plan.goal.utility / (1.0 + kCostPerM * length_m(plan.path));
     std::uint64_t operations = 0;
     for (const View& other : plan.candidates) {
       const auto way = robot.platform->path(robot.map, robot.pose, other.pose);
-      if (way && !targets_seen_from(robot.map, robot.sensor, survey, other.pose, operations).unknown.empty()) {
+      if (way && !targets_seen_from(situation, other.pose, operations).unknown.empty()) {
         EXPECT_GE(chosen * 1.05, other.utility / (1.0 + kCostPerM * length_m(*way))) << "step " << step;
         ++compared;
       }
@@ -264,7 +264,7 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
             "FrontierVoidStrategy::orientations_per_place is 0, must be >= 1");
   EXPECT_EQ(message({.strategy = {.place_spacing_m = -1.0}}),
             "FrontierVoidStrategy::place_spacing_m is -1, must be >= 0");
-  EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidStrategy::cost_per_m is -1, must be >= 0");
+  EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidOptions::cost_per_m is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.opaque_share = 0.0}}),
             "FrontierVoidStrategy::opaque_share is 0, must be in (0, 1]");
   EXPECT_EQ(message({.strategy = {.opaque_beside_surface = 2.0}}),

@@ -69,7 +69,7 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
                                                        "time_ms",
                                                        "peak_memory_mb",
                                                        "cycles"}));
-  EXPECT_EQ(keys_of(report["leftover"]), (std::vector<std::string>{"unreachable", "unobservable", "too_small"}));
+  EXPECT_EQ(keys_of(report["leftover"]), (std::vector<std::string>{"unreachable", "unobservable", "in_vain", "too_small"}));
   EXPECT_EQ(keys_of(report["ray_operations"]), (std::vector<std::string>{"integration", "planning"}));
   EXPECT_EQ(keys_of(report["time_ms"]), (std::vector<std::string>{"insert", "plan"}));
   EXPECT_EQ(keys_of(report["time_ms"]["plan"]), (std::vector<std::string>{"median", "max"}));
@@ -90,7 +90,8 @@ TEST(ReportJson, SaysWhatTheRecordSays) {
   EXPECT_EQ(report["coverage"], 0.998);
   EXPECT_EQ(report["observable_cells"], 123456);
   EXPECT_TRUE(report["surface_coverage"].is_null());
-  EXPECT_EQ(report["leftover"]["too_small"], 3);
+  EXPECT_EQ(report["leftover"]["in_vain"], 3);
+  EXPECT_EQ(report["leftover"]["too_small"], 0) << "no count of cells makes a frontier too small";
   EXPECT_EQ(report["time_ms"]["insert"]["median"], 4.0);
   EXPECT_EQ(report["time_ms"]["insert"]["max"], 9.0);
   EXPECT_EQ(report["time_ms"]["plan"]["median"], 20.0) << "the view without a plan has no say";

@@ -142,8 +142,7 @@ TEST_F(TruthOfTwoRooms, AnExhaustiveScanCoversNearlyEverythingObservable) {
 // Goes to and fro between two places, and says when it is done.
 class Shuttle final : public ExplorationPlanner {
  public:
-  Shuttle(Pose a, Pose b, int trips, bool scan_on_the_way = true)
-      : a_(a), b_(b), trips_(trips), scan_on_the_way_(scan_on_the_way) {}
+  Shuttle(Pose a, Pose b, int trips) : a_(a), b_(b), trips_(trips) {}
   std::string_view name() const override { return "shuttle"; }
   Plan plan(const OccupancyMap&, const Pose& current) override {
     Plan plan;
@@ -155,7 +154,6 @@ class Shuttle final : public ExplorationPlanner {
     plan.outcome = Outcome::Move;
     plan.goal.pose = current.translation().isApprox(a_.translation()) ? b_ : a_;
     plan.path = {current, plan.goal.pose};
-    plan.scan_on_the_way = scan_on_the_way_;
     return plan;
   }
 
@@ -163,7 +161,6 @@ class Shuttle final : public ExplorationPlanner {
   Pose a_;
   Pose b_;
   int trips_;
-  bool scan_on_the_way_;
 };
 
 ExplorationRunOptions run_options() {
@@ -194,8 +191,10 @@ TEST(ExplorationRun, ScansOnTheWayAndCountsWhatItTravels) {
   EXPECT_GT(record.coverage.value(), 0.4);
   EXPECT_GT(record.peak_memory_mb, 1.0);
 
-  Shuttle sparing(a, b, 2, false);
-  const RunRecord spared = run.run(sparing, a);
+  ExplorationRunOptions at_goals = run_options();
+  at_goals.scan_spacing_m = 0.0;
+  Shuttle again(a, b, 2);
+  const RunRecord spared = ExplorationRun(world, coarse_panoramic(), flyer, at_goals).run(again, a);
   EXPECT_EQ(spared.views.size(), 3U) << "start, goal, goal";
   EXPECT_NEAR(spared.path_length_m(), 1.2, 1e-9);
 }

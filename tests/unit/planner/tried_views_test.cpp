@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vantage/planner/tried_views.hpp>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+const VoxelIndex kHidden{5, 5, 5};
+
+RangeSensor sees_all_around() {
+  return RangeSensor::spherical(90, 45, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0);
+}
+
+// Free before kHidden, which stays unknown.
+OccupancyMap free_before_the_hidden() {
+  OccupancyMap map({.resolution_m = 0.2});
+  for_each_cell({{-10, 0, 0}, {5, 10, 10}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  return map;
+}
+
+Pose at(const OccupancyMap& map, const VoxelIndex& cell, double yaw_rad = 0.0) {
+  return pose_looking(map.frame().centre_of(cell), yaw_rad);
+}
+
+// A planner's and a host's part: a view is asked for, a scan is taken that tells nothing, the planner looks again.
+void view_in_vain(TriedViews& tried, OccupancyMap& map, const Pose& goal, const Pose& taken_from) {
+  tried.review(map, taken_from);
+  tried.expect(map, goal, 1.0, {kHidden});
+  map.confirm();
+  tried.review(map, taken_from);
+}
+
+// By its definition, in metres.
+bool places_differ(const OccupancyMap& map, const VoxelIndex& seen, const VoxelIndex& a, const VoxelIndex& b) {
+  const auto metres = [&](const VoxelIndex& p, const VoxelIndex& q) {
+    return (map.frame().centre_of(p) - map.frame().centre_of(q)).norm();
+  };
+  return metres(a, b) > 0.5 * std::min(metres(a, seen), metres(b, seen)) + 1e-9;
+}
+
+TEST(TriedViews, EvidenceCountsFromPlacesThatDifferAsSeenFromTheCell) {
+  const OccupancyMap map = free_before_the_hidden();
+  std::mt19937 engine(5);
+  std::uniform_int_distribution<std::int32_t> coordinate(-9, 4);
+  const auto draw = [&] { return VoxelIndex{coordinate(engine), coordinate(engine), coordinate(engine)}; };
+  std::size_t alike = 0;
+  std::size_t different = 0;
+  std::size_t given_up = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int patience = 1 + trial % 3;
+    TriedViews tried(sees_all_around(), {.patience = patience});
+    tried.review(map, at(map, {0, 5, 5}));
+    std::vector<VoxelIndex> evidence;
+    for (int look = 0; look < 4; ++look) {
+      const VoxelIndex place = draw();
+      const bool counts = std::all_of(evidence.begin(), evidence.end(), [&](const VoxelIndex& other) {
+        return places_differ(map, kHidden, place, other);
+      });
+      EXPECT_EQ(tried.tried_from(kHidden, place), !counts);
+      ++(counts ? different : alike);
+      tried.in_vain(map, kHidden, place);
+      if (counts) {
+        evidence.push_back(place);
+      }
+      EXPECT_TRUE(tried.tried(kHidden));
+      EXPECT_EQ(tried.gave_up(kHidden), evidence.size() >= static_cast<std::size_t>(patience));
+      given_up += tried.gave_up(kHidden) ? 1U : 0U;
+    }
+    // A filter of cells modulo a power of two stands before the memory: none that shares its bit is taken for it.
+    for (const VoxelIndex& other : {VoxelIndex{0, 0, 1}, {128, 0, 0}, {0, -128, 0}, {0, 0, 64}, {64, 0, 0}}) {
+      EXPECT_FALSE(tried.tried(kHidden + other));
+      EXPECT_FALSE(tried.gave_up(kHidden + other));
+    }
+  }
+  EXPECT_EQ(alike + different, 8000U);
+  EXPECT_GT(alike, 1000U);
+  EXPECT_GT(different, 3000U);
+  EXPECT_GT(given_up, 3000U);
+}
+
+TEST(TriedViews, AViewThatArrivedAndResolvedNothingIsEvidenceAgainstWhatItSought) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.patience = 1});
+  const Pose goal = at(map, {2, 5, 5});
+  tried.review(map, goal);
+  tried.expect(map, goal, 1.0, {kHidden});
+  EXPECT_FALSE(tried.review(map, goal)) << "no scan was taken";
+  EXPECT_FALSE(tried.tried(kHidden));
+  map.confirm();
+  EXPECT_TRUE(tried.review(map, goal));
+  EXPECT_TRUE(tried.gave_up(kHidden));
+  EXPECT_TRUE(tried.tried_from(kHidden, {2, 5, 5}));
+  EXPECT_EQ(tried.size(), 1U);
+}
+
+TEST(TriedViews, ARobotHasArrivedWithinTheTolerances) {
+  struct Case {
+    double off_m;
+    double off_rad;
+    bool arrived;
+  };
+  for (const Case& one : {Case{0.29, 0.34, true}, {0.0, 0.0, true}, {0.31, 0.0, false}, {0.0, 0.36, false}}) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around(), {.goal_tolerance_m = 0.3, .goal_tolerance_rad = 0.35, .patience = 1});
+    const Pose goal = at(map, {0, 5, 5});
+    Pose there = pose_looking(goal.translation(), one.off_rad);
+    there.translation().x() -= one.off_m;
+    view_in_vain(tried, map, goal, there);
+    EXPECT_EQ(tried.tried(kHidden), one.arrived) << one.off_m << " m, " << one.off_rad << " rad";
+    map.confirm();  // a later scan from the goal itself settles what was under way
+    tried.review(map, goal);
+    EXPECT_TRUE(tried.tried(kHidden));
+  }
+  // A cell is the least: who stands in the next cell cannot come nearer by the map.
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews strict(sees_all_around(), {.goal_tolerance_m = 0.0, .patience = 1});
+  view_in_vain(strict, map, at(map, {2, 5, 5}), at(map, {1, 5, 5}));
+  EXPECT_TRUE(strict.tried(kHidden));
+}
+
+// Turned by less than the tolerance, but by more than the view is wide: the cell was not looked at at all.
+TEST(TriedViews, WhatWasNotInViewIsMissedFromThatGoalAndGivenUpLater) {
+  OccupancyMap map = free_before_the_hidden();
+  const RangeSensor narrow = RangeSensor::pinhole(60, 60, 0.4, 0.4, 0.1, 6.0);
+  TriedViews tried(narrow, {.patience = 1});
+  const VoxelIndex first{1, 5, 5};
+  view_in_vain(tried, map, at(map, first), at(map, first, 0.3));
+  EXPECT_TRUE(tried.tried_from(kHidden, first));
+  EXPECT_FALSE(tried.tried_from(kHidden, {1, 5, 6})) << "not a look, so the next place may do better";
+  EXPECT_FALSE(tried.gave_up(kHidden));
+  const VoxelIndex second{1, 5, 9};
+  const Eigen::Vector3d line = map.frame().centre_of(kHidden) - map.frame().centre_of(second);
+  const Pose goal = pose_looking_along(map.frame().centre_of(second), line);
+  const Pose turned = pose_looking(map.frame().centre_of(second), 0.0, std::asin(line.normalized().z()) - 0.3);
+  view_in_vain(tried, map, goal, turned);
+  EXPECT_TRUE(tried.gave_up(kHidden)) << "twice as many missed as would do in vain";
+}
+
+TEST(TriedViews, WhatAViewHopedForWasInVainOnlyIfItResolvedNoneOfIt) {
+  constexpr VoxelIndex kOther{5, 6, 6};
+  for (const bool one_resolved : {false, true}) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around(), {.patience = 1});
+    const Pose goal = at(map, {2, 5, 5});
+    tried.review(map, goal);
+    tried.expect(map, goal, 1.0, {kHidden}, {kOther, {5, 7, 7}});
+    map.set(one_resolved ? VoxelIndex{5, 7, 7} : VoxelIndex{0, 0, 0}, Occupancy::Free);
+    tried.review(map, goal);
+    EXPECT_TRUE(tried.gave_up(kHidden));
+    EXPECT_EQ(tried.gave_up(kOther), !one_resolved);
+  }
+}
+
+TEST(TriedViews, AHostThatReportsIsBelieved) {
+  const VoxelIndex place{0, 5, 5};
+  const auto after = [&](GoalResult result, const VoxelIndex& robot) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around(), {.patience = 1});
+    tried.review(map, at(map, robot));
+    tried.expect(map, at(map, place), 1.0, {kHidden});
+    tried.report(result);
+    map.confirm();
+    tried.review(map, at(map, robot));
+    return tried;
+  };
+  const VoxelIndex far{-8, 5, 5};
+  EXPECT_TRUE(after(GoalResult::Reached, far).gave_up(kHidden));
+  EXPECT_FALSE(after(GoalResult::Reached, far).rests(place));
+  EXPECT_FALSE(after(GoalResult::Failed, place).gave_up(kHidden)) << "though it is there";
+  EXPECT_TRUE(after(GoalResult::Failed, place).rests(place));
+  EXPECT_FALSE(after(GoalResult::Preempted, place).tried(kHidden));
+  EXPECT_FALSE(after(GoalResult::Preempted, place).any_rests());
+}
+
+// Whoever gives up before it has moved has nothing new to scan.
+TEST(TriedViews, AFailureNeedsNoScanToCount) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const VoxelIndex place{0, 5, 5};
+  tried.review(map, at(map, {-8, 5, 5}));
+  tried.expect(map, at(map, place), 1.0, {kHidden});
+  tried.report(GoalResult::Failed);
+  tried.review(map, at(map, {-8, 5, 5}));
+  EXPECT_TRUE(tried.rests(place));
+}
+
+TEST(TriedViews, AGoalThatTheRobotComesNoNearerToRests) {
+  const auto asked_for = [](double nearer_each_time_m) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    const VoxelIndex place{2, 5, 5};
+    int times = 0;
+    for (; times < 20; ++times) {
+      tried.review(map, at(map, {-8, 5, 5}));
+      if (tried.rests(place)) {
+        break;
+      }
+      tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});
+      tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});  // planning twice is one plan
+      map.confirm();
+    }
+    EXPECT_FALSE(tried.tried(kHidden)) << "it was never there";
+    return times;
+  };
+  EXPECT_EQ(asked_for(0.0), 2);
+  EXPECT_EQ(asked_for(0.005), 2) << "jitter";
+  EXPECT_EQ(asked_for(-0.1), 2) << "it goes away";
+  EXPECT_EQ(asked_for(0.1), 20) << "it is on its way";
+}
+
+TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.goal_tolerance_m = 0.45});
+  const VoxelIndex place{2, 5, 5};
+  const Pose robot = at(map, {-8, 5, 5});
+  tried.review(map, robot);
+  for (const int rest : {8, 16, 32}) {
+    tried.expect(map, at(map, place), 5.0, {kHidden});
+    tried.report(GoalResult::Failed);
+    for (int plan = 0; plan < rest; ++plan) {
+      map.confirm();
+      tried.review(map, robot);
+      EXPECT_TRUE(tried.rests(place)) << rest << ", plan " << plan;
+      EXPECT_TRUE(tried.rests({2, 7, 5})) << "0.4 m beside it";
+      EXPECT_FALSE(tried.rests({2, 5, 8})) << "0.6 m beside it";
+      EXPECT_EQ(tried.places_given_up(), rest == 32 ? 1U : 0U);
+    }
+    if (rest == 32) {
+      EXPECT_FALSE(tried.try_resting_again());
+      EXPECT_TRUE(tried.rests(place));
+    }
+    map.confirm();
+    tried.review(map, robot);
+    EXPECT_FALSE(tried.any_rests());
+    EXPECT_EQ(tried.places_given_up(), 0U);
+  }
+  TriedViews impatient(sees_all_around());
+  impatient.review(map, robot);
+  for (int failure = 1; failure <= 3; ++failure) {
+    impatient.expect(map, at(map, place), 5.0, {kHidden});
+    impatient.report(GoalResult::Failed);
+    map.confirm();
+    impatient.review(map, robot);
+    EXPECT_TRUE(impatient.rests(place));
+    EXPECT_EQ(impatient.try_resting_again(), failure < 3);
+    EXPECT_EQ(impatient.rests(place), failure == 3);
+  }
+  EXPECT_EQ(impatient.places_given_up(), 1U);
+}
+
+TEST(TriedViews, AGoalThatWasReachedAfterAllHasNeverFailed) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const VoxelIndex place{2, 5, 5};
+  const auto ask = [&](GoalResult result) {
+    tried.expect(map, at(map, place), 5.0, {});
+    tried.report(result);
+    map.confirm();
+    tried.review(map, at(map, {-8, 5, 5}));
+  };
+  tried.review(map, at(map, {-8, 5, 5}));
+  ask(GoalResult::Failed);
+  ask(GoalResult::Failed);
+  ask(GoalResult::Reached);
+  EXPECT_FALSE(tried.any_rests());
+  ask(GoalResult::Failed);
+  EXPECT_TRUE(tried.try_resting_again()) << "this was the first failure";
+}
+
+TEST(TriedViews, ForgetsWhenMoreOfTheNeighboursBecomesKnownNotWhenTheyChangeTheirMind) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.patience = 1});
+  const Pose here = at(map, {2, 5, 5});
+  view_in_vain(tried, map, here, here);
+  ASSERT_TRUE(tried.gave_up(kHidden));
+  for (const Occupancy mind : {Occupancy::Occupied, Occupancy::Free, Occupancy::Occupied}) {
+    map.set({4, 5, 5}, mind);
+    tried.review(map, here);
+    EXPECT_TRUE(tried.gave_up(kHidden));
+  }
+  map.set({5, 6, 5}, Occupancy::Free);
+  tried.review(map, here);
+  EXPECT_FALSE(tried.gave_up(kHidden));
+  EXPECT_EQ(tried.size(), 0U);
+
+  tried.in_vain(map, kHidden, {2, 5, 5});
+  EXPECT_EQ(tried.size(), 1U);
+  map.set(kHidden, Occupancy::Occupied);
+  tried.review(map, here);
+  EXPECT_EQ(tried.size(), 0U) << "it is known";
+}
+
+TEST(TriedViews, BelongsToOneMap) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.patience = 1});
+  const Pose here = at(map, {2, 5, 5});
+  view_in_vain(tried, map, here, here);
+  tried.expect(map, at(map, {0, 5, 5}), 1.0, {});
+  tried.report(GoalResult::Failed);
+  map.confirm();
+  tried.review(map, here);
+  ASSERT_TRUE(tried.tried(kHidden) && tried.any_rests());
+  const OccupancyMap another = free_before_the_hidden();
+  EXPECT_FALSE(tried.review(another, here)) << "no scan is known to have been taken from here";
+  EXPECT_EQ(tried.size(), 0U);
+  EXPECT_FALSE(tried.any_rests());
+  EXPECT_EQ(tried.scanned_from().size(), 1U);
+}
+
+// People walk about for a day: the memory stays as large as it is allowed to be, and the latest evidence stays.
+TEST(TriedViews, IsBoundedWhateverHappens) {
+  constexpr std::size_t kMost = std::size_t{1} << 18;
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.patience = 1});
+  const VoxelIndex robot{-8, 5, 5};
+  std::size_t largest = 0;
+  std::int32_t latest = 0;
+  for (std::int32_t plan = 0; plan < 30; ++plan) {
+    tried.review(map, at(map, robot));
+    EXPECT_LE(tried.size(), kMost);
+    for (std::int32_t i = 0; i < 10'000; ++i) {
+      latest = 100 + 10'000 * plan + i;
+      tried.in_vain(map, {latest, 0, 0}, robot);
+    }
+    largest = std::max(largest, tried.size());
+    map.confirm();
+    EXPECT_LE(tried.scanned_from().size(), 64U);
+  }
+  EXPECT_GT(largest, kMost / 2) << "the bound was met";
+  EXPECT_LE(largest, kMost + 10'000);
+  EXPECT_TRUE(tried.gave_up({latest, 0, 0}));
+  EXPECT_FALSE(tried.gave_up({100, 0, 0}));
+}
+
+TEST(TriedViews, RefusesOptionsByName) {
+  const auto message = [](const TriedViewsOptions& options) -> std::string {
+    try {
+      const TriedViews tried(sees_all_around(), options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message({}), "");
+  EXPECT_EQ(message({.goal_tolerance_m = 0.0, .goal_tolerance_rad = 0.0, .patience = 1}), "");
+  EXPECT_NE(message({.goal_tolerance_m = -0.1}).find("goal_tolerance_m is -0.1, must be >= 0"), std::string::npos);
+  EXPECT_NE(message({.goal_tolerance_m = kNan}).find("goal_tolerance_m"), std::string::npos);
+  EXPECT_NE(message({.goal_tolerance_rad = -0.1}).find("goal_tolerance_rad"), std::string::npos);
+  EXPECT_NE(message({.goal_tolerance_rad = kNan}).find("goal_tolerance_rad"), std::string::npos);
+  EXPECT_NE(message({.patience = 0}).find("patience is 0, must be >= 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vantage
