@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <map/grazed_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vector>
@@ -32,24 +31,12 @@ void for_each_end(const ScanRays& rays, const VoxelFrame& frame, RayPolicy polic
   }
 }
 
-bool touches_a_surface(const OccupancyMap& map, const VoxelIndex& cell) {
+bool touches_a_hit(const OccupancyMap& map, const ScanMarks& marks, const VoxelIndex& cell) {
   for (std::int32_t z = -1; z <= 1; ++z) {
     for (std::int32_t y = -1; y <= 1; ++y) {
       for (std::int32_t x = -1; x <= 1; ++x) {
-        if (map.at(cell + VoxelIndex{x, y, z}) == Occupancy::Occupied) {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
-bool touches_a_hit(const ScanMarks& marks, const VoxelIndex& cell) {
-  for (std::int32_t z = -1; z <= 1; ++z) {
-    for (std::int32_t y = -1; y <= 1; ++y) {
-      for (std::int32_t x = -1; x <= 1; ++x) {
-        if (marks.is_hit(cell + VoxelIndex{x, y, z})) {
+        const VoxelIndex other = cell + VoxelIndex{x, y, z};
+        if (map.in_region(other) && marks.is_hit(other)) {
           return true;
         }
       }
@@ -61,31 +48,31 @@ bool touches_a_hit(const ScanMarks& marks, const VoxelIndex& cell) {
 }  // namespace
 
 void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks) {
-  static const bool run = std::getenv("RUN") != nullptr, touch = std::getenv("TOUCH") != nullptr;
-  if (run) for_each_end(rays, map.frame(), policy, marks, [&](const Eigen::Vector3d& end, bool is_return) {
+  for_each_end(rays, map.frame(), policy, marks, [&](const Eigen::Vector3d& end, bool is_return) {
     const VoxelIndex last = map.frame().cell_of(end);
     (void)VoxelRay(map.frame(), rays.origin(), end).all_from_the_end([&](const VoxelIndex& cell) {
       const bool in_surface = map.at(cell) == Occupancy::Occupied;
       if (in_surface) {
         marks.unmark_passed(cell);
       }
-      return in_surface || (is_return && cell == last) || touches_a_surface(map, cell);
+      return in_surface || (is_return && cell == last);
     });
   });
-  if (!touch) return;
-  std::vector<VoxelIndex> grazed;
+  std::vector<VoxelIndex> beside_hits;
   marks.for_each_marked_brick([&](const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
     const Brick* brick = map.find_brick(address);
     for (std::size_t word = 0; brick != nullptr && word < Brick::kWords; ++word) {
       for_each_offset(passed[word] & ~hit[word] & brick->occupied[word], word, [&](std::size_t offset) {
         const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
-        if (touches_a_hit(marks, cell)) {
-          grazed.push_back(cell);
+        if (touches_a_hit(map, marks, cell)) {
+          beside_hits.push_back(cell);
         }
       });
     }
   });
-  std::for_each(grazed.begin(), grazed.end(), [&](const VoxelIndex& cell) { marks.unmark_passed(cell); });
+  for (const VoxelIndex& cell : beside_hits) {
+    marks.unmark_passed(cell);
+  }
 }
 
 }  // namespace vantage

@@ -40,11 +40,20 @@ class Walker {
   }
   // After all rays: what does not count as passed.
   void spare_grazed_and_hit() {
-    std::erase_if(cells_.cleared,
-                  [&](const VoxelIndex& cell) { return cells_.hit.contains(cell) || grazed_.contains(cell); });
+    std::erase_if(cells_.cleared, [&](const VoxelIndex& cell) {
+      return cells_.hit.contains(cell) || grazed_.contains(cell) ||
+             (map_.options().keep_grazed_cells && map_.at(cell) == Occupancy::Occupied && touches_a_hit(cell));
+    });
   }
 
  private:
+  [[nodiscard]] bool touches_a_hit(const VoxelIndex& cell) const {
+    bool touches = false;
+    for_each_cell(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(1),
+                  [&](const VoxelIndex& other) { touches = touches || cells_.hit.contains(other); });
+    return touches;
+  }
+
   const OccupancyMap& map_;
   const Eigen::Vector3d& origin_;
   ScanCells& cells_;

@@ -25,10 +25,16 @@ struct OccupancyMapOptions {
   double log_odds_min = -2.0;                ///< lower clamp, < 0
   double log_odds_max = 3.5;                 ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
   std::optional<Box> region = std::nullopt;  ///< only cells whose centre lies in it are ever known; none: no limit
-  /// Whether a ray speaks against the surface it ends in. OctoMap lets it: a ray that meets a wall at a small angle
-  /// passes occupied cells of that wall before the one it ends in, and many such rays wear the wall away. If true,
-  /// the unbroken run of occupied cells that ends with a ray is not counted as passed, by any ray of the scan.
-  bool keep_grazed_cells = false;
+  /// Whether a scan leaves occupied cells alone that its rays pass beside a surface it sees: those that touch a cell in
+  /// which one of its rays ends, and the unbroken run of occupied cells that ends with a ray. A surface fills a part of
+  /// its cells only, and rays at a small angle pass the free part: if they count (false, as in OctoMap), many of them
+  /// wear the surface away, and false frontiers open behind it.
+  bool keep_grazed_cells = true;
+
+  /// The semantics of `octomap::OcTree::insertPointCloud`, update for update.
+  [[nodiscard]] static OccupancyMapOptions octomap(double resolution_m) {
+    return {.resolution_m = resolution_m, .keep_grazed_cells = false};
+  }
 };
 
 /// How rays are drawn from the returns of a scan.
