@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/report/report_json.hpp>
 #include <vantage/robot/free_flyer.hpp>
@@ -74,12 +75,14 @@ std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
       FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
 }
 
-ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& region) {
+ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& region, const Platform& platform,
+                                     const RangeSensor& sensor) {
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
   options.map.keep_grazed_cells = !request.wear;
   options.band = band_of(request);
+  options.start_clearance_m = start_clearance_m(platform, sensor);
   options.look_around = request.look_around;
   options.max_views = request.max_views;
   options.scan_spacing_m = request.scan_spacing_m;
@@ -142,7 +145,7 @@ int explore(const ExploreRequest& request) {
   }
   check_region(request, world, region, start);
 
-  ExplorationRunOptions options = run_options_of(request, region);
+  ExplorationRunOptions options = run_options_of(request, region, *platform, sensor);
   ObservableProgress observable(request.quiet);
   options.on_observable_share = [&](double share) { observable.tell(share); };
   ExplorationRun run(world, sensor, platform, options);

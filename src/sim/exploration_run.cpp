@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/plan_check.hpp>
 #include <vantage/sim/exploration_run.hpp>
 
@@ -121,24 +122,25 @@ void ExplorationRun::check_start(const Pose& start) const {
   }
 }
 
-// Of the body's box only the ellipsoid in it: the box's corners may hold a wall. In a band, all heights of it.
-void ExplorationRun::assume_body_free(const Pose& start) {
-  const Box body = platform_->body_box(start);
-  const VoxelFrame& frame = map_.frame();
-  const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
-  const VoxelBox cells{frame.cell_of(body.min), frame.cell_of(body.max) + VoxelIndex{1, 1, 1}};
-  for_each_cell(cells, [&](const VoxelIndex& cell) {
-    const Box box = frame.box_of(cell);
-    const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
-    if ((nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9) {
-      const Eigen::Vector3d within = 0.25 * box.extent();
-      Box inner{box.min + within, box.max - within};
-      if (options_.band) {
-        inner.min.z() = options_.band->min_height_m;
-        inner.max.z() = options_.band->max_height_m;
-      }
-      map_.assume_free(inner);
+// In a band, at all its heights. Of the clearance only what is truly free: nobody vouches for what is not.
+void ExplorationRun::assume_start_free(const Pose& start) {
+  OccupancyMap declared({.resolution_m = map_.resolution_m(), .region = options_.map.region});
+  assume_free(declared, *platform_, start);
+  const OccupancyMap body = declared;
+  assume_free(declared, *platform_, start, options_.start_clearance_m);
+  declared.for_each_known([&](const VoxelIndex& cell, Occupancy) {
+    const bool truly_free = truth_.map().at(cell) == Occupancy::Free;
+    if (!truly_free && body.at(cell) != Occupancy::Free) {
+      return;
     }
+    const Box box = map_.frame().box_of(cell);
+    const Eigen::Vector3d within = 0.25 * box.extent();
+    Box inner{box.min + within, box.max - within};
+    if (options_.band) {
+      inner.min.z() = options_.band->min_height_m;
+      inner.max.z() = options_.band->max_height_m;
+    }
+    map_.assume_free(inner);
   });
 }
 
@@ -301,7 +303,7 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
   if (options_.unknown_box) {
     know_surroundings();
   }
-  assume_body_free(start);
+  assume_start_free(start);
   for (const Box& box : options_.declared_clear) {
     map_.assume_free(box);
   }

@@ -27,7 +27,7 @@ void insert_vantage(benchmark::State& state, const Case& c) {
   double bytes = 0;
   for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
-    auto map = std::make_unique<OccupancyMap>(OccupancyMapOptions{.resolution_m = c.resolution_m});
+    auto map = std::make_unique<OccupancyMap>(OccupancyMapOptions::octomap(c.resolution_m));
     state.ResumeTiming();
     map->insert(c.scan, c.policy);
     state.PauseTiming();
@@ -76,7 +76,7 @@ void insert_octomap(benchmark::State& state, const Case& c) {
 
 // The cost of a scan must follow the scan, not the map: the same scan into a map that already holds `scans` others.
 void insert_into_full_map(benchmark::State& state) {
-  OccupancyMap map({.resolution_m = 0.05});
+  OccupancyMap map(OccupancyMapOptions::octomap(0.05));
   Scan scan = table_scan();
   for (std::int64_t i = 0; i < state.range(0); ++i) {
     scan.world_from_sensor.translation().x() = 10.0 * static_cast<double>(i + 1);

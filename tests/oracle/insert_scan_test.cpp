@@ -64,7 +64,7 @@ octomap::OcTreeKey key_of(const VoxelIndex& cell) {
 class SideBySide {
  public:
   SideBySide(double resolution_m, RayPolicy policy)
-      : map_({.resolution_m = resolution_m}), tree_(resolution_m), policy_(policy) {
+      : map_(OccupancyMapOptions::octomap(resolution_m)), tree_(resolution_m), policy_(policy) {
     tree_.setProbHit(octomap::probability(0.85));
     tree_.setProbMiss(octomap::probability(-0.4));
     tree_.setClampingThresMin(octomap::probability(-2.0));

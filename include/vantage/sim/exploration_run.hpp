@@ -29,6 +29,9 @@ struct ExplorationRunOptions {
   /// The robot drives, and explores the plane of these heights: the planner gets the map's HeightBand instead of the
   /// map, and collisions and coverage are those of the plane. None: it flies, and explores space.
   std::optional<HeightBandOptions> band = std::nullopt;
+  /// How far around the sensor the space at the start is declared free, where it truly is, metres, >= 0 (assume_free,
+  /// start_clearance_m); the space of the body is in any case.
+  double start_clearance_m = 0.0;
   /// How the map draws the rays of a scan.
   RayPolicy ray_policy = RayPolicy::EveryReturn;
   std::size_t max_views = 500;  ///< the budget, > 0
@@ -84,7 +87,7 @@ class ExplorationRun {
  private:
   struct Progress;
   void check_start(const Pose& start) const;
-  void assume_body_free(const Pose& start);
+  void assume_start_free(const Pose& start);
   void know_surroundings();
   void scan(Progress& progress);
   void look_around(Progress& progress, const OnView& on_view);
