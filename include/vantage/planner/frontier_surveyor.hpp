@@ -41,6 +41,7 @@ class FrontierSurveyor {
   std::shared_ptr<const Platform> platform_;
   RangeSensor sensor_;
   FrontierSurveyOptions options_;
+  AdmittedCells admitted_;
   std::unique_ptr<detail::SightMemory> memory_;
 };
 

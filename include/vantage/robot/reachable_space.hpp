@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/map/brick_grid.hpp>
+#include <vantage/robot/admitted_cells.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vector>
 
@@ -18,25 +19,47 @@ class ReachableSpace {
   /// Floods from the cell of `current`. If the platform does not admit that cell (a new scan may find a place too
   /// tight), the flood starts from the nearest admitted cell that it may still move to, at most two cells away.
   ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current);
+  /// The same, from the cells that are known to be admitted: AdmittedCells that have followed `map` for `platform`.
+  ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current,
+                 const AdmittedCells& admitted);
 
   /// The cell the flood started from; none if the platform cannot move at all: then nothing is reachable.
   [[nodiscard]] const std::optional<VoxelIndex>& start() const { return start_; }
   /// Whether the sensor can be brought to this cell.
-  [[nodiscard]] bool contains(const VoxelIndex& cell) const { return number_.value_or(cell, kOutside) != kOutside; }
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const { return number_[cell] != kOutside; }
   /// The reachable cells in the order of their number: breadth first from the start.
   [[nodiscard]] const std::vector<VoxelIndex>& cells() const { return cells_; }
   /// How many cells it holds.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
   /// Position of a cell in `cells()`, or kOutside.
-  [[nodiscard]] std::uint32_t number_of(const VoxelIndex& cell) const { return number_.value_or(cell, kOutside); }
+  [[nodiscard]] std::uint32_t number_of(const VoxelIndex& cell) const { return number_[cell]; }
+  /// The same, for one cell after the other; quicker where they are neighbours.
+  [[nodiscard]] BrickGrid<std::uint32_t>::Reader numbers() const { return BrickGrid<std::uint32_t>::Reader(number_); }
+  /// Whether a cell of a brick is reachable.
+  [[nodiscard]] bool reaches(const VoxelIndex& brick) const {
+    const BrickDirectory::Number number = number_.number_of(brick);
+    return number != BrickDirectory::kNone && planes_[number] != BrickPlane{};
+  }
+  /// Whether a cell of a box is reachable.
+  [[nodiscard]] bool any_in(const VoxelBox& cells) const;
+  /// Calls `visit(brick address, const BrickPlane&)` for the reachable cells of every brick that holds one.
+  template <class Visit>
+  void for_each_brick(Visit&& visit) const {
+    for (std::size_t number = 0; number < planes_.size(); ++number) {
+      visit(number_.address(number), planes_[number]);
+    }
+  }
 
   /// What is not reachable.
   static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
 
  private:
+  void flood(const AdmittedCells& admitted);
+
   std::optional<VoxelIndex> start_;
   std::vector<VoxelIndex> cells_;
-  VoxelGrid<std::uint32_t> number_;
+  BrickGrid<std::uint32_t> number_{kOutside};
+  std::vector<BrickPlane> planes_;  // of the cells, by the numbers of the bricks
 };
 
 }  // namespace vantage
