@@ -48,7 +48,8 @@ using TileRows = std::map<std::int32_t, std::map<std::int32_t, std::vector<std::
 
 TileRows tile_rows(const OccupancyMap& map) {
   TileRows rows;
-  for (const VoxelIndex& tile : VoidTiles(map).tiles()) {
+  const VoidTiles tiles(map);
+  for (const VoxelIndex& tile : tiles.tiles()) {
     rows[tile.z][tile.y].push_back(tile.x);
   }
   for (auto& [z, ys] : rows) {
