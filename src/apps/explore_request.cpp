@@ -46,8 +46,7 @@ void check_numbers(const ExploreRequest& request) {
   detail::require_option(std::isfinite(request.resolution_m) && request.resolution_m > 0.0, "--resolution",
                          request.resolution_m, "> 0 metres");
   detail::require_option(std::isfinite(request.scale) && request.scale > 0.0, "--scale", request.scale, "> 0");
-  detail::require_option(finite_at_least_0(request.robot_radius_m), "--robot-radius", request.robot_radius_m,
-                         ">= 0 metres");
+  detail::require_length(request.robot_radius_m, "--robot-radius");
   detail::require_option(finite_at_least_0(request.scan_spacing_m), "--scan-spacing", request.scan_spacing_m,
                          ">= 0 metres");
   detail::require_option(finite_at_least_0(request.noise), "--noise", request.noise, ">= 0");

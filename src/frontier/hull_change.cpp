@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
+#include <vantage/frontier/void_tiles.hpp>
 
 #include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
 #include "geometry/box_around.hpp"
 #include "geometry/plane_distance.hpp"
+#include "geometry/box_overlap.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -82,9 +84,12 @@ HullChange::HullChange(const Hull& before, const Hull& now) {
   bricks_ = box_around(bricks);
 }
 
-void HullChange::for_each_brick(const Visit& visit) {
-  if (!bricks_.empty()) {
-    visit_box(bricks_, {0, common_.size()}, {0, gone_.size()}, {0, added_.size()}, visit);
+void HullChange::for_each_brick(std::span<const VoxelIndex> tiles, const Visit& visit) {
+  for (const VoxelIndex& tile : tiles) {
+    const VoxelBox bricks = box_overlap(bricks_, VoidTiles::bricks_of(tile));
+    if (!bricks.empty()) {
+      visit_box(bricks, {0, common_.size()}, {0, gone_.size()}, {0, added_.size()}, visit);
+    }
   }
 }
 

@@ -25,8 +25,8 @@ class HullChange {
 
   HullChange(const Hull& before, const Hull& now);
 
-  /// Visits every such brick once.
-  void for_each_brick(const Visit& visit);
+  /// Visits every such brick of some tiles (VoidTiles), all different, once.
+  void for_each_brick(std::span<const VoxelIndex> tiles, const Visit& visit);
 
  private:
   // The planes that matter to a box of bricks, as positions in those of each kind.

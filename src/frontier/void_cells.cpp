@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
+#include <vantage/frontier/void_tiles.hpp>
 
 #include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
@@ -44,21 +45,51 @@ VoxelBox box_around(const ConvexHull& hull, const OccupancyMap& map) {
   return map.region() ? detail::box_overlap(box, *map.region()) : box;
 }
 
+// Rows of tiles, so that a row of cells is cut with the hull once.
+using TileRows = std::map<std::int32_t, std::map<std::int32_t, std::vector<std::int32_t>>>;  // z, y, ascending x
+
+TileRows tile_rows(const OccupancyMap& map) {
+  TileRows rows;
+  const VoidTiles tiles(map);
+  for (const VoxelIndex& tile : tiles.tiles()) {
+    rows[tile.z][tile.y].push_back(tile.x);
+  }
+  for (auto& [z, ys] : rows) {
+    for (auto& [y, xs] : ys) {
+      std::sort(xs.begin(), xs.end());
+    }
+  }
+  return rows;
+}
+
 template <class Visit>
 void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
+  constexpr std::int32_t kTile = 8 * Brick::kSide;
   const ConvexHull hull = occupied_hull(map);
   const VoxelBox box = box_around(hull, map);
-  for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
-    for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
-      const auto [first, last] = row_span(hull, box, y, z);
-      const Brick* brick = nullptr;
-      for (std::int32_t x = first; x < last; ++x) {
-        const VoxelIndex cell{x, y, z};
-        if (x == first || (x & (Brick::kSide - 1)) == 0) {
-          brick = map.find_brick(Brick::of_cell(cell));
-        }
-        if (brick == nullptr || brick->at(Brick::offset_of(cell)) == Occupancy::Unknown) {
-          visit(cell);
+  if (box.empty()) {
+    return;
+  }
+  const auto visit_row = [&](std::int32_t first, std::int32_t last, std::int32_t y, std::int32_t z) {
+    const Brick* brick = nullptr;
+    for (std::int32_t x = first; x < last; ++x) {
+      const VoxelIndex cell{x, y, z};
+      if (x == first || (x & (Brick::kSide - 1)) == 0) {
+        brick = map.find_brick(Brick::of_cell(cell));
+      }
+      if (brick == nullptr || brick->at(Brick::offset_of(cell)) == Occupancy::Unknown) {
+        visit(cell);
+      }
+    }
+  };
+  for (const auto& [tile_z, ys] : tile_rows(map)) {
+    for (std::int32_t z = std::max(tile_z * kTile, box.lo.z); z < std::min((tile_z + 1) * kTile, box.hi.z); ++z) {
+      for (const auto& [tile_y, xs] : ys) {
+        for (std::int32_t y = std::max(tile_y * kTile, box.lo.y); y < std::min((tile_y + 1) * kTile, box.hi.y); ++y) {
+          const auto [first, last] = row_span(hull, box, y, z);
+          for (const std::int32_t tile_x : xs) {
+            visit_row(std::max(tile_x * kTile, first), std::min((tile_x + 1) * kTile, last), y, z);
+          }
         }
       }
     }

@@ -8,10 +8,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vantage/frontier/void_clusters.hpp>
 #include <vantage/geometry/cell_moments.hpp>
+#include <vantage/geometry/raster_order.hpp>
+#include <vantage/geometry/voxel_grid.hpp>
 
 #include "geometry/box_around.hpp"
 #include "geometry/dice.hpp"
@@ -31,17 +34,86 @@ constexpr double kVarianceShare = 5.0;
 // Of the half axes of an ellipsoid: those within which members are counted.
 constexpr std::array<double, 5> kShares{1.0, 0.95, 0.9, 0.86, 0.82};
 
-// The cells where clusters start, drawn one after the other. They lie anywhere in memory, so they are fetched ahead.
-class Starts {
+// The clusters of void cells that a box holds tightly: a number for each of its cells.
+class DenseNumbers {
  public:
-  /// Of the cells of `numbers` that are unassigned now, as positions in it.
-  Starts(const VoxelGrid<std::uint32_t>& numbers, std::uint64_t seed) : numbers_(numbers.values()), dice_(seed) {
-    for (std::size_t i = 0; i < numbers_.size(); ++i) {
-      if (numbers_[i] == kUnassigned) {
-        left_.push_back(i);
-      }
+  /// These cells unassigned, in `box`.
+  DenseNumbers(std::span<const VoxelIndex> cells, const VoxelBox& box)
+      : grid_(box, kNoVoid), strides_{1, box.extent().x, std::ptrdiff_t{box.extent().x} * box.extent().y} {
+    lowest_ = {box.lo.x, box.lo.y, box.lo.z};
+    highest_ = {box.hi.x - 1, box.hi.y - 1, box.hi.z - 1};
+    for (const VoxelIndex& cell : cells) {
+      grid_[cell] = kUnassigned;
     }
   }
+  /// The positions of the cells, in raster order.
+  [[nodiscard]] std::vector<std::size_t> positions() const {
+    std::vector<std::size_t> positions;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      if (grid_.values()[i] == kUnassigned) {
+        positions.push_back(i);
+      }
+    }
+    return positions;
+  }
+  [[nodiscard]] std::uint32_t& operator[](std::size_t position) { return grid_.values()[position]; }
+  [[nodiscard]] VoxelIndex cell_at(std::size_t position) const { return grid_.cell_at(position); }
+  /// Calls `visit(position)` for the neighbour of a cell that lies `at` a coordinate, if it can be a void cell.
+  template <class Visit>
+  void with_neighbour(std::size_t position, std::size_t axis, std::int32_t at, std::int32_t step,
+                      const Visit& visit) const {
+    if (step > 0 ? at < highest_[axis] : at > lowest_[axis]) {
+      visit(position + static_cast<std::size_t>(step * strides_[axis]));
+    }
+  }
+
+ private:
+  VoxelGrid<std::uint32_t> grid_;
+  std::array<std::ptrdiff_t, 3> strides_{};
+  std::array<std::int32_t, 3> lowest_{};
+  std::array<std::int32_t, 3> highest_{};
+};
+
+// The same for cells that may lie anywhere: a number for each of them. A position is that in raster order.
+class SparseNumbers {
+ public:
+  explicit SparseNumbers(std::span<const VoxelIndex> cells) : cells_(cells.begin(), cells.end()) {
+    std::sort(cells_.begin(), cells_.end(), RasterOrder{});
+    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    numbers_.assign(cells_.size(), kUnassigned);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      positions_[cells_[i]] = static_cast<std::uint32_t>(i);
+    }
+  }
+  [[nodiscard]] std::vector<std::size_t> positions() const {
+    std::vector<std::size_t> positions(cells_.size());
+    std::iota(positions.begin(), positions.end(), std::size_t{0});
+    return positions;
+  }
+  [[nodiscard]] std::uint32_t& operator[](std::size_t position) { return numbers_[position]; }
+  [[nodiscard]] VoxelIndex cell_at(std::size_t position) const { return cells_[position]; }
+  template <class Visit>
+  void with_neighbour(std::size_t position, std::size_t axis, std::int32_t /*at*/, std::int32_t step,
+                      const Visit& visit) const {
+    const VoxelIndex neighbour = cells_[position] + VoxelIndex{axis == 0 ? step : 0, axis == 1 ? step : 0,
+                                                               axis == 2 ? step : 0};
+    if (const std::uint32_t other = positions_[neighbour]; other != kNoVoid) {
+      visit(other);
+    }
+  }
+
+ private:
+  std::vector<VoxelIndex> cells_;
+  std::vector<std::uint32_t> numbers_;
+  BrickGrid<std::uint32_t> positions_{kNoVoid};
+};
+
+// The cells where clusters start, drawn one after the other. They lie anywhere in memory, so they are fetched ahead.
+template <class Numbers>
+class Starts {
+ public:
+  /// Of the cells of `numbers`, all of them unassigned now, as positions in it.
+  Starts(Numbers& numbers, std::uint64_t seed) : numbers_(numbers), dice_(seed), left_(numbers.positions()) {}
 
   // The next that is still unassigned.
   std::optional<std::size_t> next() {
@@ -74,23 +146,19 @@ class Starts {
     }
   }
 
-  const std::vector<std::uint32_t>& numbers_;
+  Numbers& numbers_;
   Dice dice_;
   std::vector<std::size_t> left_;   // in raster order at first
   std::vector<std::size_t> drawn_;  // of which those before `next_` have been given
   std::size_t next_ = 0;
 };
 
-// Grows clusters, one after the other, in a grid of the cells that still have none.
+// Grows clusters, one after the other, from the cells that still have none.
+template <class Numbers>
 class Growth {
  public:
-  Growth(VoxelGrid<std::uint32_t>& numbers, const VoxelFrame& frame, const VoidClusterOptions& options)
-      : numbers_(numbers), frame_(frame), options_(options) {
-    const auto& [lo, hi] = numbers.box();
-    lowest_ = {lo.x, lo.y, lo.z};
-    highest_ = {hi.x - 1, hi.y - 1, hi.z - 1};
-    strides_ = {1, hi.x - lo.x, std::ptrdiff_t{hi.x - lo.x} * (hi.y - lo.y)};
-  }
+  Growth(Numbers& numbers, const VoxelFrame& frame, const VoidClusterOptions& options)
+      : numbers_(numbers), frame_(frame), options_(options) {}
 
   VoidCluster grow(std::size_t start_offset, std::uint32_t number) {
     const VoxelIndex start = numbers_.cell_at(start_offset);
@@ -121,7 +189,7 @@ class Growth {
   using Cell = std::array<std::int32_t, 3>;
 
   void take(std::size_t offset, const Cell& cell) {
-    numbers_.values()[offset] = number_;
+    numbers_[offset] = number_;
     offsets_.push_back(offset);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       members_[axis].push_back(cell[axis]);
@@ -135,29 +203,25 @@ class Growth {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t end = offsets_.size();
       for (std::size_t i = latest; i < end; ++i) {
-        const std::int32_t at = members_[axis][i];
-        if (at < highest_[axis]) {
-          take_neighbour(i, axis, 1);
-        }
-        if (at > lowest_[axis]) {
-          take_neighbour(i, axis, -1);
-        }
+        take_neighbour(i, axis, 1);
+        take_neighbour(i, axis, -1);
       }
     }
   }
 
   void take_neighbour(std::size_t i, std::size_t axis, std::int32_t step) {
-    const std::size_t offset = offsets_[i] + static_cast<std::size_t>(step * strides_[axis]);
-    if (numbers_.values()[offset] == kUnassigned) {
-      Cell cell{members_[0][i], members_[1][i], members_[2][i]};
-      cell[axis] += step;
-      take(offset, cell);
-    }
+    numbers_.with_neighbour(offsets_[i], axis, members_[axis][i], step, [&](std::size_t offset) {
+      if (numbers_[offset] == kUnassigned) {
+        Cell cell{members_[0][i], members_[1][i], members_[2][i]};
+        cell[axis] += step;
+        take(offset, cell);
+      }
+    });
   }
 
   void give_back(std::size_t first) {
     for (std::size_t i = first; i < offsets_.size(); ++i) {
-      numbers_.values()[offsets_[i]] = kUnassigned;
+      numbers_[offsets_[i]] = kUnassigned;
       moments_.remove({members_[0][i], members_[1][i], members_[2][i]});
     }
     offsets_.resize(first);
@@ -249,36 +313,44 @@ class Growth {
            score_now() >= options_.min_score;
   }
 
-  VoxelGrid<std::uint32_t>& numbers_;
+  Numbers& numbers_;
   const VoxelFrame frame_;
   const VoidClusterOptions options_;
   const InstructionSet instructions_ = best_instruction_set();
-  Cell lowest_{};  // of the grid on each axis, and likewise:
-  Cell highest_{};
-  std::array<std::ptrdiff_t, 3> strides_{};
   std::uint32_t number_ = 0;
-  std::vector<std::size_t> offsets_;                  // of the members, in the grid
+  std::vector<std::size_t> offsets_;                  // of the members, their positions
   std::array<std::vector<std::int32_t>, 3> members_;  // their x, y and z
   CellMoments moments_;
   Counted counted_;
 };
+
+template <class Numbers>
+VoidClusters clusters_of(Numbers numbers, const VoxelFrame& frame, const VoidClusterOptions& options) {
+  std::vector<VoidCluster> clusters;
+  Growth<Numbers> growth(numbers, frame, options);
+  Starts<Numbers> starts(numbers, options.seed);
+  const std::vector<std::size_t> positions = numbers.positions();
+  while (const auto start = starts.next()) {
+    clusters.push_back(growth.grow(*start, static_cast<std::uint32_t>(clusters.size())));
+  }
+  BrickGrid<std::uint32_t> of_cells(kNoVoid);
+  for (const std::size_t position : positions) {
+    of_cells[numbers.cell_at(position)] = numbers[position];
+  }
+  return {std::move(clusters), std::move(of_cells)};
+}
 
 }  // namespace
 
 VoidClusters cluster_void_cells(std::span<const VoxelIndex> cells, const VoxelFrame& frame,
                                 const VoidClusterOptions& options) {
   detail::require_option(options.min_score > 0.0, "VoidClusterOptions::min_score", options.min_score, "> 0");
-  VoxelGrid<std::uint32_t> numbers(detail::box_around(cells), kNoVoid);
-  for (const VoxelIndex& cell : cells) {
-    numbers[cell] = kUnassigned;
-  }
-  std::vector<VoidCluster> clusters;
-  Growth growth(numbers, frame, options);
-  Starts starts(numbers, options.seed);
-  while (const auto start = starts.next()) {
-    clusters.push_back(growth.grow(*start, static_cast<std::uint32_t>(clusters.size())));
-  }
-  return {std::move(clusters), std::move(numbers)};
+  constexpr double kLoosest = 32.0;  // cells of the box for one void cell
+  const VoxelBox box = detail::box_around(cells);
+  const VoxelIndex extent = box.extent();
+  const bool tight = 1.0 * extent.x * extent.y * extent.z <= kLoosest * static_cast<double>(cells.size());
+  return tight ? clusters_of(DenseNumbers(cells, box), frame, options)
+               : clusters_of(SparseNumbers(cells), frame, options);
 }
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/geometry/raster_order.hpp>
@@ -22,6 +23,7 @@ bool VoidTracker::update() {
     start_anew();
     return true;
   }
+  widen(touched);
   const bool shrunk = has_lost_a_corner();
   if (shrunk) {
     shrink(touched);
@@ -56,10 +58,29 @@ void VoidTracker::start_anew() {
   hull_ = {};
   planes_.clear();
   corners_.clear();
+  tiles_ = VoidTiles(*map_);
   std::vector<VoxelIndex> cells;
   map_->for_each_brick(
       [&](const VoxelIndex& address, const Brick& brick) { detail::append(brick.occupied, address, cells); });
   reshape(LatticeHull(cells));
+}
+
+// By the tiles that touched bricks bring, with what of the hull lies there.
+void VoidTracker::widen(const std::vector<VoxelIndex>& touched) {
+  const std::size_t before = tiles_.tiles().size();
+  for (const VoxelIndex& address : touched) {
+    tiles_.add(address);
+  }
+  const std::span<const VoxelIndex> fresh = std::span(tiles_.tiles()).subspan(before);
+  if (fresh.empty()) {
+    return;
+  }
+  detail::HullChange({}, {planes_, corners_})
+      .for_each_brick(fresh, [&](const VoxelIndex& address, const BrickPlane& inside) {
+        BrickVoids& brick = brick_at(address);
+        brick.inside = inside;
+        refresh(brick);
+      });
 }
 
 // To the corners that are left; adds to `touched` the bricks in which cells may lie outside of these now.
@@ -75,7 +96,7 @@ void VoidTracker::reshape(LatticeHull hull, std::vector<VoxelIndex>* reshaped) {
   std::vector<LatticeHull::Plane> planes = hull.planes();
   std::vector<VoxelIndex> corners = hull.corners();
   detail::HullChange change({planes_, corners_}, {planes, corners});
-  change.for_each_brick([&](const VoxelIndex& address, const BrickPlane& inside) {
+  change.for_each_brick(tiles_.tiles(), [&](const VoxelIndex& address, const BrickPlane& inside) {
     BrickVoids& brick = brick_at(address);
     brick.inside = inside;
     refresh(brick);

@@ -24,6 +24,9 @@ class CellRows {
   [[nodiscard]] const VoxelBox& box() const { return box_; }
   /// The cell must be in the box.
   void insert(const VoxelIndex& cell) { words_[word_of(cell)] |= std::uint64_t{1} << bit_of(cell); }
+  /// Adds cells of the four from `first` on, all in the box and in one word: `first` lies a multiple of 4 from its
+  /// start.
+  void insert_four(const VoxelIndex& first, std::uint64_t cells) { words_[word_of(first)] |= cells << bit_of(first); }
   [[nodiscard]] bool contains(const VoxelIndex& cell) const {
     return box_.contains(cell) && (words_[word_of(cell)] >> bit_of(cell) & 1U) != 0;
   }
@@ -63,8 +66,5 @@ class CellRows {
   };
   return bits == 0 ? word_at(word) : word_at(word) >> bits | word_at(word + 1) << (64U - bits);
 }
-
-/// The cells of the same box that are at most `by` away from one of these on every axis.
-[[nodiscard]] CellRows grown(const CellRows& cells, std::int32_t by);
 
 }  // namespace vantage::detail

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vantage/map/height_band.hpp>
@@ -48,6 +47,13 @@ HeightBand::HeightBand(const OccupancyMapOptions& of_map, const HeightBandOption
   lowest_ = cells.lo.z;
   above_ = cells.hi.z;
   layer_ = plane_.region()->lo.z;
+  lowest_floor_ = lowest_;
+  if (options.floor != FloorRule::Ignored) {
+    const double deepest_m = options.min_height_m - options.step_height_m;
+    while (frame.corner_of({0, 0, lowest_floor_}).z() > deepest_m) {
+      --lowest_floor_;
+    }
+  }
   detail::require_option(lowest_ < above_, "HeightBandOptions::max_height_m", options.max_height_m,
                          "such that the centre of a cell lies between the heights");
   if (of_map.region) {
@@ -70,14 +76,13 @@ void HeightBand::follow(const OccupancyMap& map) {
     map_ = KnownMap(map);
     followed_ = 0;
   }
-  std::set<std::pair<std::int32_t, std::int32_t>> stale;  // addresses of the columns of bricks
   for (const VoxelIndex& brick : map.changed_since(followed_)) {
     const VoxelIndex first = Brick::first_cell(brick);
-    if (first.z < above_ && first.z + Brick::kSide > lowest_) {
-      stale.emplace(first.y, first.x);
+    if (first.z < above_ && first.z + Brick::kSide > lowest_floor_) {
+      stale_.emplace(first.y, first.x);
     }
   }
-  for (const auto& [y, x] : stale) {
+  for (const auto& [y, x] : stale_) {
     for_each_cell(VoxelBox{{x, y, layer_}, {x + Brick::kSide, y + Brick::kSide, layer_ + 1}},
                   [&](const VoxelIndex& column) {
                     const Occupancy state = state_of(map, column);
@@ -86,6 +91,7 @@ void HeightBand::follow(const OccupancyMap& map) {
                     }
                   });
   }
+  stale_.clear();
   if (map.revision() != followed_) {
     plane_.confirm();  // what has been looked at in vain has been looked at
   }
@@ -101,7 +107,37 @@ Occupancy HeightBand::state_of(const OccupancyMap& map, const VoxelIndex& column
     }
     free += state == Occupancy::Free ? 1 : 0;
   }
-  return free > 0 && free >= options_.free_share * (above_ - lowest_) ? Occupancy::Free : Occupancy::Unknown;
+  return free > 0 && free >= options_.free_share * (above_ - lowest_) ? state_by_floor(map, column)
+                                                                       : Occupancy::Unknown;
+}
+
+// Of a column whose band is free.
+Occupancy HeightBand::state_by_floor(const OccupancyMap& map, const VoxelIndex& column) const {
+  bool all_free = lowest_floor_ < lowest_;
+  for (VoxelIndex cell{column.x, column.y, lowest_floor_}; cell.z < lowest_; ++cell.z) {
+    const Occupancy state = map.at(cell);
+    if (state == Occupancy::Occupied) {
+      return Occupancy::Free;
+    }
+    all_free = all_free && state == Occupancy::Free;
+  }
+  if (all_free) {
+    return Occupancy::Occupied;
+  }
+  return options_.floor != FloorRule::Seen || assumed_.contains(column) ? Occupancy::Free : Occupancy::Unknown;
+}
+
+void HeightBand::assume_floor(const Box& box) {
+  VoxelBox columns = plane_.frame().cells_touched_by(box);
+  columns.lo.z = layer_;
+  columns.hi.z = layer_ + 1;
+  detail::require_option(columns.size() <= OccupancyMap::kMaxBoxCells, "HeightBand::assume_floor: count of columns",
+                         columns.size(), "at most OccupancyMap::kMaxBoxCells");
+  for_each_cell(columns, [&](const VoxelIndex& column) {
+    assumed_.insert(column);
+    const VoxelIndex first = Brick::first_cell(Brick::of_cell(column));
+    stale_.emplace(first.y, first.x);
+  });
 }
 
 }  // namespace vantage

@@ -4,7 +4,10 @@
 #include <map/grazed_cells.hpp>
 #include <map/mark_rays.hpp>
 #include <map/update_word.hpp>
+#include <optional>
 #include <vantage/map/occupancy_map.hpp>
+
+#include "geometry/box_overlap.hpp"
 
 namespace vantage {
 
@@ -19,18 +22,32 @@ class ScanInserter {
     report_ = rays.report();
     ++map_.revision_;
     if (!rays.empty()) {
-      ScanMarks marks(rays.cells(), map_.frame_.cell_of(rays.origin()));
+      const std::optional<VoxelBox> clip = clip_of(rays.cells());
+      if (clip && clip->empty()) {
+        return report_;
+      }
+      const VoxelIndex origin = map_.frame_.cell_of(rays.origin());
+      ScanMarks marks = clip ? ScanMarks::clipped_to(*clip, origin) : ScanMarks(rays.cells(), origin);
       mark_rays(rays, map_.frame_, policy, marks);
       if (map_.options_.keep_grazed_cells) {
         unmark_grazed_cells(rays, map_, policy, marks);
       }
       marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed,
                                          const std::uint64_t* hit) { update(address, passed, hit); });
+      refuse(marks.dropped());
     }
     return report_;
   }
 
  private:
+  // The cells to which rays are clipped, one beyond the region; none where most of the cells between the ends of the
+  // rays lie there anyhow: without a clip, neighbouring rays are drawn together.
+  [[nodiscard]] std::optional<VoxelBox> clip_of(const VoxelBox& cells) const {
+    constexpr double kMost = 0.25;
+    const auto volume = [](const VoxelBox& box) { return 1.0 * box.extent().x * box.extent().y * box.extent().z; };
+    const VoxelBox inside = map_.region_ ? detail::box_overlap(cells, map_.region_->grown(1)) : cells;
+    return volume(inside) < kMost * volume(cells) ? std::optional(inside) : std::nullopt;
+  }
   void update(const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
     BrickMarks marks;
     const bool cut = map_.region_ && !inside(address, *map_.region_);
@@ -45,9 +62,21 @@ class ScanInserter {
       return;
     }
     const BrickDirectory::Number number = map_.brick_for(address);
+    if (number == BrickDirectory::kNone) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        refuse(static_cast<std::size_t>(std::popcount(marks.hit[word] | marks.passed[word])));
+      }
+      return;
+    }
+    map_.written_[number] = map_.revision_;
     if (update_brick(map_.bricks_[number].cells, marks)) {
       map_.mark_changed(number);
     }
+  }
+
+  void refuse(std::size_t cells) {
+    report_.cells_refused += cells;
+    map_.cells_refused_ += cells;
   }
 
   // Whether a cell of the brick changed its state.

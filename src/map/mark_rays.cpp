@@ -3,6 +3,7 @@
 #include <map/mark_rays.hpp>
 #include <map/ray_marker.hpp>
 #include <map/tile_beam.hpp>
+#include <unordered_set>
 
 namespace vantage {
 namespace {
@@ -20,12 +21,13 @@ void for_each_block(const ScanRays& rays, Visit&& visit) {
 }
 
 // Marks the cells in which returns of the block lie; calls `is_first(ray)` for those that are the first in their
-// cell.
+// cell, and for all whose cell has no mark.
 template <class IsFirst>
 void mark_hits(const RayBlock& block, ScanMarks& marks, IsFirst&& is_first) {
   if (!marks.holds_all()) {
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      if (block.hits(i) && marks.mark_hit({block.cell[0][i], block.cell[1][i], block.cell[2][i]})) {
+      const VoxelIndex cell{block.cell[0][i], block.cell[1][i], block.cell[2][i]};
+      if (block.hits(i) && (marks.leaves_out(cell) || marks.mark_hit(cell))) {
         is_first(i);
       }
     }
@@ -51,9 +53,14 @@ void mark_hits(const RayBlock& block, ScanMarks& marks, IsFirst&& is_first) {
 // The rays with a return into a cell that has none yet, ending at its centre; and all rays without a return.
 std::vector<DrawnRay> one_ray_per_end_cell(const ScanRays& rays, const VoxelFrame& frame, ScanMarks& marks) {
   std::vector<DrawnRay> drawn;
+  std::unordered_set<VoxelIndex> left_out;  // cells of ends without a mark
   for_each_block(rays, [&](const RayBlock& block) {
     const auto cell = [&](std::size_t i) { return VoxelIndex{block.cell[0][i], block.cell[1][i], block.cell[2][i]}; };
-    mark_hits(block, marks, [&](std::size_t i) { drawn.push_back({frame.centre_of(cell(i)), cell(i)}); });
+    mark_hits(block, marks, [&](std::size_t i) {
+      if (!marks.leaves_out(cell(i)) || left_out.insert(cell(i)).second) {
+        drawn.push_back({frame.centre_of(cell(i)), cell(i)});
+      }
+    });
     for (std::size_t i = 0; i < RayBlock::kRays && !block.all_hit(); ++i) {
       if (block.usable(i) && !block.hits(i)) {
         drawn.push_back({{block.end[0][i], block.end[1][i], block.end[2][i]}, cell(i)});

@@ -172,8 +172,27 @@ VoxelBox OccupancyMap::bounds() const {
   return bounds.empty() ? VoxelBox{} : bounds;
 }
 
+void OccupancyMap::swap(OccupancyMap& other) {
+  std::swap(identity_, other.identity_);
+  std::swap(options_, other.options_);
+  std::swap(frame_, other.frame_);
+  std::swap(region_, other.region_);
+  std::swap(step_, other.step_);
+  std::swap(hit_steps_, other.hit_steps_);
+  std::swap(miss_steps_, other.miss_steps_);
+  std::swap(min_steps_, other.min_steps_);
+  std::swap(max_steps_, other.max_steps_);
+  std::swap(directory_, other.directory_);
+  std::swap(bricks_, other.bricks_);
+  std::swap(written_, other.written_);
+  std::swap(cells_refused_, other.cells_refused_);
+  std::swap(revision_, other.revision_);
+  std::swap(newest_, other.newest_);
+}
+
 std::size_t OccupancyMap::memory_bytes() const {
-  return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * (sizeof(Stored) + sizeof(void*));
+  return sizeof(*this) + directory_.memory_bytes() +
+         bricks_.size() * (sizeof(Stored) + sizeof(void*) + sizeof(Revision));
 }
 
 void OccupancyMap::require_past(Revision revision) const {
@@ -190,7 +209,32 @@ std::vector<VoxelIndex> OccupancyMap::changed_since(Revision revision) const {
   return changed;
 }
 
+void OccupancyMap::require_addressable(const VoxelIndex& cell, const char* what) {
+  if (!is_addressable(cell)) {
+    throw std::invalid_argument(std::string(what) + ": cell (" + std::to_string(cell.x) + ", " +
+                                std::to_string(cell.y) + ", " + std::to_string(cell.z) +
+                                ") cannot be addressed, must be within " + std::to_string(kFurthestVoxel) +
+                                " on each axis");
+  }
+}
+
+// What of a box may be written to.
+VoxelBox OccupancyMap::writable(const VoxelBox& cells, const char* what) const {
+  const VoxelBox inside = region_ ? detail::box_overlap(cells, *region_) : cells;
+  if (inside.empty()) {
+    return {};
+  }
+  require_addressable(inside.lo, what);
+  require_addressable(inside.hi - VoxelIndex{1, 1, 1}, what);
+  const VoxelIndex extent = inside.extent();
+  const double cells_inside = 1.0 * extent.x * extent.y * extent.z;
+  detail::require_option(cells_inside <= static_cast<double>(kMaxBoxCells), std::string(what) + ": count of cells",
+                         cells_inside, "at most OccupancyMap::kMaxBoxCells (1073741824)");
+  return inside;
+}
+
 void OccupancyMap::set(const VoxelIndex& cell, Occupancy occupancy) {
+  require_addressable(cell, "OccupancyMap::set");
   if (!in_region(cell)) {
     return;
   }
@@ -205,7 +249,7 @@ void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
   if (std::isnan(log_odds)) {
     throw std::invalid_argument("set_log_odds: the log-odds must be a number");
   }
-  const VoxelBox inside = region_ ? detail::box_overlap(cells, *region_) : cells;
+  const VoxelBox inside = writable(cells, "OccupancyMap::set_log_odds");
   if (inside.empty()) {
     return;
   }
@@ -219,23 +263,27 @@ void OccupancyMap::assume_free(const Box& box) {
   if (box.empty() || !frame_.addressable(box.min) || !frame_.addressable(box.max)) {
     throw std::invalid_argument("assume_free: the box must have min < max on every axis and be within the map");
   }
-  const VoxelIndex last{static_cast<std::int32_t>(std::ceil(box.max.x() / frame_.size_m)),
-                        static_cast<std::int32_t>(std::ceil(box.max.y() / frame_.size_m)),
-                        static_cast<std::int32_t>(std::ceil(box.max.z() / frame_.size_m))};
+  const VoxelBox inside = writable(frame_.cells_touched_by(box), "OccupancyMap::assume_free");
   ++revision_;
-  for_each_cell({frame_.cell_of(box.min), last}, [&](const VoxelIndex& cell) {
-    if (in_region(cell) && at(cell) == Occupancy::Unknown) {
+  for_each_cell(inside, [&](const VoxelIndex& cell) {
+    if (at(cell) == Occupancy::Unknown) {
       write(cell, Occupancy::Free, miss_steps_, Past::Kept);
     }
   });
 }
 
 BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& address) {
-  BrickDirectory::Number& number = directory_.place(address);
-  if (number == BrickDirectory::kNone) {
-    number = static_cast<BrickDirectory::Number>(bricks_.size());
-    bricks_.emplace_back().address = address;
+  const BrickDirectory::Number known = directory_.find(address);
+  if (known != BrickDirectory::kNone) {
+    return known;
   }
+  if (options_.max_bytes != 0 && memory_bytes() >= options_.max_bytes) {
+    return BrickDirectory::kNone;
+  }
+  const auto number = static_cast<BrickDirectory::Number>(bricks_.size());
+  directory_.place(address) = number;
+  bricks_.emplace_back().address = address;
+  written_.push_back(revision_);
   return number;
 }
 
@@ -269,6 +317,11 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
     return;
   }
   const BrickDirectory::Number number = brick_for(address);
+  if (number == BrickDirectory::kNone) {
+    ++cells_refused_;
+    return;
+  }
+  written_[number] = revision_;
   Brick& brick = bricks_[number].cells;
   const std::size_t offset = Brick::offset_of(cell);
   const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);

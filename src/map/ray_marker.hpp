@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <map/ray_lanes.hpp>
 #include <map/scan_marks.hpp>
+#include <optional>
+#include <vantage/geometry/voxel_ray.hpp>
 
 namespace vantage {
 
@@ -57,9 +60,24 @@ class RayMarker {
   void start(std::size_t lane, const DrawnRay& ray);
   void mark_far(const DrawnRay& ray);
 
+  // The crossing of a face; of those at the same time, that across the lower axis comes first.
+  struct Crossing {
+    std::int64_t time = -1;
+    std::size_t axis = 0;
+    friend auto operator<=>(const Crossing&, const Crossing&) = default;
+  };
+  // The part of a ray that is drawn: the cells after one crossing and up to another.
+  struct Part {
+    Crossing enters;
+    std::optional<Crossing> leaves;
+  };
+  using Crossings = std::array<FaceCrossings, 3>;
+  [[nodiscard]] std::optional<Part> within_window(const DrawnRay& ray, const Crossings& faces, Part part) const;
+
   VoxelFrame frame_;
   Eigen::Vector3d origin_;
   VoxelIndex first_;
+  bool starts_in_window_;
   ScanMarks& marks_;
   RayLanes lanes_;
   std::array<std::int64_t, RayLanes::kLanes> left_{};  // steps to the end of the lane's ray

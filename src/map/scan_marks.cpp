@@ -55,6 +55,15 @@ ScanMarks::ScanMarks(const VoxelBox& cells, const VoxelIndex& origin) : bricks_(
   hit_ = zeros(words_);
 }
 
+ScanMarks ScanMarks::clipped_to(const VoxelBox& clip, const VoxelIndex& origin) {
+  const VoxelIndex nearest{std::clamp(origin.x, clip.lo.x, clip.hi.x - 1),
+                           std::clamp(origin.y, clip.lo.y, clip.hi.y - 1),
+                           std::clamp(origin.z, clip.lo.z, clip.hi.z - 1)};
+  ScanMarks marks(clip, nearest);
+  marks.clip_ = clip;
+  return marks;
+}
+
 // Not a vector: pages of calloc that no ray touches are never written.
 ScanMarks::Plane ScanMarks::zeros(std::size_t words) {
   Plane plane(static_cast<std::uint64_t*>(std::calloc(std::max<std::size_t>(words, 1), sizeof(std::uint64_t))));
@@ -88,21 +97,31 @@ bool ScanMarks::all_marked(const VoxelBox& cells) const {
 
 void ScanMarks::unmark_passed(const VoxelIndex& cell) {
   const std::uint64_t position = in_window(cell) ? position_of(cell) : Brick::offset_of(cell);
-  std::uint64_t& word =
-      in_window(cell) ? passed_[position >> 6U] : far_brick(Brick::of_cell(cell)).passed[position >> 6U];
-  word &= ~(std::uint64_t{1} << (position & 63U));
+  std::uint64_t* plane = passed_.get();
+  if (!in_window(cell)) {
+    BrickMarks* const far = far_brick(Brick::of_cell(cell));
+    if (far == nullptr) {
+      return;
+    }
+    plane = far->passed.data();
+  }
+  plane[position >> 6U] &= ~(std::uint64_t{1} << (position & 63U));
 }
 
-BrickMarks& ScanMarks::far_brick(const VoxelIndex& brick) {
+BrickMarks* ScanMarks::far_brick(const VoxelIndex& brick) {
   if (last_far_ == nullptr || brick != last_far_->address) {  // a ray stays in a brick for some steps
-    BrickDirectory::Number& number = far_numbers_.place(brick);
+    BrickDirectory::Number number = far_numbers_.find(brick);
     if (number == BrickDirectory::kNone) {
+      if (far_.size() == kMaxFarBricks) {
+        return nullptr;
+      }
       number = static_cast<BrickDirectory::Number>(far_.size());
+      far_numbers_.place(brick) = number;
       far_.emplace_back().address = brick;
     }
     last_far_ = &far_[number];
   }
-  return last_far_->marks;
+  return &last_far_->marks;
 }
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vantage/map/brick.hpp>
 #include <vantage/map/brick_directory.hpp>
 
@@ -28,15 +29,25 @@ class ScanMarks {
   /// The largest window, in cells: one plane of it takes 128 MiB of address space, of which only what is touched
   /// counts.
   static constexpr std::size_t kMaxWindow = std::size_t{1} << 30U;
+  /// The most bricks outside of the window; marks in further ones are dropped and counted.
+  static constexpr std::size_t kMaxFarBricks = std::size_t{1} << 21U;
 
   /// A window over `cells`, or as much of it around `origin` as may be.
   ScanMarks(const VoxelBox& cells, const VoxelIndex& origin);
+  /// For the cells of `clip` alone, not empty: marks anywhere else are none.
+  [[nodiscard]] static ScanMarks clipped_to(const VoxelBox& clip, const VoxelIndex& origin);
 
   /// The cells of the window.
   [[nodiscard]] const VoxelBox& window() const { return window_; }
   [[nodiscard]] bool in_window(const VoxelIndex& cell) const { return window_.contains(cell); }
-  /// Whether the window holds all the cells that were asked for.
-  [[nodiscard]] bool holds_all() const { return holds_all_; }
+  /// Whether the window holds every cell that is marked.
+  [[nodiscard]] bool holds_all() const { return holds_all_ && !clip_; }
+  /// Whether it holds every cell that is marked and not left out.
+  [[nodiscard]] bool holds_clip() const { return holds_all_ && clip_; }
+  /// Whether marks of this cell are none.
+  [[nodiscard]] bool leaves_out(const VoxelIndex& cell) const { return clip_ && !clip_->contains(cell); }
+  /// How many marks found no room.
+  [[nodiscard]] std::size_t dropped() const { return dropped_; }
   /// The part of the position that stands for a coordinate of a cell of the window.
   [[nodiscard]] std::uint64_t part(std::size_t axis, std::int32_t coordinate) const {
     const std::array<std::int32_t, 3> lo{window_.lo.x, window_.lo.y, window_.lo.z};
@@ -108,12 +119,18 @@ class ScanMarks {
   using Plane = std::unique_ptr<std::uint64_t[], Free>;
 
   static Plane zeros(std::size_t words);
-  BrickMarks& far_brick(const VoxelIndex& brick);
+  // Null where there is no room for it.
+  BrickMarks* far_brick(const VoxelIndex& brick);
   bool mark(const VoxelIndex& cell, std::uint64_t* plane,
             std::array<std::uint64_t, Brick::kWords> BrickMarks::*far_plane) {
     const bool near = in_window(cell);
+    BrickMarks* const far = near ? nullptr : far_brick(Brick::of_cell(cell));
+    if (!near && far == nullptr) {
+      ++dropped_;
+      return false;
+    }
     const std::uint64_t position = near ? position_of(cell) : Brick::offset_of(cell);
-    std::uint64_t& word = near ? plane[position >> 6U] : (far_brick(Brick::of_cell(cell)).*far_plane)[position >> 6U];
+    std::uint64_t& word = near ? plane[position >> 6U] : (far->*far_plane)[position >> 6U];
     const std::uint64_t bit = std::uint64_t{1} << (position & 63U);
     const bool is_new = (word & bit) == 0;
     word |= bit;
@@ -123,6 +140,8 @@ class ScanMarks {
   VoxelBox bricks_;
   VoxelBox window_;
   bool holds_all_;
+  std::optional<VoxelBox> clip_;
+  std::size_t dropped_ = 0;
   std::array<unsigned, 3> shift_{};  // of the brick's coordinate in a position
   std::size_t words_ = 0;
   Plane passed_;

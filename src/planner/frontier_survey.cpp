@@ -11,7 +11,6 @@
 #include <vantage/planner/frontier_survey.hpp>
 #include <vantage/planner/frontier_surveyor.hpp>
 
-#include "geometry/cell_rows.hpp"
 #include "planner/sight_memory.hpp"
 
 namespace vantage {
@@ -141,44 +140,27 @@ bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const Tr
   });
 }
 
-// Cells that touch an occupied one, up to those just beyond what is known.
-detail::CellRows beside_surfaces(const OccupancyMap& map) {
-  detail::CellRows occupied(map.bounds().grown(1));
-  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
-        occupied.insert(Brick::first_cell(address) + Brick::cell_at(offset));
-      });
-    }
-  });
-  return detail::grown(occupied, 1);
-}
-
 // The targets beside a known surface; all of them if there is none.
 std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
-  const detail::CellRows near = beside_surfaces(map);
+  const auto beside_surface = [&](const FrontierTarget& target) {
+    return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(), [&](const VoxelIndex& step) {
+      return map.at(target.unknown + step) == Occupancy::Occupied;
+    });
+  };
   std::vector<FrontierTarget> beside;
-  std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside),
-               [&](const FrontierTarget& target) { return near.contains(target.unknown); });
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside), beside_surface);
   return beside.empty() ? std::move(targets) : beside;
 }
 
 // The platform comes close to a cell if some reachable cell lies within half its body, and one cell more.
 void count_hidden(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
                   const TriedViews& tried, const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
-  if (hidden.empty()) {
-    return;
-  }
-  detail::CellRows places(map.bounds());
-  for (const VoxelIndex& cell : reachable.cells()) {
-    places.insert(cell);
-  }
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
-  const detail::CellRows near =
-      detail::grown(places, static_cast<std::int32_t>(std::ceil(half.maxCoeff() / map.resolution_m())) + 1);
+  const std::int32_t near = map.frame().cells_up_to(half.maxCoeff()) + 1;
   for (const VoxelIndex& cell : hidden) {
+    const bool comes_close = reachable.any_in(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(near));
     ++(looked_at_in_vain(map, cell, tried) ? leftover.in_vain
-       : near.contains(cell)               ? leftover.unobservable
+       : comes_close                       ? leftover.unobservable
                                            : leftover.unreachable);
   }
 }
@@ -201,7 +183,8 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& cur
 
 FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                         std::vector<VoxelIndex> frontier) {
-  return survey(map, ReachableSpace(map, *platform_, current), tried, std::move(frontier));
+  admitted_.follow(map, *platform_);
+  return survey(map, ReachableSpace(map, *platform_, current, admitted_), tried, std::move(frontier));
 }
 
 FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,

@@ -8,52 +8,16 @@
 #include "geometry/spread_directions.hpp"
 
 namespace vantage::detail {
-namespace {
-
-// Room to grow, so that not every scan that adds to the edge of the map makes everything begin anew.
-VoxelBox with_room(const OccupancyMap& map) {
-  constexpr std::int32_t kRoom = 16;
-  VoxelBox cells = map.bounds().grown(kRoom);
-  if (const std::optional<VoxelBox>& region = map.region()) {
-    cells.lo = {std::max(cells.lo.x, region->lo.x), std::max(cells.lo.y, region->lo.y),
-                std::max(cells.lo.z, region->lo.z)};
-    cells.hi = {std::min(cells.hi.x, region->hi.x), std::min(cells.hi.y, region->hi.y),
-                std::min(cells.hi.z, region->hi.z)};
-  }
-  return cells;
-}
-
-bool holds(const VoxelBox& outer, const VoxelBox& inner) {
-  return outer.contains(inner.lo) && outer.contains(inner.hi - VoxelIndex{1, 1, 1});
-}
-
-}  // namespace
 
 void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
                          std::size_t direction_count) {
   if (cell_size_m_ != map.resolution_m() || furthest_m_ != furthest_m || direction_count_ != direction_count) {
     begin(map, furthest_m, direction_count);
   }
-  if (!holds(cells_, map.bounds())) {
-    make_room(map);
-  }
   asked_ = nullptr;
   ++survey_;
-  VoxelGrid<std::uint64_t> clear(blocks_.box());
-  map.for_each_clear([&](const VoxelIndex& cell) { clear[block_of(cell)] |= bit_of(cell); });
-  VoxelGrid<std::uint64_t> places(blocks_.box());
-  for (const VoxelIndex& cell : reachable.cells()) {
-    places[block_of(cell)] |= bit_of(cell);
-  }
-  for (std::size_t offset = 0; offset < blocks_.size(); ++offset) {
-    Block& block = blocks_.values()[offset];
-    const std::uint64_t clear_before = std::exchange(block.clear, clear.values()[offset]);
-    const std::uint64_t places_before = std::exchange(block.reachable, places.values()[offset]);
-    if (clear_before != block.clear || places_before != block.reachable) {
-      block.changed = survey_;
-    }
-  }
-  places_.emplace(cells_, reachable.cells());
+  follow_clear(map);
+  follow_places(reachable);
 }
 
 void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
@@ -65,21 +29,63 @@ void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t 
   direction_count_ = direction_count;
 }
 
-void SightMemory::make_room(const OccupancyMap& map) {
-  answers_.clear();
-  cells_ = {};  // makes room again if what follows throws
-  const VoxelBox cells = with_room(map);
-  const VoxelBox blocks{block_of(cells.lo), block_of(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-  blocks_ = VoxelGrid<Block>(blocks);
-  cells_ = cells;
+void SightMemory::follow_clear(const OccupancyMap& map) {
+  if (!map_.is(map)) {
+    followed_ = 0;
+    for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
+      for_each_cell({{0, 0, 0}, {4, 4, 4}}, [&](const VoxelIndex& step) {  // bricks of the map
+        const VoxelIndex blocks = blocks_.address(number);
+        const VoxelIndex brick = VoxelIndex{blocks.x * 4, blocks.y * 4, blocks.z * 4} + step;
+        if (map.find_brick(brick) == nullptr) {
+          set(brick, {}, &Block::clear);
+        }
+      });
+    }
+    map_ = KnownMap(map);
+  }
+  map.for_each_written_since(followed_, [&](const VoxelIndex& address, const Brick& brick) {
+    set(address, map.clear_plane(brick), &Block::clear);
+  });
+  followed_ = map.revision();
+}
+
+void SightMemory::follow_places(const ReachableSpace& reachable) {
+  for (const VoxelIndex& brick : reached_) {
+    if (!reachable.reaches(brick)) {
+      set(brick, {}, &Block::reachable);
+    }
+  }
+  reached_.clear();
+  places_.clear();
+  reachable.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) {
+    set(brick, cells, &Block::reachable);
+    reached_.push_back(brick);
+    places_.insert(brick);
+  });
+}
+
+// The eight blocks of a brick of the map.
+template <class Member>
+void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member member) {
+  const VoxelIndex first{brick.x * 2, brick.y * 2, brick.z * 2};
+  BrickGrid<Block>::Values& blocks = blocks_.values(blocks_.store(Brick::of_cell(first)));
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    const auto at = static_cast<std::int32_t>(word);
+    Block& block = blocks[Brick::offset_of(first + VoxelIndex{at & 1, at >> 1 & 1, at >> 2})];
+    if (std::exchange(block.*member, cells[word]) != cells[word]) {
+      block.changed = survey_;
+    }
+  }
 }
 
 bool SightMemory::stands(const Answer& answer) const {
   return answer.may_stand &&
          std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
-                     [&](std::uint32_t block) { return blocks_.values()[block].changed <= answer.found; }) &&
+                     [&](std::uint32_t at) {
+                       return blocks_.values(at / Brick::kCells)[at % Brick::kCells].changed <= answer.found;
+                     }) &&
          std::none_of(answer.without_places.begin(), answer.without_places.end(),
-                      [&](const VoxelBox& cells) { return places_->may_hold(cells); });
+                      [&](const VoxelBox& cells) { return places_.touches(cells); });
 }
 
 void SightMemory::forget_others() {

@@ -7,13 +7,13 @@
 #include <optional>
 #include <unordered_map>
 #include <utility>
-#include <vantage/geometry/voxel_grid.hpp>
-#include <vantage/map/brick.hpp>
+#include <vantage/map/brick_grid.hpp>
+#include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/robot/reachable_space.hpp>
 #include <vector>
 
-#include "geometry/block_counts.hpp"
+#include "map/brick_tree.hpp"
 #include "planner/sight_tree.hpp"
 
 namespace vantage::detail {
@@ -21,10 +21,10 @@ namespace vantage::detail {
 /// Where sight passes and where the platform can go, from survey to survey, and what looking around unknown cells has
 /// found there: an answer stands until something changes where it was looked for.
 ///
-/// Cells are kept in blocks of 4 x 4 x 4. Changes are found by comparing every block with what it was in the survey
-/// before, so it does not matter by which way a map came to be as it is, nor whether it is the same map. A change in
-/// a block that an answer has looked at makes it be looked for anew. An answer is that of a memory that begins now,
-/// always.
+/// Cells are kept in blocks of 4 x 4 x 4. Changes are found by comparing blocks that were written to, all of them where
+/// the map is another one, with what they were in the survey before. A change in a block that an answer has looked at
+/// makes it be looked for anew. An answer is that of a memory that begins now, always. Memory follows what is known,
+/// never the box around it.
 class SightMemory {
  public:
   /// Takes over what is clear and what is reachable now. Lines of sight are `direction_count` rays of `furthest_m`.
@@ -58,12 +58,15 @@ class SightMemory {
     bool may_stand = false;                     // found, and not for once only
     std::uint32_t found = 0;                    // in which survey
     std::uint32_t asked = 0;                    // in which survey it was last asked for
-    std::vector<std::uint32_t> looked_at = {};  // offsets of blocks
+    std::vector<std::uint32_t> looked_at = {};  // positions of blocks
     std::vector<VoxelBox> without_places = {};  // was not looked into, for nothing in it was reachable
   };
 
   void begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count);
-  void make_room(const OccupancyMap& map);
+  void follow_clear(const OccupancyMap& map);
+  void follow_places(const ReachableSpace& reachable);
+  template <class Member>
+  void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
   [[nodiscard]] bool stands(const Answer& answer) const;
   static VoxelIndex block_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
   static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (Brick::offset_of(cell) & 63U); }
@@ -72,9 +75,13 @@ class SightMemory {
   double furthest_m_ = 0.0;
   std::size_t direction_count_ = 0;
   std::optional<SightTree> tree_;
-  VoxelBox cells_;                     // that the blocks reach; grows in leaps
-  VoxelGrid<Block> blocks_;            // nothing beyond them is clear; where they grow, all answers are forgotten
-  std::optional<BlockCounts> places_;  // that are reachable
+  KnownMap map_;                      // that was followed last
+  OccupancyMap::Revision followed_ = 0;
+  BrickGrid<Block> blocks_;           // by their addresses, as if they were cells
+  std::vector<VoxelIndex> reached_;   // the bricks of the map with places, in the survey before
+  BrickTree places_;                  // that are reachable
+  VoxelIndex last_brick_;             // of blocks, that was looked at last
+  std::uint32_t last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer that is being looked for
@@ -83,20 +90,24 @@ class SightMemory {
 
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
   const VoxelIndex address = block_of(cell);
-  if (!blocks_.contains(address)) {
-    return false;
+  const VoxelIndex brick = Brick::of_cell(address);
+  if (last_number_ == BrickDirectory::kNone || brick != last_brick_) {
+    last_brick_ = brick;
+    last_number_ = blocks_.store(brick);  // so that an answer can tell when it becomes known
   }
-  const std::size_t offset = blocks_.offset_of(address);
-  Block& block = blocks_.values()[offset];
+  const std::size_t offset = Brick::offset_of(address);
+  Block& block = blocks_.values(last_number_)[offset];
   if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
-    asked_->looked_at.push_back(static_cast<std::uint32_t>(offset));
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + offset));
   }
   return (block.clear & bit_of(cell)) != 0;
 }
 
 inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
   const VoxelIndex address = block_of(cell);
-  return blocks_.contains(address) && (blocks_[address].reachable & bit_of(cell)) != 0;
+  const bool near = last_number_ != BrickDirectory::kNone && Brick::of_cell(address) == last_brick_;
+  const Block& block = near ? blocks_.values(last_number_)[Brick::offset_of(address)] : blocks_[address];
+  return (block.reachable & bit_of(cell)) != 0;
 }
 
 template <class Passes, class Serves>
@@ -114,7 +125,7 @@ std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& unknown, bo
   answer.viewpoint = tree_->first(
       unknown,
       [&](const VoxelBox& cells) {
-        const bool may_hold = places_->may_hold(cells);
+        const bool may_hold = places_.touches(cells);
         if (!may_hold) {
           answer.without_places.push_back(cells);
         }

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/situation.hpp>
 
 #include "map/option_rule.hpp"
@@ -192,19 +193,24 @@ std::optional<Plan> Situation::turn_on_the_spot() const {
 // A place in known free space in which the body fits, not joined to where it stands, from which something would be
 // observable.
 std::optional<VoxelIndex> Situation::place_cut_off() const {
-  const VoxelGrid<std::uint8_t> admitted = setup_.platform->admitted_cells(*map_, map_->bounds());
   std::vector<VoxelIndex> beyond;
-  for (std::size_t offset = 0; offset < admitted.size(); ++offset) {
-    if (const VoxelIndex cell = admitted.cell_at(offset); admitted.values()[offset] != 0 && !reachable().contains(cell)) {
-      beyond.push_back(cell);
+  surveyor_.admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(admitted[word], word, [&](std::size_t offset) {
+        const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
+        if (!reachable().contains(cell)) {
+          beyond.push_back(cell);
+        }
+      });
     }
-  }
+  });
+  std::sort(beyond.begin(), beyond.end(), RasterOrder{});
   if (beyond.empty()) {
     return std::nullopt;
   }
   FrontierSurveyor surveyor(setup_.platform, setup_.sensor, options_);
   const FrontierSurvey survey =
-      surveyor.survey(*map_, ReachableSpace(map_->frame(), std::move(beyond)), tried_, frontier_->cells());
+      surveyor.survey(*map_, ReachableSpace(map_->frame(), beyond), tried_, frontier_->cells());
   return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
 }
 

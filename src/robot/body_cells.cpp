@@ -11,11 +11,24 @@
 namespace vantage::detail {
 namespace {
 
-CellRows clear_rows(const OccupancyMap& map, const VoxelBox& box) {
-  CellRows clear(box);
-  map.for_each_clear([&](const VoxelIndex& cell) {
-    if (box.contains(cell)) {
-      clear.insert(cell);
+// The bricks that hold the cells of a box.
+VoxelBox bricks_of(const VoxelBox& cells) {
+  return {Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+}
+
+CellRows clear_rows(const OccupancyMap& map, const VoxelBox& bricks) {
+  CellRows clear({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
+  for_each_cell(bricks, [&](const VoxelIndex& address) {
+    const Brick* brick = map.find_brick(address);
+    if (brick == nullptr) {
+      return;
+    }
+    const BrickPlane plane = map.clear_plane(*brick);
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      const VoxelIndex first = Brick::first_cell(address) + Brick::cell_at(64 * word);
+      for (std::int32_t row = 0; row < 16 && plane[word] != 0; ++row) {
+        clear.insert_four(first + VoxelIndex{0, row & 3, row >> 2}, plane[word] >> (4 * row) & 0xFU);
+      }
     }
   });
   return clear;
@@ -68,7 +81,11 @@ CellRows clear_along(const CellRows& clear, const std::vector<std::int32_t>& ste
 // Row by row of the body, for 64 places at a time.
 VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& box,
                                        const std::vector<VoxelIndex>& touched) {
-  const CellRows clear = clear_rows(map, box.grown(reach_of(touched)));
+  VoxelGrid<std::uint8_t> grid(box);
+  if (box.empty()) {
+    return grid;
+  }
+  const CellRows clear = clear_rows(map, bricks_of(box.grown(reach_of(touched))));
   CellRows fits = clear;
   for (const auto& [steps, rows] : rows_of_body(touched)) {
     const CellRows along = clear_along(clear, steps);
@@ -82,7 +99,6 @@ VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& 
       }
     }
   }
-  VoxelGrid<std::uint8_t> grid(box);
   auto value = grid.values().begin();
   for_each_cell(box, [&](const VoxelIndex& cell) { *value++ = fits.contains(cell) ? 1 : 0; });
   return grid;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
@@ -11,11 +13,28 @@
 
 namespace vantage::detail {
 
-/// What a sphere at the centre of cell (0, 0, 0) touches.
-[[nodiscard]] inline std::vector<VoxelIndex> touched_by_sphere(const VoxelFrame& frame, double radius_m) {
-  const auto rings = static_cast<std::int32_t>(std::ceil(radius_m / frame.size_m));
+/// Whether a sphere touches more cells than a map can know, so that it fits nowhere: what keeps the cost of a body from
+/// growing with its volume.
+[[nodiscard]] inline bool is_larger_than_known(const OccupancyMap& map, double radius_m) {
+  const double cells = 4.0 / 3.0 * std::numbers::pi * std::pow(radius_m / map.resolution_m(), 3.0);
+  return cells > static_cast<double>(map.brick_count() * Brick::kCells);
+}
+
+/// The same for a disc in a layer of cells: it touches 64 cells of a brick at most.
+[[nodiscard]] inline bool disc_is_larger_than_known(const OccupancyMap& map, double radius_m) {
+  const double cells = std::numbers::pi * std::pow(radius_m / map.resolution_m(), 2.0);
+  return cells > static_cast<double>(map.brick_count() * 64);
+}
+
+/// What a sphere at the centre of cell (0, 0, 0) touches, in layers no further off than `layers`.
+[[nodiscard]] inline std::vector<VoxelIndex> touched_by_sphere(const VoxelFrame& frame, double radius_m,
+                                                               std::int32_t layers = kFurthestVoxel) {
+  const std::int32_t rings = frame.cells_up_to(radius_m);
+  VoxelBox around = VoxelBox{{0, 0, 0}, {1, 1, 1}}.grown(rings);
+  around.lo.z = std::max(around.lo.z, -layers);
+  around.hi.z = std::min(around.hi.z, layers + 1);
   std::vector<VoxelIndex> touched;
-  for_each_cell(VoxelBox{{0, 0, 0}, {1, 1, 1}}.grown(rings), [&](const VoxelIndex& cell) {
+  for_each_cell(around, [&](const VoxelIndex& cell) {
     if (sphere_touches(frame, frame.centre_of({0, 0, 0}), radius_m, cell)) {
       touched.push_back(cell);
     }

@@ -9,10 +9,8 @@
 
 namespace vantage {
 FreeFlyer::FreeFlyer(const FreeFlyerOptions& options) : options_(options) {
-  detail::require_option(std::isfinite(options.radius_m) && options.radius_m >= 0.0, "FreeFlyerOptions::radius_m",
-                         options.radius_m, ">= 0");
-  detail::require_option(std::isfinite(options.margin_m) && options.margin_m >= 0.0, "FreeFlyerOptions::margin_m",
-                         options.margin_m, ">= 0");
+  detail::require_length(options.radius_m, "FreeFlyerOptions::radius_m");
+  detail::require_length(options.margin_m, "FreeFlyerOptions::margin_m");
   detail::require_option(options.min_height_m <= options.max_height_m, "FreeFlyerOptions::min_height_m",
                          options.min_height_m, "<= max_height_m");
 }
@@ -22,7 +20,7 @@ bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
   if (!is_rigid(pose) || !map.frame().addressable(position) || !height_allowed(position.z())) {
     return false;
   }
-  if (options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6) {
+  if (detail::is_larger_than_known(map, reach_m()) || (options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6)) {
     return false;
   }
   return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
@@ -31,12 +29,15 @@ bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
 
 bool FreeFlyer::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
   const Eigen::Vector3d centre = map.frame().centre_of(cell);
-  return height_allowed(centre.z()) &&
+  return height_allowed(centre.z()) && !detail::is_larger_than_known(map, reach_m()) &&
          detail::swept_sphere_is_clear(map.frame(), centre, centre, reach_m(),
                                        [&](const VoxelIndex& touched) { return map.is_clear(touched); });
 }
 
 VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
+  if (detail::is_larger_than_known(map, reach_m())) {
+    return VoxelGrid<std::uint8_t>(box);
+  }
   VoxelGrid<std::uint8_t> admitted =
       detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), reach_m()));
   for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
@@ -52,7 +53,8 @@ bool FreeFlyer::admits_motion(const OccupancyMap& map, const Pose& from, const P
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d a = from.translation();
   const Eigen::Vector3d b = to.translation();
-  if (!frame.addressable(a) || !frame.addressable(b) || !height_allowed(b.z())) {
+  if (!frame.addressable(a) || !frame.addressable(b) || !height_allowed(b.z()) ||
+      detail::is_larger_than_known(map, reach_m())) {
     return false;
   }
   return detail::swept_sphere_is_clear(frame, a, b, reach_m(), [&](const VoxelIndex& cell) {

@@ -16,10 +16,17 @@ std::size_t axes_of(const VoxelIndex& step) {
   return static_cast<std::size_t>((step.x != 0) + (step.y != 0) + (step.z != 0));
 }
 
-bool cuts_no_corner(const ReachableSpace& space, const VoxelIndex& cell, const VoxelIndex& step) {
+// The numbers of a cell and its 26 neighbours, x running fastest.
+using Around = std::array<std::uint32_t, 27>;
+
+constexpr std::size_t place_of(const VoxelIndex& step) {
+  return static_cast<std::size_t>(step.x + 1 + 3 * (step.y + 1) + 9 * (step.z + 1));
+}
+
+bool cuts_no_corner(const Around& around, const VoxelIndex& step) {
   for (int part = 1; part < 8; ++part) {
     const VoxelIndex beside{(part & 1) != 0 ? step.x : 0, (part & 2) != 0 ? step.y : 0, (part & 4) != 0 ? step.z : 0};
-    if (!space.contains(cell + beside)) {
+    if (around[place_of(beside)] == ReachableSpace::kOutside) {
       return false;
     }
   }
@@ -53,6 +60,8 @@ std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, He
   std::vector<std::uint32_t> before(space.size(), ReachableSpace::kOutside);
   using Entry = std::pair<std::uint32_t, std::uint32_t>;  // cost + heuristic, cell number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  auto number_of = space.numbers();
+  Around around{};
   cost[0] = 0;
   open.emplace(heuristic(space.cells()[0]), 0U);
   while (!open.empty()) {
@@ -65,11 +74,15 @@ std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, He
     if (is_goal(number, cost[number])) {
       return way_back(space, before, number);
     }
+    around[place_of({0, 0, 0})] = number;
     for (const VoxelIndex& step : kAllNeighbours) {
-      const std::uint32_t next = space.number_of(cell + step);
+      around[place_of(step)] = number_of(cell + step);
+    }
+    for (const VoxelIndex& step : kAllNeighbours) {
+      const std::uint32_t next = around[place_of(step)];
       const std::uint32_t reached = cost[number] + kStepCost[axes_of(step)];
       if (next != ReachableSpace::kOutside && reached < cost[next] &&
-          (axes_of(step) == 1 || cuts_no_corner(space, cell, step))) {
+          (axes_of(step) == 1 || cuts_no_corner(around, step))) {
         cost[next] = reached;
         before[next] = number;
         open.emplace(reached + heuristic(cell + step), next);

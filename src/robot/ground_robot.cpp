@@ -11,20 +11,20 @@
 namespace vantage {
 
 GroundRobot::GroundRobot(const GroundRobotOptions& options) : options_(options) {
-  detail::require_option(std::isfinite(options.radius_m) && options.radius_m >= 0.0, "GroundRobotOptions::radius_m",
-                         options.radius_m, ">= 0");
-  detail::require_option(std::isfinite(options.margin_m) && options.margin_m >= 0.0, "GroundRobotOptions::margin_m",
-                         options.margin_m, ">= 0");
+  detail::require_length(options.radius_m, "GroundRobotOptions::radius_m");
+  detail::require_length(options.margin_m, "GroundRobotOptions::margin_m");
 }
 
 bool GroundRobot::admits(const OccupancyMap& map, const Pose& pose) const {
   const Eigen::Vector3d position = pose.translation();
-  if (!is_rigid(pose) || !map.frame().addressable(position) || std::abs(optical_axis(pose).z()) > 1e-6) {
+  if (!is_rigid(pose) || !map.frame().addressable(position) || std::abs(optical_axis(pose).z()) > 1e-6 ||
+      detail::disc_is_larger_than_known(map, reach_m())) {
     return false;
   }
   const std::int32_t layer = map.frame().cell_of(position).z;
-  return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
-                                       [&](const VoxelIndex& cell) { return cell.z != layer || map.is_clear(cell); });
+  return detail::swept_sphere_is_clear(
+      map.frame(), position, position, reach_m(), [&](const VoxelIndex& cell) { return map.is_clear(cell); },
+      {layer, layer + 1});
 }
 
 bool GroundRobot::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
@@ -32,23 +32,27 @@ bool GroundRobot::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) c
 }
 
 VoxelGrid<std::uint8_t> GroundRobot::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
-  std::vector<VoxelIndex> touched = detail::touched_by_sphere(map.frame(), reach_m());
-  touched.erase(std::remove_if(touched.begin(), touched.end(), [](const VoxelIndex& cell) { return cell.z != 0; }),
-                touched.end());
-  return detail::cells_for_body(map, box, touched);
+  if (detail::disc_is_larger_than_known(map, reach_m())) {
+    return VoxelGrid<std::uint8_t>(box);
+  }
+  return detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), reach_m(), 0));
 }
 
 bool GroundRobot::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d a = from.translation();
   const Eigen::Vector3d b = to.translation();
-  if (!frame.addressable(a) || !frame.addressable(b) || frame.cell_of(a).z != frame.cell_of(b).z) {
+  if (!frame.addressable(a) || !frame.addressable(b) || frame.cell_of(a).z != frame.cell_of(b).z ||
+      detail::disc_is_larger_than_known(map, reach_m())) {
     return false;
   }
   const std::int32_t layer = frame.cell_of(a).z;
-  return detail::swept_sphere_is_clear(frame, a, b, reach_m(), [&](const VoxelIndex& cell) {
-    return cell.z != layer || map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell);
-  });
+  return detail::swept_sphere_is_clear(
+      frame, a, b, reach_m(),
+      [&](const VoxelIndex& cell) {
+        return map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell);
+      },
+      {layer, layer + 1});
 }
 
 Pose GroundRobot::facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const {

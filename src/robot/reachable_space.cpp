@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 #include <vantage/robot/reachable_space.hpp>
-
-#include "geometry/box_around.hpp"
 
 namespace vantage {
 namespace {
 
 // Nearest first; among equals the lowest address, so that the choice never depends on anything else.
 std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platform& platform, const Pose& current,
-                                           const VoxelGrid<std::uint8_t>& admitted) {
+                                           const AdmittedCells& admitted) {
   const VoxelFrame& frame = map.frame();
   const VoxelIndex home = frame.cell_of(current.translation());
   std::vector<VoxelIndex> candidates;
   // A body that is pushed against a wall gets away by half of itself, and one cell more.
-  constexpr double kMostCells = 16.0;
+  constexpr std::int32_t kMostCells = 16;
   const double half_m = 0.5 * platform.body_box(current).extent().maxCoeff();
-  const auto near = static_cast<std::int32_t>(std::clamp(std::ceil(half_m / frame.size_m) + 1.0, 2.0, kMostCells));
+  const std::int32_t near = std::clamp(frame.cells_up_to(half_m) + 1, 2, kMostCells);
   for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(near), [&](const VoxelIndex& cell) {
-    if (admitted.value_or(cell, 0) != 0) {
+    if (admitted.contains(cell)) {
       candidates.push_back(cell);
     }
   });
@@ -40,74 +36,164 @@ std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platfo
   return std::nullopt;
 }
 
-// An admitted cell that the flood has not reached.
-constexpr std::uint32_t kUnnumbered = ReachableSpace::kOutside - 1;
+// Where a step over a face leads within a brick, and whether it leads into the next one: by offset and face.
+struct FaceStep {
+  std::uint16_t offset;
+  bool leaves;
+};
+using FaceSteps = std::array<std::array<FaceStep, kFaceNeighbours.size()>, Brick::kCells>;
 
-// What is admitted, with a layer around it that is not, so that every neighbour of an admitted cell has its place.
-VoxelGrid<std::uint32_t> unnumbered(const VoxelGrid<std::uint8_t>& admitted) {
-  const VoxelBox& box = admitted.box();
-  VoxelGrid<std::uint32_t> number(box.grown(1), ReachableSpace::kOutside);
-  const auto row = static_cast<std::size_t>(box.extent().x);
-  for (std::size_t from = 0; from < admitted.size(); from += row) {
-    const std::size_t to = number.offset_of(admitted.cell_at(from));
-    for (std::size_t x = 0; x < row; ++x) {
-      number.values()[to + x] = admitted.values()[from + x] != 0 ? kUnnumbered : ReachableSpace::kOutside;
+consteval FaceSteps face_steps() {
+  FaceSteps steps{};
+  for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
+    for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
+      const VoxelIndex cell = Brick::cell_at(offset) + kFaceNeighbours[face];
+      steps[offset][face] = {static_cast<std::uint16_t>(Brick::offset_of(cell)),
+                             Brick::of_cell(cell) != VoxelIndex{0, 0, 0}};
     }
   }
-  return number;
+  return steps;
 }
+constexpr FaceSteps kFaceSteps = face_steps();
 
 }  // namespace
 
 ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current) {
-  frame_ = map.frame();
-  const VoxelBox bounds = map.bounds();
-  if (bounds.empty() || !map.frame().addressable(current.translation())) {
-    return;
+  AdmittedCells admitted;
+  admitted.follow(map, platform);
+  *this = ReachableSpace(map, platform, current, admitted);
+}
+
+ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current,
+                               const AdmittedCells& admitted)
+    : frame_(map.frame()) {
+  if (map.frame().addressable(current.translation())) {
+    start_ = nearest_admitted(map, platform, current, admitted);
   }
-  const VoxelGrid<std::uint8_t> admitted = platform.admitted_cells(map, bounds);
-  start_ = nearest_admitted(map, platform, current, admitted);
-  if (!start_ && platform.admits(map, current)) {
-    start_ = map.frame().cell_of(current.translation());
+  if (start_) {
+    flood(admitted);
+  } else if (platform.admits(map, current)) {
     stands_at_m_ = current.translation();
-    cells_ = {*start_};
-    number_ = VoxelGrid<std::uint32_t>(VoxelBox{*start_, *start_ + VoxelIndex{1, 1, 1}}, 0);
-    return;
+    take(map.frame().cell_of(current.translation()));
   }
-  if (!start_) {
-    return;
-  }
-  number_ = unnumbered(admitted);
-  std::vector<std::uint32_t>& numbers = number_.values();
-  std::vector<std::size_t> offsets;  // of the cells
-  std::array<std::size_t, kFaceNeighbours.size()> strides{};
-  std::transform(kFaceNeighbours.begin(), kFaceNeighbours.end(), strides.begin(), [&](const VoxelIndex& step) {
-    return number_.offset_of(*start_ + step) - number_.offset_of(*start_);
-  });
-  const auto reach = [&](const VoxelIndex& cell, std::size_t offset) {
-    numbers[offset] = static_cast<std::uint32_t>(cells_.size());
-    cells_.push_back(cell);
-    offsets.push_back(offset);
+}
+
+// Breadth first over the faces of cells, the neighbours in the order of kFaceNeighbours.
+void ReachableSpace::flood(const AdmittedCells& admitted) {
+  constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;   // a brick beside another that no step has led to
+  constexpr std::uint32_t kNone = kUnmet - 1;     // a brick without an admitted cell
+  struct Flooded {
+    BrickPlane left;                                                 // admitted, not reached
+    std::array<std::uint32_t, kFaceNeighbours.size()> beside{};
   };
-  reach(*start_, number_.offset_of(*start_));
-  for (std::size_t next = 0; next < cells_.size(); ++next) {
-    const VoxelIndex cell = cells_[next];
-    const std::size_t offset = offsets[next];
+  std::vector<Flooded> bricks;  // by their numbers
+  const auto meet = [&](const VoxelIndex& address) {
+    const BrickPlane* cells = admitted.cells().find(address);
+    if (cells == nullptr || *cells == BrickPlane{}) {
+      return kNone;
+    }
+    const std::uint32_t number = number_.store(address);
+    if (number == bricks.size()) {
+      bricks.push_back({*cells, {}});
+      bricks.back().beside.fill(kUnmet);
+    }
+    return number;
+  };
+  std::vector<std::uint32_t> places;  // of the cells: 512 times the number of the brick, plus the offset
+  const auto reach = [&](std::uint32_t brick, std::size_t offset) {
+    number_.values(brick)[offset] = static_cast<std::uint32_t>(cells_.size());
+    cells_.push_back(Brick::first_cell(number_.address(brick)) + Brick::cell_at(offset));
+    places.push_back(static_cast<std::uint32_t>(brick * Brick::kCells + offset));
+  };
+  const auto reach_if_left = [&](std::uint32_t brick, std::size_t offset) {
+    std::uint64_t& word = bricks[brick].left[offset >> 6U];
+    const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
+    if ((word & bit) != 0) {
+      word &= ~bit;
+      reach(brick, offset);
+    }
+  };
+  reach_if_left(meet(Brick::of_cell(*start_)), Brick::offset_of(*start_));
+  for (std::size_t next = 0; next < places.size(); ++next) {
+    const std::uint32_t brick = places[next] / Brick::kCells;
+    const std::size_t offset = places[next] % Brick::kCells;
     for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
-      const std::size_t neighbour = offset + strides[face];  // wraps where the stride is negative
-      if (numbers[neighbour] == kUnnumbered) {
-        reach(cell + kFaceNeighbours[face], neighbour);
+      const FaceStep step = kFaceSteps[offset][face];
+      std::uint32_t other = brick;
+      if (step.leaves) {
+        other = bricks[brick].beside[face];
+        if (other == kUnmet) {
+          other = meet(number_.address(brick) + kFaceNeighbours[face]);
+          bricks[brick].beside[face] = other;
+        }
+      }
+      if (other != kNone) {
+        reach_if_left(other, step.offset);
       }
     }
   }
-  std::replace(numbers.begin(), numbers.end(), kUnnumbered, kOutside);
+  planes_.reserve(bricks.size());
+  for (std::size_t number = 0; number < bricks.size(); ++number) {
+    BrickPlane reached = *admitted.cells().find(number_.address(number));
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      reached[word] &= ~bricks[number].left[word];
+    }
+    planes_.push_back(reached);
+  }
 }
 
-ReachableSpace::ReachableSpace(const VoxelFrame& frame, std::vector<VoxelIndex> cells)
-    : frame_(frame), start_(cells.front()), cells_(std::move(cells)), number_(detail::box_around(cells_), kOutside) {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    number_[cells_[i]] = static_cast<std::uint32_t>(i);
+bool ReachableSpace::any_in(const VoxelBox& cells) const {
+  if (cells.empty()) {
+    return false;
   }
+  const auto any_of = [&](const VoxelIndex& brick, const BrickPlane& reached) {
+    const VoxelIndex first = Brick::first_cell(brick);
+    bool found = cells.contains(first) && cells.contains(first + VoxelIndex{7, 7, 7}) && reached != BrickPlane{};
+    for (std::size_t word = 0; word < Brick::kWords && !found; ++word) {
+      for_each_offset(reached[word], word, [&](std::size_t offset) {
+        found = found || cells.contains(first + Brick::cell_at(offset));
+      });
+    }
+    return found;
+  };
+  const VoxelBox bricks{Brick::of_cell(cells.lo),
+                        Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  const VoxelIndex extent = bricks.extent();
+  if (1.0 * extent.x * extent.y * extent.z > static_cast<double>(planes_.size())) {
+    for (std::size_t number = 0; number < planes_.size(); ++number) {
+      if (any_of(number_.address(number), planes_[number])) {
+        return true;
+      }
+    }
+    return false;
+  }
+  for (std::int32_t z = bricks.lo.z; z < bricks.hi.z; ++z) {
+    for (std::int32_t y = bricks.lo.y; y < bricks.hi.y; ++y) {
+      for (std::int32_t x = bricks.lo.x; x < bricks.hi.x; ++x) {
+        const BrickDirectory::Number number = number_.number_of({x, y, z});
+        if (number != BrickDirectory::kNone && any_of({x, y, z}, planes_[number])) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+ReachableSpace::ReachableSpace(const VoxelFrame& frame, const std::vector<VoxelIndex>& cells) : frame_(frame) {
+  std::for_each(cells.begin(), cells.end(), [&](const VoxelIndex& cell) { take(cell); });
+}
+
+void ReachableSpace::take(const VoxelIndex& cell) {
+  const std::uint32_t brick = number_.store(Brick::of_cell(cell));
+  const std::size_t offset = Brick::offset_of(cell);
+  if (brick == planes_.size()) {
+    planes_.emplace_back();
+  }
+  planes_[brick][offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
+  number_.values(brick)[offset] = static_cast<std::uint32_t>(cells_.size());
+  start_ = cells_.empty() ? cell : start_;
+  cells_.push_back(cell);
 }
 
 }  // namespace vantage

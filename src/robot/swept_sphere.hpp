@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/voxel.hpp>
 
@@ -71,23 +73,31 @@ namespace vantage::detail {
   return {lo, hi};
 }
 
-/// Whether `clear(cell)` holds for every cell that a sphere touches while its centre goes from `from` to `to`. The
-/// cells that hold the two ends are always touched.
+/// Layers of cells: from `lo` (inside) to `hi` (outside).
+struct Layers {
+  std::int32_t lo = std::numeric_limits<std::int32_t>::min();
+  std::int32_t hi = std::numeric_limits<std::int32_t>::max();
+};
+
+/// Whether `clear(cell)` holds for every cell of some layers that a sphere touches while its centre goes from `from`
+/// to `to`. The cells that hold the two ends are always touched.
 template <class Clear>
 [[nodiscard]] bool swept_sphere_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from,
-                                         const Eigen::Vector3d& to, double radius_m, Clear&& clear) {
+                                         const Eigen::Vector3d& to, double radius_m, Clear&& clear,
+                                         const Layers& layers = {}) {
   if (!clear(frame.cell_of(from)) || !clear(frame.cell_of(to))) {
     return false;
   }
   const double touching_m = touching_distance_m(frame, radius_m);
   Eigen::Index axis = 0;
   (to - from).cwiseAbs().maxCoeff(&axis);
-  const auto first =
-      static_cast<std::int32_t>(std::floor((std::min(from[axis], to[axis]) - radius_m) / frame.size_m));
-  const auto last = static_cast<std::int32_t>(std::floor((std::max(from[axis], to[axis]) + radius_m) / frame.size_m));
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m);
+  const auto along = [axis](const VoxelIndex& cell) { return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z; };
+  const std::int32_t first = along(frame.cell_of(from.cwiseMin(to) - reach));
+  const std::int32_t last = along(frame.cell_of(from.cwiseMax(to) + reach));
   for (std::int32_t slab = first; slab <= last; ++slab) {
     const VoxelBox cells = swept_cells_in_slab(frame, from, to, radius_m, axis, slab);
-    for (std::int32_t z = cells.lo.z; z < cells.hi.z; ++z) {
+    for (std::int32_t z = std::max(cells.lo.z, layers.lo); z < std::min(cells.hi.z, layers.hi); ++z) {
       for (std::int32_t y = cells.lo.y; y < cells.hi.y; ++y) {
         for (std::int32_t x = cells.lo.x; x < cells.hi.x; ++x) {
           const VoxelIndex cell{x, y, z};

@@ -29,9 +29,7 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   detail::require_option(options.max_views > 0, "ExplorationRunOptions::max_views", options.max_views, "> 0");
   detail::require_option(std::isfinite(options.scan_spacing_m) && options.scan_spacing_m >= 0.0,
                          "ExplorationRunOptions::scan_spacing_m", options.scan_spacing_m, ">= 0");
-  const double radius_m = options.body_radius_m.value_or(0.0);
-  detail::require_option(std::isfinite(radius_m) && radius_m >= 0.0, "ExplorationRunOptions::body_radius_m", radius_m,
-                         ">= 0");
+  detail::require_length(options.body_radius_m.value_or(0.0), "ExplorationRunOptions::body_radius_m");
   detail::require_option(options.threads > 0, "ExplorationRunOptions::threads", options.threads, "> 0");
   detail::require_option(std::isfinite(options.surface_gap_m) && options.surface_gap_m > 0.0,
                          "ExplorationRunOptions::surface_gap_m", options.surface_gap_m, "> 0");

@@ -113,6 +113,9 @@ Truth Truth::in_band(const HeightBandOptions& options) const {
     for (VoxelIndex cell{column.x, column.y, lowest}; cell.z < above; ++cell.z) {
       cells[column] = std::max(cells[column], at(cell));  // free < grazed < occupied
     }
+    if (cells[column] == CellTruth::Free && band.plane().at(column) == Occupancy::Occupied) {
+      cells[column] = CellTruth::Occupied;  // a drop
+    }
   });
   return {band.plane(), std::move(cells)};
 }

@@ -40,6 +40,7 @@ class RrtPlatform final : public Platform {
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override {
     return platform_->admitted_cells(map, box);
   }
+  [[nodiscard]] double reach_m() const override { return platform_->reach_m(); }
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override {
     return platform_->admits_motion(map, from, to);
   }

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel_clusters.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-/// One bit per cell of a brick, in the order of the planes of Brick.
-using BrickPlane = std::array<std::uint64_t, Brick::kWords>;
 
 /// The frontier cells of one brick (its address in units of bricks): free, inside the region of the map, and with an
 /// unknown face neighbour inside the region (Shade & Newman 2011, VI; Dornhege & Kleiner 2011, IV-A). Depends on the

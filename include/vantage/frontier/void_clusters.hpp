@@ -8,7 +8,7 @@
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/voxel.hpp>
-#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/map/brick_grid.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -48,19 +48,17 @@ class VoidClusters {
 
   VoidClusters() = default;
   /// From the cluster of each cell, numbered as `clusters`; kNone elsewhere.
-  VoidClusters(std::vector<VoidCluster> clusters, VoxelGrid<std::uint32_t> numbers)
+  VoidClusters(std::vector<VoidCluster> clusters, BrickGrid<std::uint32_t> numbers)
       : clusters_(std::move(clusters)), numbers_(std::move(numbers)) {}
 
   /// The clusters, in the order in which they were started.
   [[nodiscard]] const std::vector<VoidCluster>& clusters() const { return clusters_; }
   /// The cluster that holds a cell, as a position in `clusters()`; kNone where the cell is none of the void cells.
-  [[nodiscard]] std::uint32_t number_at(const VoxelIndex& cell) const { return numbers_.value_or(cell, kNone); }
-  /// A box that holds all void cells.
-  [[nodiscard]] const VoxelBox& box() const { return numbers_.box(); }
+  [[nodiscard]] std::uint32_t number_at(const VoxelIndex& cell) const { return numbers_[cell]; }
 
  private:
   std::vector<VoidCluster> clusters_;
-  VoxelGrid<std::uint32_t> numbers_;
+  BrickGrid<std::uint32_t> numbers_{kNone};
 };
 
 /// Clusters void cells as Dornhege & Kleiner 2011, IV-B, after Pauling et al. 2009: from a cell drawn at random among

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 #include <vantage/compiler.hpp>
-#include <vantage/frontier/frontiers.hpp>
+#include <vantage/frontier/void_tiles.hpp>
 #include <vantage/geometry/lattice_hull.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
@@ -52,6 +52,7 @@ class VoidTracker {
   [[nodiscard]] bool has_lost_a_corner() const;
   void start_anew();
   void shrink(std::vector<VoxelIndex>& touched);
+  void widen(const std::vector<VoxelIndex>& touched);
   void reshape(LatticeHull hull, std::vector<VoxelIndex>* reshaped = nullptr);
   BrickVoids& brick_at(const VoxelIndex& address);
   void refresh(BrickVoids& brick);
@@ -62,6 +63,7 @@ class VoidTracker {
   LatticeHull hull_;
   std::vector<LatticeHull::Plane> planes_;  // of the hull
   std::vector<VoxelIndex> corners_;         // of the hull
+  VoidTiles tiles_;
   std::size_t cell_count_ = 0;
   std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // of the bricks that the hull reaches into
   std::vector<BrickVoids> bricks_;

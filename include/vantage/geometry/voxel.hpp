@@ -38,7 +38,21 @@ inline constexpr std::int32_t kFurthestVoxel = (1 << 30) - 1;
 inline constexpr std::array<VoxelIndex, 6> kFaceNeighbours{
     {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
+/// Whether a cell is no further from the origin than kFurthestVoxel on any axis.
+[[nodiscard]] constexpr bool is_addressable(const VoxelIndex& cell) {
+  const auto near = [](std::int32_t i) { return i >= -kFurthestVoxel && i <= kFurthestVoxel; };
+  return near(cell.x) && near(cell.y) && near(cell.z);
+}
+
 namespace detail {
+/// The one conversion of a length in cells to an address: rounded towards zero, and held within kFurthestVoxel; NaN
+/// becomes -kFurthestVoxel.
+[[nodiscard]] constexpr std::int32_t to_address(double cells) {
+  constexpr double kFurthest = kFurthestVoxel;
+  const double above = cells > -kFurthest ? cells : -kFurthest;
+  return static_cast<std::int32_t>(above < kFurthest ? above : kFurthest);
+}
+
 consteval std::array<VoxelIndex, 26> all_neighbours() {
   std::array<VoxelIndex, 26> neighbours{};
   std::size_t count = 0;
@@ -96,11 +110,13 @@ void for_each_cell(const VoxelBox& box, Visit&& visit) {
   }
 }
 
-/// The only place where metres become cells and cells become metres.
+/// The only place where metres become cells and cells become metres. What lies further off than kFurthestVoxel cells is
+/// brought to there, axis by axis, never beyond the range of an address; a NaN is brought to the lowest address.
+/// `addressable` tells beforehand.
 struct VoxelFrame {
   double size_m;  ///< edge of a cell, > 0
 
-  /// The cell that holds `point_m`. The point must be finite and within kFurthestVoxel cells (see `addressable`).
+  /// The cell that holds `point_m`.
   [[nodiscard]] VoxelIndex cell_of(const Eigen::Vector3d& point_m) const {
     return {coordinate_of(point_m.x()), coordinate_of(point_m.y()), coordinate_of(point_m.z())};
   }
@@ -125,18 +141,26 @@ struct VoxelFrame {
   [[nodiscard]] Box box_of(const VoxelBox& cells) const { return {corner_of(cells.lo), corner_of(cells.hi)}; }
   /// The cells whose centres lie in `box` (half-open, as the box).
   [[nodiscard]] VoxelBox cells_centred_in(const Box& box) const {
-    const auto first = [this](double metres) { return static_cast<std::int32_t>(std::ceil(metres / size_m - 0.5)); };
+    const auto first = [this](double metres) { return detail::to_address(std::ceil(metres / size_m - 0.5)); };
     if (box.empty()) {
       return {};
     }
     return {{first(box.min.x()), first(box.min.y()), first(box.min.z())},
             {first(box.max.x()), first(box.max.y()), first(box.max.z())}};
   }
+  /// The cells that `box` touches.
+  [[nodiscard]] VoxelBox cells_touched_by(const Box& box) const {
+    return box.empty() ? VoxelBox{}
+                       : VoxelBox{cell_of(box.min),
+                                  {cells_up_to(box.max.x()), cells_up_to(box.max.y()), cells_up_to(box.max.z())}};
+  }
+  /// How many cells a length spans, rounded up.
+  [[nodiscard]] std::int32_t cells_up_to(double metres) const { return detail::to_address(std::ceil(metres / size_m)); }
 
  private:
   [[nodiscard]] std::int32_t coordinate_of(double metres) const {
     const double cells = metres / size_m;
-    const auto towards_zero = static_cast<std::int32_t>(cells);  // std::floor is a call before SSE 4.1
+    const std::int32_t towards_zero = detail::to_address(cells);  // std::floor is a call before SSE 4.1
     return towards_zero - (towards_zero > cells ? 1 : 0);
   }
 };

@@ -10,6 +10,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
+/// One bit per cell of a brick, in the order of the planes of Brick.
+using BrickPlane = std::array<std::uint64_t, 8>;
+
 /// 8 x 8 x 8 cells of an OccupancyMap: the leaf of its directory.
 ///
 /// Two bit planes say what every cell is, a third what it has been; one 64-bit word of a plane is a sub-brick of 4 x
@@ -20,9 +23,9 @@ struct Brick {
   static constexpr std::size_t kWords = 8;    ///< sub-bricks, and so words of a plane
   static constexpr std::size_t kCells = 512;  ///< cells of a brick
 
-  std::array<std::uint64_t, kWords> known{};          ///< bit plane: free or occupied
-  std::array<std::uint64_t, kWords> occupied{};       ///< bit plane: occupied, a subset of `once_occupied`
-  std::array<std::uint64_t, kWords> once_occupied{};  ///< bit plane: occupied now or before, a subset of `known`
+  BrickPlane known{};                                 ///< bit plane: free or occupied
+  BrickPlane occupied{};                              ///< bit plane: occupied, a subset of `once_occupied`
+  BrickPlane once_occupied{};                         ///< bit plane: occupied now or before, a subset of `known`
   std::array<std::int8_t, kCells> log_odds{};         ///< in steps, by `offset_of`
 
   /// The brick that holds a cell.

@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
-#include <unordered_map>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/voxel.hpp>
+#include <vantage/geometry/voxel_table.hpp>
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -24,21 +23,20 @@ class BrickDirectory {
 
   /// The number stored for `brick`, or kNone.
   [[nodiscard]] Number find(const VoxelIndex& brick) const {
-    const auto tile = tiles_.find(tile_of(brick));
-    return tile == tiles_.end() ? kNone : numbers_[tile->second][offset_in_tile(brick)];
+    const Number* const tile = tiles_.find(tile_of(brick));
+    return tile == nullptr ? kNone : numbers_[*tile][offset_in_tile(brick)];
   }
   /// The place of the number of `brick`, kNone when new. Valid until the directory is copied or destroyed.
   [[nodiscard]] Number& place(const VoxelIndex& brick) {
-    const auto [tile, is_new] = tiles_.try_emplace(tile_of(brick), numbers_.size());
-    if (is_new) {
+    const Number tile = tiles_.place(tile_of(brick), static_cast<Number>(numbers_.size()));
+    if (tile == numbers_.size()) {
       numbers_.emplace_back().fill(kNone);
     }
-    return numbers_[tile->second][offset_in_tile(brick)];
+    return numbers_[tile][offset_in_tile(brick)];
   }
-  /// Bytes held, an estimate of the hash nodes included.
+  /// Bytes held.
   [[nodiscard]] std::size_t memory_bytes() const {
-    constexpr std::size_t kHashNode = sizeof(VoxelIndex) + sizeof(std::size_t) + 2 * sizeof(void*);
-    return numbers_.size() * (sizeof(Tile) + kHashNode) + tiles_.bucket_count() * sizeof(void*);
+    return numbers_.size() * (sizeof(Tile) + sizeof(void*)) + tiles_.memory_bytes();
   }
 
  private:
@@ -49,7 +47,7 @@ class BrickDirectory {
     return static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
   }
 
-  std::unordered_map<VoxelIndex, std::size_t> tiles_;
+  VoxelTable<Number> tiles_;
   std::deque<Tile> numbers_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/voxel.hpp>
@@ -30,6 +31,10 @@ struct OccupancyMapOptions {
   /// its cells only, and rays at a small angle pass the free part: if they count (false, as in OctoMap), many of them
   /// wear the surface away, and false frontiers open behind it.
   bool keep_grazed_cells = true;
+  /// The most that the map may hold, in bytes as `memory_bytes` counts them; 0: no limit. What would need a new brick
+  /// beyond it is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and stays unknown;
+  /// what the map holds goes on being updated. A scan's own work space comes on top: at most 1 GB.
+  std::size_t max_bytes = 0;
 
   /// The semantics of `octomap::OcTree::insertPointCloud`, update for update.
   [[nodiscard]] static OccupancyMapOptions octomap(double resolution_m) {
@@ -71,6 +76,21 @@ class OccupancyMap {
   OccupancyMap() : OccupancyMap(OccupancyMapOptions{}) {}
   /// Throws std::invalid_argument naming the option at fault.
   explicit OccupancyMap(const OccupancyMapOptions& options);
+  ~OccupancyMap() = default;
+  /// The same cells, with a change log and an identity of its own.
+  OccupancyMap(const OccupancyMap& other) = default;
+  /// The same.
+  OccupancyMap& operator=(const OccupancyMap& other) = default;
+  /// Leaves `other` an empty map with the same options.
+  OccupancyMap(OccupancyMap&& other) : OccupancyMap(other.options_) { swap(other); }
+  /// The same.
+  OccupancyMap& operator=(OccupancyMap&& other) {
+    OccupancyMap taken(std::move(other));
+    swap(taken);
+    return *this;
+  }
+  /// Each becomes what the other was; whatever follows one follows it to its new place.
+  void swap(OccupancyMap& other);
 
   // --- reading
   // -------------------------------------------------------------------------------------------------------
@@ -121,9 +141,24 @@ class OccupancyMap {
   [[nodiscard]] VoxelBox bounds() const;
   /// Bytes held, directory included.
   [[nodiscard]] std::size_t memory_bytes() const;
+  /// How many bricks it holds: at least a 512th of its known cells.
+  [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
+  /// How many updates of cells were refused since it was made (OccupancyMapOptions::max_bytes).
+  [[nodiscard]] std::size_t cells_refused() const { return cells_refused_; }
   /// What one step of the stored log-odds is worth: 0.05 for the default options, which it represents exactly.
   [[nodiscard]] double log_odds_step() const { return step_; }
 
+  /// The cells of one of its bricks that are free and not contested.
+  [[nodiscard]] BrickPlane clear_plane(const Brick& brick) const {
+    BrickPlane clear{};
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      clear[word] = brick.free(word);
+      for_each_offset(clear[word], word, [&](std::size_t offset) {
+        clear[word] &= ~(std::uint64_t{shows_a_hit(brick.log_odds[offset])} << (offset & 63U));
+      });
+    }
+    return clear;
+  }
   /// The brick at an address (in units of bricks), or null where nothing has been seen. Valid while the map lives.
   [[nodiscard]] const Brick* find_brick(const VoxelIndex& brick) const {
     const BrickDirectory::Number number = directory_.find(brick);
@@ -151,12 +186,10 @@ class OccupancyMap {
   template <class Visit>
   void for_each_clear(Visit&& visit) const {
     for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+      const BrickPlane clear = clear_plane(brick);
       for (std::size_t word = 0; word < Brick::kWords; ++word) {
-        for_each_offset(brick.free(word), word, [&](std::size_t offset) {
-          if (is_clear(brick, offset)) {
-            visit(Brick::first_cell(address) + Brick::cell_at(offset));
-          }
-        });
+        for_each_offset(clear[word], word,
+                        [&](std::size_t offset) { visit(Brick::first_cell(address) + Brick::cell_at(offset)); });
       }
     });
   }
@@ -186,26 +219,47 @@ class OccupancyMap {
     }
   }
 
+  /// Calls `visit(brick address, const Brick&)` for the bricks that were written to after `revision`, in order of
+  /// creation: those in which a cell may have become contested or clear, or changed its state. Costs a look at every
+  /// brick's revision besides. Errors as changed_since.
+  template <class Visit>
+  void for_each_written_since(Revision revision, Visit&& visit) const {
+    require_past(revision);
+    for (std::size_t number = 0; number < written_.size(); ++number) {
+      if (written_[number] > revision) {
+        visit(bricks_[number].address, bricks_[number].cells);
+      }
+    }
+  }
+
   // --- writing
   // -------------------------------------------------------------------------------------------------------
   /// Integrates one scan: each cell gets at most one update, a hit beats a miss (the semantics of
   /// octomap::OcTree::insertPointCloud). The sensor's own cell counts as passed. Throws std::invalid_argument if the
-  /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted.
+  /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted. What of a
+  /// ray lies outside the region costs nothing but its few numbers.
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Makes a new revision and changes nothing, as a scan does that confirms what is known.
   void confirm() { ++revision_; }
   /// Sets the state of a cell outright, at the clamping limit, and forgets what it was; Unknown forgets that it was
-  /// seen. Outside the region: no effect.
+  /// seen. Outside the region: no effect. Throws std::invalid_argument for a cell that cannot be addressed
+  /// (kFurthestVoxel).
   void set(const VoxelIndex& cell, Occupancy occupancy);
   /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free. As
   /// when a scan changes them, an occupied cell that becomes free is worn. Outside the region: no effect. Throws
-  /// std::invalid_argument for NaN.
+  /// std::invalid_argument for NaN and for a cell that cannot be addressed.
   void set_log_odds(const VoxelIndex& cell, double log_odds) {
+    require_addressable(cell, "OccupancyMap::set_log_odds");
     set_log_odds(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}, log_odds);
   }
-  /// The same for every cell of a box, in one revision.
+  /// The most cells that a box to be written may have, those outside the region left out: a cube of 1024.
+  static constexpr std::size_t kMaxBoxCells = std::size_t{1} << 30U;
+  /// The same for every cell of a box, in one revision. Throws std::invalid_argument where the box holds more than
+  /// kMaxBoxCells of the region.
   void set_log_odds(const VoxelBox& cells, double log_odds);
   /// Declares the still unknown cells that `box` touches free, as a host may for the space its robot stands in.
+  /// Throws std::invalid_argument for a box that is empty or cannot be addressed, or holds more than kMaxBoxCells of
+  /// the region.
   void assume_free(const Box& box);
 
  private:
@@ -224,6 +278,9 @@ class OccupancyMap {
     return brick.at(offset) == Occupancy::Free && !shows_a_hit(brick.log_odds[offset]);
   }
   void require_past(Revision revision) const;
+  static void require_addressable(const VoxelIndex& cell, const char* what);
+  [[nodiscard]] VoxelBox writable(const VoxelBox& cells, const char* what) const;
+  // kNone where the map is full.
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   enum class Past : std::uint8_t { Kept, Forgotten };
@@ -242,6 +299,8 @@ class OccupancyMap {
 
   BrickDirectory directory_;
   std::deque<Stored> bricks_;
+  std::vector<Revision> written_;  // of each brick, the last revision that wrote to it
+  std::size_t cells_refused_ = 0;
   Revision revision_ = 0;
   BrickDirectory::Number newest_ = BrickDirectory::kNone;
 };

@@ -44,6 +44,7 @@ struct ScanReport {
   std::size_t cells_hit = 0;        ///< cells updated as occupied
   std::size_t cells_cleared = 0;    ///< cells updated as free
   std::size_t cells_changed = 0;    ///< cells whose state (unknown, free, occupied) changed
+  std::size_t cells_refused = 0;    ///< updates that found no room (OccupancyMapOptions::max_bytes)
 };
 
 }  // namespace vantage

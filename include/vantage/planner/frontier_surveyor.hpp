@@ -41,10 +41,14 @@ class FrontierSurveyor {
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,
                                       std::vector<VoxelIndex> frontier);
 
+  /// The cells that the platform admits in the map that was surveyed last, reachable or not.
+  [[nodiscard]] const AdmittedCells& admitted() const { return admitted_; }
+
  private:
   std::shared_ptr<const Platform> platform_;
   RangeSensor sensor_;
   FrontierSurveyOptions options_;
+  AdmittedCells admitted_;
   std::unique_ptr<detail::SightMemory> memory_;
 };
 

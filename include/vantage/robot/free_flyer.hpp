@@ -9,10 +9,11 @@ namespace VANTAGE_EXPORT vantage {
 
 /// The body of a FreeFlyer and how it may move.
 struct FreeFlyerOptions {
-  double radius_m = 0.3;  ///< the body is a sphere about the sensor, >= 0 (0: the sensor's own cell)
+  double radius_m = 0.3;  ///< the body is a sphere about the sensor, in [0, 1000] (0: the sensor's own cell)
   double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor
   double max_height_m = std::numeric_limits<double>::infinity();   ///< highest admitted z of the sensor
-  double margin_m = 0.0;  ///< cells this much further off must be free too: a free cell may hold a corner of a wall
+  /// Cells this much further off must be free too, in [0, 1000]: a free cell may hold a corner of a wall.
+  double margin_m = 0.0;
   bool yaw_only = false;  ///< the optical axis stays level (a multirotor with a fixed camera, a ground robot)
 };
 
@@ -29,6 +30,7 @@ class FreeFlyer final : public Platform {
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
+  [[nodiscard]] double reach_m() const override { return options_.radius_m + options_.margin_m; }
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
@@ -38,7 +40,6 @@ class FreeFlyer final : public Platform {
   [[nodiscard]] bool can_tilt() const override { return !options_.yaw_only; }
 
  private:
-  [[nodiscard]] double reach_m() const { return options_.radius_m + options_.margin_m; }
   [[nodiscard]] bool height_allowed(double z_m) const {
     return z_m >= options_.min_height_m && z_m <= options_.max_height_m;
   }

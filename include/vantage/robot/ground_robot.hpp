@@ -8,8 +8,9 @@ namespace VANTAGE_EXPORT vantage {
 
 /// The body of a GroundRobot.
 struct GroundRobotOptions {
-  double radius_m = 0.3;  ///< the body is a disc about the sensor, >= 0 (0: the sensor's own cell)
-  double margin_m = 0.0;  ///< cells this much further off must be free too: a free cell may hold a corner of a wall
+  double radius_m = 0.3;  ///< the body is a disc about the sensor, in [0, 1000] (0: the sensor's own cell)
+  /// Cells this much further off must be free too, in [0, 1000]: a free cell may hold a corner of a wall.
+  double margin_m = 0.0;
 };
 
 /// A disc that drives in one layer of cells, its sensor level: for the plane of a HeightBand, in which every cell
@@ -27,6 +28,7 @@ class GroundRobot final : public Platform {
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
+  [[nodiscard]] double reach_m() const override { return options_.radius_m + options_.margin_m; }
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
@@ -36,7 +38,6 @@ class GroundRobot final : public Platform {
   [[nodiscard]] bool can_tilt() const override { return false; }
 
  private:
-  [[nodiscard]] double reach_m() const { return options_.radius_m + options_.margin_m; }
   GroundRobotOptions options_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
@@ -23,8 +24,12 @@ class Platform {
   /// Whether the sensor may be at the centre of this cell, in at least one orientation.
   [[nodiscard]] virtual bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const = 0;
   /// Every cell of `box` that the platform admits, as 1: the same answer as `admits_cell` cell by cell, which a
-  /// platform may know how to give faster for all of them at once.
+  /// platform may know how to give faster for all of them at once. Memory follows the box (AdmittedCells asks for no
+  /// box that is much larger than what is known in it).
   [[nodiscard]] virtual VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const;
+  /// How far from the sensor the body ends, metres: whether a cell is admitted never depends on cells that lie further
+  /// off. Infinite where that is not known.
+  [[nodiscard]] virtual double reach_m() const { return std::numeric_limits<double>::infinity(); }
   /// Whether the platform may move the sensor straight from one pose to the other: every cell that the body touches
   /// on the way is known free, or touched already at `from` (so that a platform may leave a place found too tight).
   [[nodiscard]] virtual bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const = 0;

@@ -3,6 +3,7 @@
 
 #include <random>
 #include <vantage/frontier/void_cells.hpp>
+#include <vantage/frontier/void_tracker.hpp>
 
 #include "support/random_maps.hpp"
 
@@ -59,6 +60,23 @@ TEST(VoidCells, WithoutVolumeThereAreNone) {
   }
   EXPECT_TRUE(void_cells(map).empty());
   EXPECT_EQ(occupied_hull(map).reason(), "all points lie in one plane");
+}
+
+// Four cells 10 km apart: of the hull, what lies near them counts, and costs.
+TEST(VoidCells, OfAHugeHullAreNearWhatIsKnown) {
+  OccupancyMap map({.resolution_m = 0.1});
+  const std::vector<VoxelIndex> corners{{0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}, {0, 0, 100'000}};
+  for (const VoxelIndex& corner : corners) {
+    map.set(corner, Occupancy::Occupied);
+  }
+  const std::vector<VoxelIndex> voids = void_cells(map);
+  EXPECT_EQ(count_void_cells(map), voids.size());
+  EXPECT_EQ(VoidTracker(map).cells(), voids);
+  // The corner at the origin: all of the tile it lies in and of those beyond, but where the hull ends.
+  EXPECT_EQ(std::count_if(voids.begin(), voids.end(),
+                          [](const VoxelIndex& cell) { return VoxelBox{{0, 0, 0}, {128, 128, 128}}.contains(cell); }),
+            128 * 128 * 128 - 1);
+  EXPECT_LT(voids.size(), 5'000'000U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <vantage/map/height_band.hpp>
+#include <vantage/robot/ground_robot.hpp>
 
 namespace vantage {
 namespace {
@@ -29,7 +30,30 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
     ++cells;
     free += map.at(cell) == Occupancy::Free ? 1 : 0;
   }
-  return free > 0 && free >= options.free_share * cells ? Occupancy::Free : Occupancy::Unknown;
+  if (free == 0 || free < options.free_share * cells) {
+    return Occupancy::Unknown;
+  }
+  bool all_free = true;
+  for (std::int32_t z = -40; z < 40 && options.floor != FloorRule::Ignored; ++z) {
+    const VoxelIndex cell{x, y, z};
+    if (map.frame().centre_of(cell).z() >= options.min_height_m ||
+        map.frame().box_of(cell).max.z() <= options.min_height_m - options.step_height_m) {
+      continue;
+    }
+    if (map.at(cell) == Occupancy::Occupied) {
+      return Occupancy::Free;
+    }
+    all_free = all_free && map.at(cell) == Occupancy::Free;
+  }
+  switch (options.floor) {
+    case FloorRule::Ignored:
+      return Occupancy::Free;
+    case FloorRule::NoDrop:
+      return all_free ? Occupancy::Occupied : Occupancy::Free;
+    case FloorRule::Seen:
+      break;
+  }
+  return all_free ? Occupancy::Occupied : Occupancy::Unknown;
 }
 
 void change_at_random(OccupancyMap& map, std::mt19937& engine) {
@@ -58,7 +82,9 @@ TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
     const HeightBandOptions options{.min_height_m = low,
                                     .max_height_m = low + 0.73,
                                     .sensor_height_m = metre(engine),
-                                    .free_share = seed % 3 == 0 ? 0.5 : 1.0};
+                                    .free_share = seed % 3 == 0 ? 0.5 : 1.0,
+                                    .floor = static_cast<FloorRule>(seed % 3),
+                                    .step_height_m = 0.137 * (seed % 4)};
     OccupancyMap map({.resolution_m = kCell});
     HeightBand band(map.options(), options);
     for (int change = 0; change < 6; ++change) {
@@ -80,6 +106,48 @@ TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
   EXPECT_EQ(compared, 12U * 6U * 32U * 32U);
   EXPECT_GT(occupied, 500U);
   EXPECT_GT(free, 1000U);
+}
+
+// A hall with a floor, and a pit of 2 m in it that has been looked into.
+TEST(HeightBand, AGroundRobotKeepsOutOfAPit) {
+  OccupancyMap map({.resolution_m = kCell});
+  map.set_log_odds(VoxelBox{{0, 0, -1}, {40, 30, 0}}, 3.5);
+  map.set_log_odds(VoxelBox{{0, 0, 0}, {40, 30, 14}}, -2.0);
+  const VoxelBox pit{{10, 5, -20}, {30, 25, 0}};
+  map.set_log_odds(pit, -2.0);
+  map.set_log_odds(VoxelBox{{10, 5, -21}, {30, 25, -20}}, 3.5);
+  const GroundRobot robot({.radius_m = 0.15});
+  for (const FloorRule rule : {FloorRule::Ignored, FloorRule::NoDrop, FloorRule::Seen}) {
+    HeightBand band(map.options(),
+                    {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55, .floor = rule});
+    band.follow(map);
+    std::size_t over_the_pit = 0;
+    std::size_t elsewhere = 0;
+    band.plane().for_each_known([&](const VoxelIndex& cell, Occupancy /*state*/) {
+      const bool over = pit.contains({cell.x, cell.y, -1});
+      (over ? over_the_pit : elsewhere) += robot.admits_cell(band.plane(), cell) ? 1U : 0U;
+    });
+    EXPECT_EQ(over_the_pit, rule == FloorRule::Ignored ? 400U : 0U);
+    EXPECT_GT(elsewhere, 300U);
+  }
+}
+
+TEST(HeightBand, AFloorMustBeSeenOrAssumedWhereItIsAskedFor) {
+  OccupancyMap map({.resolution_m = kCell});
+  map.set_log_odds(VoxelBox{{0, 0, 0}, {20, 20, 14}}, -2.0);
+  map.set_log_odds(VoxelBox{{0, 0, -1}, {10, 20, 0}}, 3.5);
+  HeightBand band(map.options(),
+                  {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55, .floor = FloorRule::Seen});
+  band.follow(map);
+  EXPECT_EQ(band.plane().at({9, 3, 5}), Occupancy::Free);
+  EXPECT_EQ(band.plane().at({10, 3, 5}), Occupancy::Unknown);
+  band.assume_floor({{1.0, 0.0, 0.0}, {1.5, 0.5, 0.1}});
+  band.follow(map);
+  EXPECT_EQ(band.plane().at({14, 3, 5}), Occupancy::Free);
+  EXPECT_EQ(band.plane().at({15, 3, 5}), Occupancy::Unknown);
+  map.set_log_odds(VoxelBox{{10, 0, -4}, {20, 20, 0}}, -2.0);
+  band.follow(map);
+  EXPECT_EQ(band.plane().at({14, 3, 5}), Occupancy::Occupied);
 }
 
 TEST(HeightBand, TellsOfALookInVainWithoutAChange) {

@@ -386,5 +386,158 @@ TEST(OccupancyMap, IsKnownWhereverItIsMoved) {
   EXPECT_FALSE(gone.is(*short_lived)) << "another at the same address";
 }
 
+// Rays that are clipped to a small region pass the cells of it that whole rays pass.
+TEST(OccupancyMap, ClipsRaysToItsRegion) {
+  std::mt19937 engine(41);
+  std::uniform_real_distribution<double> metre(-3.0, 3.0);
+  std::size_t cells = 0;
+  std::size_t empty = 0;
+  for (int world = 0; world < 120; ++world) {
+    OccupancyMapOptions options{.resolution_m = 0.1, .keep_grazed_cells = world % 3 == 0};
+    const Eigen::Vector3d corner(metre(engine), metre(engine), metre(engine));
+    options.region = Box{corner, corner + Eigen::Vector3d(0.35, world % 2 == 0 ? 0.8 : 0.12, 0.5)};
+    for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
+      Scan scan = random_scan(engine, 400);
+      if (world % 4 == 0) {
+        scan.world_from_sensor.translation() = corner + Eigen::Vector3d(0.1, 0.05, 0.2);
+      }
+      const std::size_t known = test::compare_with_definition(scan, options, policy);
+      cells += known;
+      empty += known == 0 ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(cells, 3000U);
+  EXPECT_GT(empty, 5U);
+  EXPECT_LT(empty, 200U);
+}
+
+TEST(OccupancyMap, SurfacesAtTheEdgeOfItsRegionAreSparedByClippedRays) {
+  std::mt19937 engine(43);
+  std::uniform_real_distribution<double> metre(-2.0, 2.0);
+  std::size_t compared = 0;
+  for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
+    const OccupancyMapOptions options{
+        .resolution_m = 0.1, .region = Box{{0, 0, 0}, {0.5, 0.5, 0.5}}, .keep_grazed_cells = true};
+    OccupancyMap map(options);
+    for (int i = 0; i < 60; ++i) {
+      Scan scan = random_scan(engine, 200);
+      scan.world_from_sensor.translation() = Eigen::Vector3d(metre(engine), metre(engine), metre(engine));
+      const ScanCells expected = scan_cells(scan, map, policy);
+      OccupancyMap slow = map;
+      for (const VoxelIndex& cell : expected.hit) {
+        slow.set_log_odds(cell, slow.log_odds(cell).value_or(0.0) + 0.85);
+      }
+      for (const VoxelIndex& cell : expected.cleared) {
+        slow.set_log_odds(cell, slow.log_odds(cell).value_or(0.0) - 0.4);
+      }
+      map.insert(scan, policy);
+      for_each_cell(*map.region(), [&](const VoxelIndex& cell) {
+        ASSERT_EQ(map.log_odds(cell).has_value(), slow.log_odds(cell).has_value());
+        ASSERT_NEAR(map.log_odds(cell).value_or(0.0), slow.log_odds(cell).value_or(0.0), 1e-9);
+        ++compared;
+      });
+    }
+  }
+  EXPECT_EQ(compared, 2U * 60U * 125U);
+}
+
+// Each ray passes 4,000 cells, none of which is stored.
+TEST(OccupancyMap, FarRaysCostNothingOutsideItsRegion) {
+  OccupancyMap map({.resolution_m = 0.1, .region = Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}});
+  Scan scan;
+  for (int i = 0; i < 20000; ++i) {
+    const float angle = 0.001F * static_cast<float>(i);
+    scan.points.emplace_back(400.0F * std::cos(angle), 400.0F * std::sin(angle), 0.01F * static_cast<float>(i % 700));
+  }
+  for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
+    const ScanReport report = map.insert(scan, policy);
+    EXPECT_EQ(report.hits, 20000U);
+    EXPECT_EQ(report.cells_hit, 0U);
+    EXPECT_GT(report.cells_cleared, 60U);
+  }
+  EXPECT_LT(map.memory_bytes(), 100'000U);
+}
+
+TEST(OccupancyMap, RefusesWhatItsLimitHasNoRoomFor) {
+  std::mt19937 engine(5);
+  OccupancyMap unlimited({.resolution_m = 0.05});
+  OccupancyMap map({.resolution_m = 0.05, .max_bytes = 600'000});
+  std::size_t refused = 0;
+  for (int i = 0; i < 12; ++i) {
+    const Scan scan = random_scan(engine, 60);
+    const ScanReport whole = unlimited.insert(scan);
+    const ScanReport report = map.insert(scan);
+    EXPECT_EQ(report.cells_hit + report.cells_cleared + report.cells_refused, whole.cells_hit + whole.cells_cleared);
+    EXPECT_EQ(whole.cells_refused, 0U);
+    refused += report.cells_refused;
+  }
+  EXPECT_GT(refused, 1000U);
+  EXPECT_EQ(map.cells_refused(), refused);
+  EXPECT_LT(map.memory_bytes(), 610'000U);
+  std::size_t same = 0;
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+    EXPECT_EQ(unlimited.at(cell), state);
+    ++same;
+  });
+  EXPECT_GT(same, 1000U);
+  map.set({4000, 0, 0}, Occupancy::Free);
+  EXPECT_EQ(map.at({4000, 0, 0}), Occupancy::Unknown);
+  EXPECT_EQ(map.cells_refused(), refused + 1);
+}
+
+TEST(OccupancyMap, MovedFromIsEmptyWithTheSameOptions) {
+  OccupancyMap map({.resolution_m = 0.2, .region = Box{{-9, -9, -9}, {9, 9, 9}}});
+  std::mt19937 engine(8);
+  map.insert(random_scan(engine, 100));
+  const KnownMap known(map);
+  const OccupancyMap::Counts counts = map.counts();
+  const OccupancyMap taken = std::move(map);
+  EXPECT_EQ(taken.counts().free, counts.free);
+  EXPECT_TRUE(known.is(taken));
+  EXPECT_FALSE(known.is(map));  // NOLINT(bugprone-use-after-move): that is what is tested
+  EXPECT_TRUE(map.bounds().empty());
+  EXPECT_EQ(map.revision(), 0U);
+  EXPECT_TRUE(map.changed_since(0).empty());
+  EXPECT_EQ(map.region(), taken.region());
+  EXPECT_EQ(map.at({1, 1, 1}), Occupancy::Unknown);
+  map.insert(random_scan(engine, 100));
+  EXPECT_GT(map.counts().free, 0U);
+  EXPECT_FALSE(map.changed_since(0).empty());
+  EXPECT_TRUE(KnownMap(map).is(map));
+  OccupancyMap assigned;
+  assigned = std::move(map);
+  EXPECT_GT(assigned.counts().free, 0U);
+  EXPECT_EQ(map.counts().free, 0U);
+}
+
+TEST(OccupancyMap, RefusesCellsThatCannotBeAddressed) {
+  OccupancyMap map({.resolution_m = 0.1});
+  EXPECT_NO_THROW(map.set({kFurthestVoxel, -kFurthestVoxel, 0}, Occupancy::Free));
+  EXPECT_EQ(map.at({kFurthestVoxel, -kFurthestVoxel, 0}), Occupancy::Free);
+  for (const std::int32_t far : {kFurthestVoxel + 1, -kFurthestVoxel - 1, std::numeric_limits<std::int32_t>::max(),
+                                 std::numeric_limits<std::int32_t>::min()}) {
+    EXPECT_THROW(map.set({0, far, 0}, Occupancy::Free), std::invalid_argument) << far;
+    EXPECT_THROW(map.set_log_odds(VoxelIndex{far, 0, 0}, 1.0), std::invalid_argument) << far;
+  }
+  EXPECT_THROW(map.assume_free({{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}}), std::invalid_argument);
+  EXPECT_THROW(map.assume_free({{0, 0, 0}, {1e300, 1, 1}}), std::invalid_argument);
+  EXPECT_THROW(map.set_log_odds(VoxelBox{{-5000, -5000, -5000}, {5000, 5000, 5000}}, 1.0), std::invalid_argument);
+  OccupancyMap bounded({.resolution_m = 0.1, .region = Box{{0, 0, 0}, {0.5, 0.5, 0.5}}});
+  bounded.assume_free({{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}});
+  EXPECT_EQ(bounded.counts().free, 125U);
+}
+
+TEST(VoxelFrame, HoldsEveryLengthWithinTheRangeOfAddresses) {
+  const VoxelFrame frame{0.1};
+  const double huge = 1e300;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(frame.cell_of({huge, -huge, nan}), (VoxelIndex{kFurthestVoxel, -kFurthestVoxel, -kFurthestVoxel}));
+  EXPECT_EQ(frame.cell_of({0.05, -0.05, 1e8}), (VoxelIndex{0, -1, 1'000'000'000}));
+  EXPECT_EQ(frame.cells_up_to(1e9), kFurthestVoxel);
+  EXPECT_EQ(frame.cells_up_to(0.25), 3);
+  EXPECT_EQ(frame.cells_centred_in({{-huge, 0, 0}, {huge, 1, 1}}),
+            (VoxelBox{{-kFurthestVoxel, 0, 0}, {kFurthestVoxel, 10, 10}}));
+}
+
 }  // namespace
 }  // namespace vantage

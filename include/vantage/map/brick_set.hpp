@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <deque>
+#include <vantage/compiler.hpp>
+#include <vantage/map/brick.hpp>
+#include <vantage/map/brick_directory.hpp>
+
+namespace VANTAGE_EXPORT vantage {
+
+/// A set of cells that may lie anywhere, one bit each, by bricks: memory follows the bricks that were written to, never
+/// the box around them.
+class BrickSet {
+ public:
+  /// Whether it holds a cell.
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const {
+    const BrickPlane* plane = find(Brick::of_cell(cell));
+    const std::size_t offset = Brick::offset_of(cell);
+    return plane != nullptr && ((*plane)[offset >> 6U] >> (offset & 63U) & 1U) != 0;
+  }
+  /// Adds a cell.
+  void insert(const VoxelIndex& cell) {
+    const std::size_t offset = Brick::offset_of(cell);
+    plane(Brick::of_cell(cell))[offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
+  }
+  /// The cells of a brick; null where none was ever written. Valid while the set lives.
+  [[nodiscard]] const BrickPlane* find(const VoxelIndex& brick) const {
+    const BrickDirectory::Number number = directory_.find(brick);
+    return number == BrickDirectory::kNone ? nullptr : &bricks_[number].cells;
+  }
+  /// The cells of a brick, to write to. Valid while the set lives.
+  [[nodiscard]] BrickPlane& plane(const VoxelIndex& brick) {
+    BrickDirectory::Number& number = directory_.place(brick);
+    if (number == BrickDirectory::kNone) {
+      number = static_cast<BrickDirectory::Number>(bricks_.size());
+      bricks_.push_back({brick, {}});
+    }
+    return bricks_[number].cells;
+  }
+  /// Makes these the cells of a brick. Returns whether that changes the set.
+  bool assign(const VoxelIndex& brick, const BrickPlane& cells) {
+    const BrickPlane* known = find(brick);
+    if (known == nullptr ? cells == BrickPlane{} : cells == *known) {
+      return false;
+    }
+    plane(brick) = cells;
+    return true;
+  }
+  /// Calls `visit(brick address, const BrickPlane&)` for every brick that was written to, in the order in which they
+  /// first were.
+  template <class Visit>
+  void for_each_brick(Visit&& visit) const {
+    for (const Stored& stored : bricks_) {
+      visit(stored.address, stored.cells);
+    }
+  }
+  /// How many cells it holds.
+  [[nodiscard]] std::size_t size() const {
+    std::size_t count = 0;
+    for (const Stored& stored : bricks_) {
+      for (const std::uint64_t word : stored.cells) {
+        count += static_cast<std::size_t>(std::popcount(word));
+      }
+    }
+    return count;
+  }
+
+ private:
+  struct Stored {
+    VoxelIndex address;
+    BrickPlane cells;
+  };
+
+  BrickDirectory directory_;
+  std::deque<Stored> bricks_;
+};
+
+}  // namespace vantage
