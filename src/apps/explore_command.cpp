@@ -74,7 +74,8 @@ std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
       FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
 }
 
-ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& region) {
+ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& region,
+                                     const Interruption& interruption) {
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
@@ -88,6 +89,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& r
   options.body_radius_m = request.robot_radius_m;
   options.threads = request.threads;
   options.measure_coverage = !request.no_coverage;
+  options.stop = [&interruption] { return interruption.asked(); };
   return options;
 }
 
@@ -113,7 +115,7 @@ void tell_doubts(const ExploreRequest& request, const Box& bounds) {
   if (!is_world_file(request, World::FileKind::Mesh)) {
     return;
   }
-  if (request.scale == 1.0) {
+  if (request.scale.value_or(1.0) == 1.0) {
     std::cerr << doubt_about_world_unit(request.world, bounds);
   }
   if (request.up.empty()) {
@@ -122,6 +124,7 @@ void tell_doubts(const ExploreRequest& request, const Box& bounds) {
 }
 
 int explore(const ExploreRequest& request) {
+  Interruption interruption;
   check_numbers(request);
   check_targets(request.out, request.json);
   check_plan(request);
@@ -142,7 +145,7 @@ int explore(const ExploreRequest& request) {
   }
   check_region(request, world, region, start);
 
-  ExplorationRunOptions options = run_options_of(request, region);
+  ExplorationRunOptions options = run_options_of(request, region, interruption);
   ObservableProgress observable(request.quiet);
   options.on_observable_share = [&](double share) { observable.tell(share); };
   ExplorationRun run(world, sensor, platform, options);
@@ -155,6 +158,7 @@ int explore(const ExploreRequest& request) {
   RunRecord record =
       run.run(recording, start_in(run, *platform, request), [&](const ViewRecord& view, const OccupancyMap& map) {
         if (view.view == 1) {
+          interruption.hold();
           printer.head(request.planner, request.world, request.sensor, request.resolution_m, request.seed);
         }
         printer.view(view);
@@ -173,21 +177,21 @@ int explore(const ExploreRequest& request) {
   if (record.coverage) {
     printer.observable(observable.seconds());
   }
-  if (request.audit) {
+  recording.finish(record);
+  if (request.audit && !interruption.asked()) {
     printer.working("audit", "checking what could still be observed ...");
     record.audit = audit_of(run, *platform, sensor, record, request.threads);
     printer.audit(record);
   }
-  if (request.bound) {
+  if (request.bound && !interruption.asked()) {
     printer.working("bound", "seeking the shortest way that sees all ...");
     record.path_bound = bound_of(run, *platform, sensor, record.views.front().pose, request.threads);
     printer.bound(record);
   }
-  recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, pictures.pictures(), progress,
                 recording.file());
-  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+  return exit_code_of(record.outcome, interruption);
 }
 
 void add_world_options(CLI::App& command, ExploreRequest& request) {
@@ -205,7 +209,7 @@ void add_world_options(CLI::App& command, ExploreRequest& request) {
   command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
       ->type_name("S")
       ->check(a_number())
-      ->capture_default_str()
+      ->default_str("1")
       ->group("World");
   command.add_option("--size", request.size, "Extent of a generated world (office, maze), metres")
       ->type_name("LENGTH,WIDTH")
@@ -270,7 +274,8 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       "  vantage explore --world office --planner frontier-gain --sensor kinect --set hypotheses=300 --seed 7\n"
       "  vantage explore --world office --size 15,10 --band 0.2,1.4 --look-around --sensor stereo\n"
       "  vantage explore --world house.dae --up y --region -9,-5,0.1,9,5,2.4 --resolution 0.1 --json - --quiet\n"
-      "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written), 3 the views were spent.");
+      "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written) or a file that cannot be\n"
+      "written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = explore(*request); });
 }
 

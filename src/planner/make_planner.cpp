@@ -35,8 +35,8 @@ class SettingReader {
   SettingReader& number(std::string_view name, Number& field) {
     if (const std::string* text = find(name)) {
       const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), field);
-      if (error != std::errc{} || end != text->data() + text->size()) {
-        refuse(name, *text, std::is_integral_v<Number> ? "a whole number" : "a number");
+      if (error != std::errc{} || end != text->data() + text->size() || !std::isfinite(static_cast<double>(field))) {
+        refuse(name, *text, std::is_integral_v<Number> ? "a whole number" : "a finite number");
       }
     }
     return *this;
@@ -113,7 +113,7 @@ class SettingReader {
     const char* const end = text.data() + text.size();
     for (const char* at = text.data();; ++at) {
       const auto [after, error] = std::from_chars(at, end, numbers.emplace_back());
-      if (error != std::errc{} || (after != end && *after != ',')) {
+      if (error != std::errc{} || !std::isfinite(numbers.back()) || (after != end && *after != ',')) {
         return {};
       }
       if (after == end) {

@@ -13,7 +13,7 @@
 namespace VANTAGE_EXPORT vantage {
 
 /// How a whole run ended.
-enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget };
+enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget, Interrupted };
 
 [[nodiscard]] constexpr std::string_view to_string(RunOutcome outcome) {
   switch (outcome) {
@@ -21,6 +21,8 @@ enum class RunOutcome : std::uint8_t { Explored, Blocked, Budget };
       return "explored";
     case RunOutcome::Blocked:
       return "blocked";
+    case RunOutcome::Interrupted:
+      return "interrupted";
     case RunOutcome::Budget:
       break;
   }
