@@ -196,10 +196,8 @@ int explore(const ExploreRequest& request) {
 
 void add_world_options(CLI::App& command, ExploreRequest& request) {
   command
-      .add_option(
-          "--world", request.world,
-          "By name (vantage list), a mesh, an OctoMap taken as the truth, or a nav2 map (.yaml), a plane for a robot "
-          "that drives; must be given")
+      .add_option("--world", request.world,
+                  "By name (vantage list), a mesh, an OctoMap, or a nav2 map (.yaml); must be given")
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
@@ -258,8 +256,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
                  "At the end, tell how short a way sees all, for one who knows the world; slow")
       ->group("Run");
   command
-      ->add_flag("--no-coverage", request->no_coverage,
-                 "Do not look, before the first view, for all that can be observed: coverage is not told")
+      ->add_flag("--no-coverage", request->no_coverage, "Coverage is not told: the first view need not wait for it")
       ->group("Run");
   command
       ->add_flag("--audit", request->audit,

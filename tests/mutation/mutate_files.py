@@ -67,11 +67,12 @@ class Kinds:
     """Whole files by kind, and the program's arguments to read them."""
 
     def __init__(self, program, source, folder):
-        self.short = ["--sensor", "kinect", "--planner", "nearest-frontier", "--max-views", "1", "--quiet"]
+        self.short = ["--planner", "nearest-frontier", "--max-views", "1", "--quiet", "--no-coverage"]
         self.kinds = {}
         run = folder / "run"
         subprocess.run(
-            [program, "explore", "--world", "table", "--resolution", "0.2", *self.short, "--out", run], check=False
+            [program, "explore", "--world", "table", "--resolution", "0.2", "--sensor", "kinect", *self.short, "--out", run],
+            check=False,
         )
         for kind in ("ascii", "binary_little_endian", "binary_big_endian"):
             self.add(f"ply-{kind}", "mesh.ply", ply(kind), self.explore)
@@ -107,7 +108,7 @@ class Kinds:
         self.kinds[kind] = (name, content, arguments, beside or {})
 
     def explore(self, file):
-        return ["explore", "--world", file, "--resolution", "0.2", *self.short]
+        return ["explore", "--world", file, "--resolution", "0.2", "--sensor", "kinect", *self.short]
 
     @staticmethod
     def replay(form):

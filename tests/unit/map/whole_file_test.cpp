@@ -52,7 +52,7 @@ TEST(WholeFile, HoldsAllOfTheNewOrAllOfTheOld) {
   const std::filesystem::path file = folder / "map.ot";
   detail::write_whole_file(file, "old");
   EXPECT_EQ(test::read_all(file), "old");
-  for (const rlim_t bytes : {0, 1, 4096, 99'999}) {
+  for (const rlim_t bytes : {rlim_t{0}, rlim_t{1}, rlim_t{4096}, rlim_t{99'999}}) {
     const FullDisk full(bytes);
     EXPECT_EQ(write_error([&] { detail::write_whole_file(file, std::string(100'000, 'x')); }),
               file.string() + ": cannot be written: File too large");
