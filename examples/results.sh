@@ -25,7 +25,7 @@ explore() {
       if [[ ! -s $report ]]; then
         echo "$title, $resolution m, $planner, start $seed" >&2
         "$vantage" explore --world "$world" --planner "$planner" --resolution "$resolution" --seed "$seed" "$@" ${EXTRA:-} \
-          --json "$report" > /dev/null || [[ $? -eq 3 ]]
+          --json "$report" > /dev/null || { code=$?; [[ $code -eq 3 || $code -eq 4 ]]; }
       fi
       printf '| %s | %s | %s | %s | %s | %s | %.1f | %.4f | %s | %.0f | %.0f |\n' "$title" "$resolution" "$planner" \
         "$seed" "$(value "$report" outcome)" "$(value "$report" views)" "$(value "$report" path_length_m)" \

@@ -80,6 +80,19 @@ void add_commands(CLI::App& app, int& exit_code) {
       "To begin with:        vantage explore --world rooms --out rooms");
 }
 
+int exit_code_of(RunOutcome outcome, const Interruption& interruption) {
+  switch (outcome) {
+    case RunOutcome::Explored:
+      return kDone;
+    case RunOutcome::Budget:
+      return kBudget;
+    case RunOutcome::Interrupted:
+      return interruption.exit_code();
+    default:
+      return kLeftOver;
+  }
+}
+
 std::string one_line(std::string message) {
   while (!message.empty() && (message.back() == '\n' || message.back() == '\r')) {
     message.pop_back();

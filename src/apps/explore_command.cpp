@@ -76,7 +76,7 @@ std::shared_ptr<const Platform> platform_of(const ExploreRequest& request) {
 }
 
 ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& region, const Platform& platform,
-                                     const RangeSensor& sensor) {
+                                     const RangeSensor& sensor, const Interruption& interruption) {
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
@@ -91,6 +91,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& r
   options.body_radius_m = request.robot_radius_m;
   options.threads = request.threads;
   options.measure_coverage = !request.no_coverage;
+  options.stop = [&interruption] { return interruption.asked(); };
   return options;
 }
 
@@ -116,7 +117,7 @@ void tell_doubts(const ExploreRequest& request, const Box& bounds) {
   if (!is_world_file(request, World::FileKind::Mesh)) {
     return;
   }
-  if (request.scale == 1.0) {
+  if (request.scale.value_or(1.0) == 1.0) {
     std::cerr << doubt_about_world_unit(request.world, bounds);
   }
   if (request.up.empty()) {
@@ -125,6 +126,7 @@ void tell_doubts(const ExploreRequest& request, const Box& bounds) {
 }
 
 int explore(const ExploreRequest& request) {
+  Interruption interruption;
   check_numbers(request);
   check_targets(request.out, request.json);
   check_plan(request);
@@ -145,7 +147,7 @@ int explore(const ExploreRequest& request) {
   }
   check_region(request, world, region, start);
 
-  ExplorationRunOptions options = run_options_of(request, region, *platform, sensor);
+  ExplorationRunOptions options = run_options_of(request, region, *platform, sensor, interruption);
   ObservableProgress observable(request.quiet);
   options.on_observable_share = [&](double share) { observable.tell(share); };
   ExplorationRun run(world, sensor, platform, options);
@@ -158,6 +160,7 @@ int explore(const ExploreRequest& request) {
   RunRecord record =
       run.run(recording, start_in(run, *platform, request), [&](const ViewRecord& view, const OccupancyMap& map) {
         if (view.view == 1) {
+          interruption.hold();
           printer.head(request.planner, request.world, request.sensor, request.resolution_m, request.seed);
         }
         printer.view(view);
@@ -176,29 +179,27 @@ int explore(const ExploreRequest& request) {
   if (record.coverage) {
     printer.observable(observable.seconds());
   }
-  if (request.audit) {
+  recording.finish(record);
+  if (request.audit && !interruption.asked()) {
     printer.working("audit", "checking what could still be observed ...");
     record.audit = audit_of(run, *platform, sensor, record, request.threads);
     printer.audit(record);
   }
-  if (request.bound) {
+  if (request.bound && !interruption.asked()) {
     printer.working("bound", "seeking the shortest way that sees all ...");
     record.path_bound = bound_of(run, *platform, sensor, record.views.front().pose, request.threads);
     printer.bound(record);
   }
-  recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), sensor, pictures.pictures(), progress,
                 recording.file());
-  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+  return exit_code_of(record.outcome, interruption);
 }
 
 void add_world_options(CLI::App& command, ExploreRequest& request) {
   command
-      .add_option(
-          "--world", request.world,
-          "By name (vantage list), a mesh, an OctoMap taken as the truth, or a nav2 map (.yaml), a plane for a robot "
-          "that drives; must be given")
+      .add_option("--world", request.world,
+                  "By name (vantage list), a mesh, an OctoMap, or a nav2 map (.yaml); must be given")
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
@@ -208,7 +209,7 @@ void add_world_options(CLI::App& command, ExploreRequest& request) {
   command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
       ->type_name("S")
       ->check(a_number())
-      ->capture_default_str()
+      ->default_str("1")
       ->group("World");
   command.add_option("--size", request.size, "Extent of a generated world (office, maze), metres")
       ->type_name("LENGTH,WIDTH")
@@ -257,8 +258,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
                  "At the end, tell how short a way sees all, for one who knows the world; slow")
       ->group("Run");
   command
-      ->add_flag("--no-coverage", request->no_coverage,
-                 "Do not look, before the first view, for all that can be observed: coverage is not told")
+      ->add_flag("--no-coverage", request->no_coverage, "Coverage is not told: the first view need not wait for it")
       ->group("Run");
   command
       ->add_flag("--audit", request->audit,
@@ -273,7 +273,8 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       "  vantage explore --world office --planner frontier-gain --sensor kinect --set hypotheses=300 --seed 7\n"
       "  vantage explore --world office --size 15,10 --band 0.2,1.4 --look-around --sensor stereo\n"
       "  vantage explore --world house.dae --up y --region -9,-5,0.1,9,5,2.4 --resolution 0.1 --json - --quiet\n"
-      "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written), 3 the views were spent.");
+      "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written) or a file that cannot be\n"
+      "written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = explore(*request); });
 }
 

@@ -24,6 +24,7 @@ bool is_known(const Names& names, const std::string& name) {
 }  // namespace
 
 std::vector<double> numbers_of(const char* flag, const std::string& text) {
+  constexpr double kFurthest = 1e6;
   std::vector<double> numbers;
   std::size_t at = 0;
   while (at <= text.size()) {
@@ -35,6 +36,10 @@ std::vector<double> numbers_of(const char* flag, const std::string& text) {
       throw std::invalid_argument(std::string(flag) + ": '" + text.substr(at, comma - at) + "' in '" + text +
                                   "' is not a number");
     }
+    if (std::abs(number) > kFurthest) {
+      throw std::invalid_argument(std::string(flag) + ": '" + text.substr(at, comma - at) + "' in '" + text +
+                                  "' must be within 1e6 either way");
+    }
     numbers.push_back(number);
     at = comma + 1;
   }
@@ -42,19 +47,22 @@ std::vector<double> numbers_of(const char* flag, const std::string& text) {
 }
 
 void check_numbers(const ExploreRequest& request) {
-  const auto finite_at_least_0 = [](double value) { return std::isfinite(value) && value >= 0.0; };
-  detail::require_option(std::isfinite(request.resolution_m) && request.resolution_m > 0.0, "--resolution",
-                         request.resolution_m, "> 0 metres");
-  detail::require_option(std::isfinite(request.scale) && request.scale > 0.0, "--scale", request.scale, "> 0");
-  detail::require_length(request.robot_radius_m, "--robot-radius");
-  detail::require_option(finite_at_least_0(request.scan_spacing_m), "--scan-spacing", request.scan_spacing_m,
-                         ">= 0 metres");
-  detail::require_option(finite_at_least_0(request.noise), "--noise", request.noise, ">= 0");
+  const auto require = [](double value, const char* option, double least, double most, const char* rule) {
+    detail::require_option(value >= least && value <= most, option, value, rule);  // NaN holds to no rule
+  };
+  require(request.resolution_m, "--resolution", 1e-4, 100.0, "in [0.0001, 100] metres");
+  require(request.scale.value_or(1.0), "--scale", 1e-6, 1e6, "in [1e-6, 1e6]");
+  require(request.robot_radius_m, "--robot-radius", 0.0, 100.0, "in [0, 100] metres");
+  require(request.scan_spacing_m, "--scan-spacing", 0.0, 1e6, "in [0, 1e6] metres");
+  require(request.noise, "--noise", 0.0, 1000.0, "in [0, 1000]");
   (void)noise_of(request);
   detail::require_option(request.max_views > 0, "--max-views", request.max_views, "> 0");
   detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
   if (!request.up.empty() && request.up != "y" && request.up != "z") {
     throw std::invalid_argument("--up is '" + request.up + "', must be y or z");
+  }
+  if (request.yaw_only && !request.band.empty()) {
+    throw std::invalid_argument("--yaw-only does not go with --band: a robot that drives is level anyhow");
   }
 }
 
@@ -62,9 +70,9 @@ SensorNoise noise_of(const ExploreRequest& request) {
   SensorNoise noise{.axial = request.noise};
   if (!request.pose_noise.empty()) {
     const std::vector<double> n = numbers_of("--pose-noise", request.pose_noise);
-    if (n.size() != 2 || n[0] < 0.0 || n[1] < 0.0) {
+    if (n.size() != 2 || n[0] < 0.0 || n[0] > 10.0 || n[1] < 0.0 || n[1] > 180.0) {
       throw std::invalid_argument("--pose-noise '" + request.pose_noise +
-                                  "' must be two numbers >= 0, metres and degrees");
+                                  "' must be two numbers, metres in [0, 10] and degrees in [0, 180]");
     }
     noise.position_m = n[0];
     noise.angle_rad = n[1] * std::numbers::pi / 180.0;
@@ -84,33 +92,62 @@ void check_cell_count(const Box& region, double resolution_m) {
 }
 
 MeshFileOptions mesh_options_of(const ExploreRequest& request) {
-  MeshFileOptions options{.scale = request.scale};
+  MeshFileOptions options{.scale = request.scale.value_or(1.0)};
   if (!request.up.empty()) {
     options.up = request.up == "y" ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z;
   }
   return options;
 }
 
-World world_of(const ExploreRequest& request) {
-  if (is_known(World::names(), request.world)) {
-    WorldOptions options{.seed = request.seed};
-    if (!request.size.empty()) {
-      const std::vector<double> n = numbers_of("--size", request.size);
-      if (n.size() != 2) {
-        throw std::invalid_argument("--size has " + std::to_string(n.size()) + " numbers, must be LENGTH,WIDTH");
-      }
-      options.length_m = n[0];
-      options.width_m = n[1];
-    }
-    return World::by_name(request.world, options);
+namespace {
+
+// What says how to take a mesh, and what makes a world, is for nothing else.
+void check_world_options(const ExploreRequest& request) {
+  const bool is_named = is_known(World::names(), request.world);
+  if (!is_world_file(request, World::FileKind::Mesh) && (!request.up.empty() || request.scale)) {
+    throw std::invalid_argument((request.up.empty() ? "--scale: " : "--up: ") + request.world + " is no mesh file");
   }
-  if (!std::filesystem::exists(request.world) && request.world.find_first_of("./") == std::string::npos) {
-    return World::by_name(request.world);  // neither a name nor a file: let it list the names
-  }
-  if (!request.size.empty()) {
+  if (!is_named && !request.size.empty()) {
     throw std::invalid_argument("--size: the world of a file has a size of its own");
   }
-  return World::from_file(request.world, mesh_options_of(request));
+}
+
+// "LENGTH,WIDTH"; none: the world's own.
+WorldOptions world_options_of(const ExploreRequest& request) {
+  WorldOptions options{.seed = request.seed};
+  if (!request.size.empty()) {
+    const std::vector<double> n = numbers_of("--size", request.size);
+    if (n.size() != 2) {
+      throw std::invalid_argument("--size has " + std::to_string(n.size()) + " numbers, must be LENGTH,WIDTH");
+    }
+    if (n[0] <= 0.0 || n[1] <= 0.0) {
+      throw std::invalid_argument("--size '" + request.size + "' must be two numbers > 0");
+    }
+    options.length_m = n[0];
+    options.width_m = n[1];
+  }
+  return options;
+}
+
+}  // namespace
+
+World world_of(const ExploreRequest& request) {
+  const bool is_name = is_known(World::names(), request.world) ||
+                       (!std::filesystem::exists(request.world) &&
+                        request.world.find_first_of("./") == std::string::npos);  // then it lists the names
+  if (is_name && !is_known(World::names(), request.world)) {
+    return World::by_name(request.world);
+  }
+  check_world_options(request);
+  if (!is_name) {
+    return World::from_file(request.world, mesh_options_of(request));
+  }
+  const WorldOptions options = world_options_of(request);
+  try {
+    return World::by_name(request.world, options);
+  } catch (const std::invalid_argument& error) {  // of its size alone: the name is known
+    throw std::invalid_argument("--size '" + request.size + "': " + error.what());
+  }
 }
 
 bool is_world_file(const ExploreRequest& request, World::FileKind kind) {
@@ -151,6 +188,9 @@ std::optional<HeightBandOptions> band_of(const ExploreRequest& request) {
   const std::vector<double> n = numbers_of("--band", request.band);
   if (n.size() != 2 && n.size() != 3) {
     throw std::invalid_argument("--band has " + std::to_string(n.size()) + " numbers, must be LOW,HIGH[,SENSOR]");
+  }
+  if (!(n[0] <= n[1]) || (n.size() > 2 && !(n[0] <= n[2] && n[2] <= n[1]))) {
+    throw std::invalid_argument("--band '" + request.band + "' must hold LOW <= SENSOR <= HIGH");
   }
   return HeightBandOptions{
       .min_height_m = n[0], .max_height_m = n[1], .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1])};

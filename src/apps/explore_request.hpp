@@ -20,8 +20,8 @@ namespace vantage::apps {
 /// `vantage explore` as it was typed.
 struct ExploreRequest {
   std::string world;
-  std::string up;  // "y", "z"; as the file has it
-  double scale = 1.0;
+  std::string up;               // "y", "z"; as the file has it
+  std::optional<double> scale;  // of a mesh file
   std::string size;
   std::string planner = "harmonic";
   std::string sensor = "panoramic";
@@ -62,7 +62,7 @@ struct ExploreRequest {
 [[nodiscard]] RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command,
                                               const std::string& world, const RangeSensor& sensor);
 [[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
-/// The numbers of a list "1,2.5,-3" that `flag` was given.
+/// The numbers of a list "1,2.5,-3" that `flag` was given, each within 10^6 either way.
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
 /// How far measurements are off.
 [[nodiscard]] SensorNoise noise_of(const ExploreRequest& request);

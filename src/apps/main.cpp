@@ -1,19 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 
 #include "apps/commands.hpp"
 
+namespace {
+
+// What was printed may wait in memory; a full disk or a reader that is gone shows here at the latest.
+void check_stdout() {
+  std::cout.flush();
+  if (!std::cout) {
+    throw std::runtime_error("stdout: not all could be written to it");
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  (void)std::signal(SIGPIPE, SIG_IGN);  // the stream tells
   CLI::App app("Where should a robot's 3D sensor look next?", "vantage");
   int exit_code = vantage::apps::kDone;
   vantage::apps::add_commands(app, exit_code);
   try {
-    app.parse(argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& request) {
+      exit_code = app.exit(request);  // --help, --version
+    }
+    check_stdout();
     return exit_code;
-  } catch (const CLI::Success& request) {
-    return app.exit(request);  // --help, --version
+  } catch (const std::bad_alloc&) {
+    std::cerr << "vantage: there is not enough memory for this\n";
+    return vantage::apps::kBadInput;
   } catch (const std::exception& error) {
     std::cerr << "vantage: " << vantage::apps::one_line(error.what()) << '\n';
     return vantage::apps::kBadInput;

@@ -2,13 +2,13 @@
 #include "apps/map_command.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <stdexcept>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/map/octomap_bridge.hpp>
+
+#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -58,12 +58,7 @@ int run_map_command(const std::filesystem::path& file, const std::string& json, 
     return 0;
   }
   if (!json.empty()) {
-    std::ofstream stream(json);
-    stream << summary.dump(2) << '\n';
-    stream.close();
-    if (!stream) {
-      throw std::runtime_error(json + ": cannot be written");
-    }
+    detail::write_whole_file(json, summary.dump(2) + "\n");
   }
   print(summary, out);
   return 0;

@@ -52,6 +52,7 @@ struct ReconstructRequest {
 };
 
 constexpr double kTableTopM = 0.427277;
+constexpr std::uint64_t kMostCandidates = 1'000'000;
 
 // The object where it stands: as told, or in the middle of the table, or where its file has it.
 TriangleMesh placed_object(const ReconstructRequest& request) {
@@ -65,7 +66,7 @@ TriangleMesh placed_object(const ReconstructRequest& request) {
                                   " numbers, must be scale,x,y,z,qx,qy,qz,qw");
     }
     const Eigen::Quaterniond turn(n[7], n[4], n[5], n[6]);
-    detail::require_option(n[0] > 0.0, "the scale of --place", n[0], "> 0");
+    detail::require_option(n[0] >= 1e-6, "the scale of --place", n[0], "in [1e-6, 1e6]");
     if (turn.norm() < 1e-6) {
       throw std::invalid_argument("--place " + request.place + ": the quaternion is zero");
     }
@@ -98,7 +99,7 @@ Box object_box_of(const ReconstructRequest& request, const TriangleMesh& object)
 std::vector<double> radii_of(const ReconstructRequest& request) {
   std::vector<double> radii_m = numbers_of("--radius", request.radii);
   for (const double radius_m : radii_m) {
-    detail::require_option(radius_m > 0.0, "--radius", radius_m, "> 0 metres");
+    detail::require_option(radius_m > 0.0 && radius_m <= 1000.0, "--radius", radius_m, "> 0 and at most 1000 metres");
   }
   return radii_m;
 }
@@ -193,15 +194,19 @@ PlannerSettings settings_for(const ReconstructRequest& request, const Box& box, 
 }
 
 int reconstruct(const ReconstructRequest& request) {
+  Interruption interruption;
   const ExploreRequest& shared = request.run;
   check_numbers(shared);
   check_targets(shared.out, shared.json);
-  detail::require_option(request.candidates > 0, "--candidates", request.candidates, "> 0");
+  detail::require_option(request.candidates > 0 && request.candidates <= kMostCandidates, "--candidates",
+                         request.candidates, "in [1, 1000000]");
+  detail::require_option(request.aimed <= kMostCandidates, "--aimed", request.aimed, "at most 1000000");
   const std::vector<double> radii_m = radii_of(request);
-  detail::require_option(request.gap_m >= 0.0, "--gap", request.gap_m, ">= 0 metres");
+  detail::require_option(request.gap_m >= 0.0 && request.gap_m <= 1000.0, "--gap", request.gap_m,
+                         "in [0, 1000] metres");
   const RangeSensor sensor = sensor_of(shared);
   const TriangleMesh object = placed_object(request);
-  if (shared.scale == 1.0) {
+  if (shared.scale.value_or(1.0) == 1.0) {
     std::cerr << doubt_about_object_unit(request.object, object.bounds());
   }
   const Box box = object_box_of(request, object);
@@ -222,6 +227,7 @@ int reconstruct(const ReconstructRequest& request) {
   options.noise = noise_of(shared);
   options.body_radius_m = shared.robot_radius_m;
   options.threads = shared.threads;
+  options.stop = [&interruption] { return interruption.asked(); };
   options.measure_coverage = false;
   options.unknown_box = box;
   options.surface_samples = request.reference.empty() ? surface_points(object) : points_in(request.reference);
@@ -238,6 +244,7 @@ int reconstruct(const ReconstructRequest& request) {
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
   RunRecord record = run.run(recording, start, [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
+      interruption.hold();
       printer.head(shared.planner, request.object, shared.sensor, shared.resolution_m, shared.seed);
     }
     printer.view(view);
@@ -248,7 +255,7 @@ int reconstruct(const ReconstructRequest& request) {
   recording.finish(record);
   progress << recording.cost(record);
   write_outputs(shared.out, shared.json, record, run.map(), sensor, {}, progress, recording.file());
-  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+  return exit_code_of(record.outcome, interruption);
 }
 
 void add_object_options(CLI::App& command, ReconstructRequest& request) {
@@ -257,7 +264,7 @@ void add_object_options(CLI::App& command, ReconstructRequest& request) {
   };
   option("--object", request.object, "FILE", "The object, a mesh; must be given")->required();
   option("--up", request.run.up, "y|z", "Axis of the file that points up; unless given as the file says, else z");
-  option("--scale", request.run.scale, "S", "Metres per unit of the file")->check(a_number())->capture_default_str();
+  option("--scale", request.run.scale, "S", "Metres per unit of the file")->check(a_number())->default_str("1");
   option("--place", request.place, "scale,x,y,z,qx,qy,qz,qw",
          "Where it stands; in the middle of the table, or where the file has it, unless given");
   command
@@ -306,8 +313,9 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  vantage reconstruct --object bunny.ply --table --out bunny\n"
       "  vantage reconstruct --object cup.obj --up y --candidates 1280 --method uniform --json cup.json\n"
-      "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written), 3 the views were "
-      "spent.");
+      "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written) or a file that\n"
+      "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143\n"
+      "interrupted.");
   command->callback([request, &exit_code] { exit_code = reconstruct(*request); });
 }
 

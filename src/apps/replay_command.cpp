@@ -77,6 +77,7 @@ void write_frame_sheet(const std::string& out, const ReplayRecord& record, const
 }
 
 int replay(const ReplayRequest& request) {
+  Interruption interruption;
   check_numbers(request);
   check_targets(request.run.out, request.run.json);
   const Recording recording = recording_of(request);
@@ -97,11 +98,14 @@ int replay(const ReplayRequest& request) {
   setup.planner = first->name();
   planners.front() = std::make_unique<RunRecording>(*first, request.run.out, setup);
   auto& recorder = static_cast<RunRecording&>(*planners.front());
-  const ReplaySpan span{.every = request.every, .max_views = request.run.max_views};
+  const ReplaySpan span{.every = request.every, .max_views = request.run.max_views, .stop = [&interruption] {
+                          return interruption.asked();
+                        }};
   RunPrinter printer(progress, told.is_terminal(), {.count = frame_count(recording, span), .at_most = false});
   ReplayRecord record =
       apps::replay(recording, span, map, *platform, planners,
                    [&](const ReplayRecord& so_far, const RecordedReading& reading, const OccupancyMap& known) {
+                     interruption.hold();
                      if (told.is_terminal()) {
                        printer.view(so_far.run.views.back());
                      } else {
@@ -122,7 +126,9 @@ int replay(const ReplayRequest& request) {
   recorder.finish(record.run);
   progress << recorder.cost(record.run);
   write_replay_outputs(request, record, recording, map, recorder.file(), progress);
-  return record.to_the_end ? kDone : kBudget;
+  return record.run.outcome == RunOutcome::Interrupted ? interruption.exit_code()
+         : record.to_the_end                           ? kDone
+                                                       : kBudget;
 }
 
 void add_recording_options(CLI::App& command, ReplayRequest& request) {
@@ -177,8 +183,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       "  vantage replay --dataset rgbd_dataset_freiburg1_desk --format tum --out desk\n"
       "  vantage replay --dataset redkitchen --format 7scenes --robot-radius 0 --select --planner "
       "next-best-view,harmonic\n"
-      "Exit codes: 0 the recording was played to its end, 2 bad input (nothing was written), 3 the views were "
-      "spent.");
+      "Exit codes: 0 the recording was played to its end, 2 bad input (nothing was written) or a file that cannot\n"
+      "be written, 3 the views were spent, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = replay(*request); });
 }
 

@@ -9,6 +9,7 @@
 #include <vantage/vision/line_plot.hpp>
 
 #include "apps/run_files.hpp"
+#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -66,10 +67,9 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
 std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
                                                       const std::string& json, const OccupancyMap& map,
                                                       const std::filesystem::path& run_record) {
-  make_folder(folder);
   std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
                                            folder / "known.png"};
-  write_text(files[0], json);
+  detail::write_whole_file(files[0], json);
   save_octomap(map, files[1]);
   FloorPlanContent content = journey(record.run);
   content.title = std::filesystem::path(record.run.world).filename().string() + ": map and frames";

@@ -12,7 +12,8 @@ namespace vantage::apps {
 
 void check_numbers(const ReplayRequest& request) {
   check_numbers(request.run);
-  detail::require_option(request.max_range_m >= 0.0, "--max-range", request.max_range_m, ">= 0 metres");
+  detail::require_option(request.max_range_m >= 0.0 && request.max_range_m <= 1e4, "--max-range", request.max_range_m,
+                         "in [0, 10000] metres");
   if (!request.object_box.empty() && !request.select) {
     throw std::invalid_argument("--object-box says what counts for --select, which is not given");
   }

@@ -4,8 +4,12 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <exception>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
@@ -25,6 +29,17 @@ double milliseconds_of(Call&& call) {
 
 std::size_t first_out_of_use(const Recording& recording, const ReplaySpan& span) {
   return std::min(recording.frames().size(), span.every * span.max_views);
+}
+
+// A slip in a file of poses must not make a map as wide as the number it left.
+void check_place(const Pose& pose) {
+  constexpr double kFurthestM = 1e5;
+  if (!(pose.translation().cwiseAbs().maxCoeff() <= kFurthestM)) {
+    std::ostringstream message;
+    message << "its pose is at " << pose.translation().x() << ", " << pose.translation().y() << ", "
+            << pose.translation().z() << " m, must be within " << kFurthestM << " m either way";
+    throw std::runtime_error(message.str());
+  }
 }
 
 void ask_planners(ReplayedFrame& frame, const OccupancyMap& map, const Pose& pose,
@@ -56,15 +71,21 @@ void add_view(RunRecord& run, const ReplayedFrame& frame, const Pose& pose, doub
   run.planning_operations += first.plan.statistics.ray_operations;
 }
 
-void conclude(ReplayRecord& record) {
+void conclude(ReplayRecord& record, bool stopped) {
   const Plan& last = record.frames.back().plans.front().plan;
   RunRecord& run = record.run;
   run.leftover = last.leftover;
-  run.outcome = run_outcome_of(last.outcome);
-  run.reason = last.outcome != Outcome::Move
-                   ? last.reason
-                   : std::string(record.to_the_end ? "the recording is at its end" : "the views were spent") +
-                         "; the planner would go on: " + last.reason;
+  if (stopped) {
+    record.to_the_end = false;
+    run.outcome = RunOutcome::Interrupted;
+    run.reason = "interrupted after frame " + std::to_string(record.frames.size());
+  } else {
+    run.outcome = run_outcome_of(last.outcome);
+    run.reason = last.outcome != Outcome::Move
+                     ? last.reason
+                     : std::string(record.to_the_end ? "the recording is at its end" : "the views were spent") +
+                           "; the planner would go on: " + last.reason;
+  }
   rusage usage{};
   run.peak_memory_mb = getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<double>(usage.ru_maxrss) / 1024.0 : 0.0;
 }
@@ -101,20 +122,25 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
   record.skipped = recording.skipped();
   const std::size_t end = first_out_of_use(recording, span);
   record.to_the_end = end == recording.frames().size();
-  for (std::size_t i = 0; i < end; i += span.every) {
+  bool stopped = false;
+  for (std::size_t i = 0; i < end && !stopped; i += span.every) {
+    const Pose pose = recording.pose(i);
     RecordedReading reading;
+    ReplayedFrame frame;
+    frame.frame = i;
+    double insert_ms = 0.0;
     try {
+      check_place(pose);
       reading = recording.read(i);
-    } catch (const std::runtime_error& error) {
+      map.assume_free(platform.body_box(pose));
+      insert_ms = milliseconds_of([&] { frame.scan = map.insert(reading.scan.scan); });
+    } catch (const std::bad_alloc&) {
+      throw;  // the next frame would find no more of it
+    } catch (const std::exception& error) {
       record.skipped.push_back({recording.frames()[i].name, error.what()});
       continue;
     }
-    const Pose pose = recording.pose(i);
-    ReplayedFrame& frame = record.frames.emplace_back();
-    frame.frame = i;
     frame.depth = reading.scan.report;
-    map.assume_free(platform.body_box(pose));
-    const double insert_ms = milliseconds_of([&] { frame.scan = map.insert(reading.scan.scan); });
     const OccupancyMap::Counts counts = map.counts();
     frame.free_cells = counts.free;
     frame.occupied_cells = counts.occupied;
@@ -122,12 +148,15 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
     frame.void_cells = count_void_cells(map);
     ask_planners(frame, map, pose, planners);
     add_view(record.run, frame, pose, insert_ms);
+    record.frames.push_back(std::move(frame));
     on_frame(record, reading, map);
+    stopped = span.stop && span.stop();
   }
   if (record.frames.empty()) {
-    throw std::runtime_error("no frame of the recording can be read; the last: " + record.skipped.back().reason);
+    const SkippedFrame& last = record.skipped.back();
+    throw std::runtime_error("no frame of the recording can be used; the last, " + last.name + ": " + last.reason);
   }
-  conclude(record);
+  conclude(record, stopped);
   return record;
 }
 

@@ -38,7 +38,7 @@ struct ReplayRecord {
   RunRecord run;  // by the first planner
   std::vector<ReplayedFrame> frames;
   std::vector<SkippedFrame> skipped;  // those the recording left out, and those that could not be read
-  bool to_the_end = true;             // false: max_views came first
+  bool to_the_end = true;             // false: max_views came first, or somebody stopped it
 };
 
 /// What is told about a frame once it is in the map.
@@ -48,14 +48,15 @@ using OnFrame = std::function<void(const ReplayRecord&, const RecordedReading&, 
 struct ReplaySpan {
   std::size_t every = 1;
   std::size_t max_views = 500;
+  std::function<bool()> stop = {};  // asked after every frame; true ends the replay there
 };
 
 /// How many frames are going to be played, if all can be read.
 [[nodiscard]] std::size_t frame_count(const Recording& recording, const ReplaySpan& span);
 
 /// Integrates the frames of a recording in their order and asks every planner after each what it would do next. The
-/// space that the body takes is free: the sensor was there. Frames that cannot be read are left out and told. Throws
-/// std::runtime_error if none can be read.
+/// space that the body takes is free: the sensor was there. Frames that cannot be read, or whose pose the map
+/// cannot hold, are left out and told. Throws std::runtime_error if that are all.
 [[nodiscard]] ReplayRecord replay(const Recording& recording, const ReplaySpan& span, OccupancyMap& map,
                                   const Platform& platform,
                                   const std::vector<std::unique_ptr<ExplorationPlanner>>& planners,

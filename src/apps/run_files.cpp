@@ -2,7 +2,6 @@
 #include "apps/run_files.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <numbers>
@@ -20,6 +19,9 @@
 #include <vantage/vision/growth_strip.hpp>
 #include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/void_picture.hpp>
+#include <vector>
+
+#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -157,11 +159,38 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
+void make_run_folder(const std::filesystem::path& folder) {
+  make_folder(folder);
+  std::error_code ignored;
+  std::error_code error;
+  const auto remove = [&](const std::filesystem::path& file) {
+    if (!error) {
+      std::filesystem::remove(file, error);
+    }
+  };
+  for (const char* name :
+       {"report.json", "report.html", "run.record", "map.ot", "floor_plan.png", "coverage.png", "growth.png",
+        "known.png", "field.png", "voids.png", "void_utility.png", "selection.json", "selection.png"}) {
+    remove(folder / name);
+    remove(folder / (std::string(name) + ".part"));
+  }
+  if (std::filesystem::is_directory(folder / "frames", ignored)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
+      if (entry.path().extension() == ".png" || entry.path().extension() == ".part") {
+        remove(entry.path());
+      }
+    }
+  }
+  if (error) {
+    throw std::runtime_error(folder.string() +
+                             ": what a run before left there cannot be removed: " + error.message());
+  }
+}
+
 std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& run,
                                                    const OccupancyMap& map, const RangeSensor& sensor,
                                                    const std::map<std::string, Picture>& pictures,
                                                    const std::optional<std::filesystem::path>& record) {
-  make_folder(folder);
   std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
                                            folder / "coverage.png"};
   write_report_json(run, files[0]);
@@ -182,15 +211,6 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
   return files;
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
-}
-
 void tell_files(std::ostream& out, const std::vector<std::filesystem::path>& files) {
   out << "\nwrote\n";
   for (const std::filesystem::path& file : files) {
@@ -202,20 +222,55 @@ void give_json(const std::string& json, const std::string& report) {
   if (json == "-") {
     std::cout << report << std::flush;
   } else if (!json.empty()) {
-    write_text(json, report);
+    detail::write_whole_file(json, report);
   }
 }
 
+namespace {
+
+// Makes the folder as a run would, and takes away what was not there before.
+void try_folder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> made;  // the innermost first
+  for (std::filesystem::path at = std::filesystem::absolute(folder).lexically_normal();
+       !std::filesystem::exists(at) && at.has_relative_path(); at = at.parent_path()) {
+    made.push_back(at);
+  }
+  make_folder(folder);
+  const auto remove_made = [&] {
+    std::error_code ignored;
+    for (const std::filesystem::path& each : made) {
+      std::filesystem::remove(each, ignored);
+    }
+  };
+  try {
+    detail::try_whole_file(folder / "report.json");
+  } catch (const std::runtime_error&) {
+    remove_made();
+    throw;
+  }
+  remove_made();
+}
+
+}  // namespace
+
 void check_targets(const std::string& out, const std::string& json) {
-  if (!out.empty() && std::filesystem::exists(out) && !std::filesystem::is_directory(out)) {
-    throw std::runtime_error("--out " + out + ": is not a folder");
+  const auto naming = [](const char* option, const auto& act) {
+    try {
+      act();
+    } catch (const std::exception& error) {
+      throw std::runtime_error(option + std::string(" ") + error.what());
+    }
+  };
+  if (!out.empty()) {
+    naming("--out", [&] {
+      if (std::filesystem::exists(out) && !std::filesystem::is_directory(out)) {
+        throw std::runtime_error(out + ": is not a folder");
+      }
+      try_folder(out);
+    });
   }
-  if (json.empty() || json == "-") {
-    return;
-  }
-  const std::filesystem::path folder = std::filesystem::path(json).parent_path();
-  if (std::filesystem::is_directory(json) || (!folder.empty() && !std::filesystem::is_directory(folder))) {
-    throw std::runtime_error("--json " + json + ": cannot be written");
+  if (!json.empty() && json != "-") {
+    naming("--json", [&] { detail::try_whole_file(json); });
   }
 }
 

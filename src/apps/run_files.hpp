@@ -33,6 +33,8 @@ class PlanPictures {
 
 /// Makes a folder and those above it where they are missing. Throws std::runtime_error naming it.
 void make_folder(const std::filesystem::path& folder);
+/// The same for the files of one run: removes those that a run before may have left there, and nothing else.
+void make_run_folder(const std::filesystem::path& folder);
 
 /// Writes report.json, map.ot and the pictures into `folder`, which is made, and where the run left a record there,
 /// report.html; returns the files in order, the record among them. Throws
@@ -42,14 +44,14 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
                                                    const std::map<std::string, Picture>& pictures,
                                                    const std::optional<std::filesystem::path>& record = std::nullopt);
 
-/// Writes a text. Throws std::runtime_error naming the file.
-void write_text(const std::filesystem::path& file, const std::string& text);
 /// Tells, at the end, which files there are now.
 void tell_files(std::ostream& out, const std::vector<std::filesystem::path>& files);
-/// The report of a run to where `json` names a file or, as "-", to stdout; nowhere where it is empty.
+/// The report of a run to where `json` names a file or, as "-", to stdout; nowhere where it is empty. Throws
+/// std::runtime_error naming the file if it cannot be written.
 void give_json(const std::string& json, const std::string& report);
 
-/// Refuses, before a run, an --out or a --json that could not be written. Throws std::runtime_error naming it.
+/// Tries, before a run, to begin a file in --out and --json, and leaves nothing behind. Throws std::runtime_error
+/// naming the one that cannot be written.
 void check_targets(const std::string& out, const std::string& json);
 /// After a run: its files where `out` names a folder, telling `progress` which, and its report where `json` names a
 /// file or, as "-", stdout.

@@ -36,7 +36,7 @@ void RunRecording::look(const ViewRecord& view, const OccupancyMap& map) {
     return;
   }
   if (!recorder_) {
-    make_folder(folder_);
+    make_run_folder(folder_);
     recorder_.emplace(folder_ / "run.record", setup_);
   }
   const auto start = std::chrono::steady_clock::now();

@@ -26,6 +26,7 @@
 #include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
 #include "apps/tracked_arm.hpp"
+#include "map/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -170,9 +171,12 @@ ExplorationRunOptions options_of(const ExploreRequest& shared, const World& worl
 }
 
 int search(const SearchRequest& request) {
+  Interruption interruption;
   const ExploreRequest& shared = request.run;
   check_numbers(shared);
   check_targets(shared.out, shared.json);
+  detail::require_option(request.clear_m >= 0.0 && request.clear_m <= 100.0, "--clear", request.clear_m,
+                         "in [0, 100] metres");
   const RangeSensor sensor = sensor_of(shared);
   const KinematicChain chain = chain_of(request);
   const Joints joints = start_joints(request, chain);
@@ -188,7 +192,8 @@ int search(const SearchRequest& request) {
     throw std::invalid_argument("--world " + shared.world + ": an arm cannot search a plane");
   }
 
-  const ExplorationRunOptions options = options_of(shared, world, arm_options.declared_clear);
+  ExplorationRunOptions options = options_of(shared, world, arm_options.declared_clear);
+  options.stop = [&interruption] { return interruption.asked(); };
   ExplorationRun run(world, sensor, arm, options);
 
   ProgressStream told(shared);
@@ -199,6 +204,7 @@ int search(const SearchRequest& request) {
   std::optional<OccupancyMap> first_map;
   const auto on_view = [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
+      interruption.hold();
       printer.head(shared.planner, shared.world, shared.sensor, shared.resolution_m, shared.seed);
     }
     if (told.is_terminal()) {
@@ -219,17 +225,17 @@ int search(const SearchRequest& request) {
   record.world = shared.world;
   printer.summary(record);
   recording.finish(record);
-  if (request.exhaustive) {
+  if (request.exhaustive && !interruption.asked()) {
     print_exhaustive(progress, *arm, sensor, run.map());
   }
-  if (first_map) {
+  if (first_map && !interruption.asked()) {
     const Truth truth(world, shared.resolution_m, *options.map.region);
     const ViewsNeeded needed =
         views_needed(*arm, sensor, *first_map, truth.map(), TriangleScene(world.mesh), request.bound, shared.threads);
     print_views_needed(progress, needed, shared.resolution_m);
   }
   write_outputs(shared.out, shared.json, record, run.map(), sensor, pictures.pictures(), progress, recording.file());
-  return record.outcome == RunOutcome::Budget ? kBudget : kDone;
+  return exit_code_of(record.outcome, interruption);
 }
 
 void add_arm_options(CLI::App& command, SearchRequest& request) {
@@ -278,14 +284,16 @@ void add_search_command(CLI::App& app, int& exit_code) {
                    "At the end, tell how few views could have seen what was to be seen after the first, all known, "
                    "among so many poses of the arm; slow")
       ->type_name("POSES")
+      ->check(a_whole_number(1'000'000))
       ->group("Run");
   add_output_options(*command, run);
   command->footer(
       "Examples:\n"
       "  vantage search --world crates-open --out crates\n"
       "  vantage search --world crates-closed --arm my_arm.urdf --links base_link,camera --exhaustive --json -\n"
-      "Exit codes: 0 no view of the arm sees more of a void, 2 bad input (nothing was written), 3 the views were "
-      "spent.");
+      "Exit codes: 0 no view of the arm sees more of a void, 2 bad input (nothing was written) or a file that\n"
+      "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143\n"
+      "interrupted.");
   command->callback([request, &exit_code] { exit_code = search(*request); });
 }
 

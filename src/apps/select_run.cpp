@@ -23,6 +23,7 @@
 #include "apps/named_goals.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
+#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -373,9 +374,9 @@ int select_views(const ReplayRequest& request, const Recording& recording, Progr
   const std::string json = selection_json(request, comparison);
   if (!request.run.out.empty()) {
     const std::filesystem::path folder(request.run.out);
-    make_folder(folder);
+    make_run_folder(folder);
     const std::vector<std::filesystem::path> files{folder / "selection.json", folder / "selection.png"};
-    write_text(files[0], json);
+    detail::write_whole_file(files[0], json);
     write_png(selection_plot(comparison), files[1]);
     tell_files(progress, files);
   }

@@ -8,12 +8,19 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <mutex>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vantage/arm/kinematic_chain.hpp>
+#include <vector>
 
 #include "arm/chain_parts.hpp"
+#include "arm/xml_extent.hpp"
 
 namespace vantage {
 namespace {
@@ -44,6 +51,11 @@ class ParserMessages final : public console_bridge::OutputHandler {
   std::string first_;
 };
 
+constexpr double kMostM = 1000.0;  // of any length or slide
+constexpr double kLeastM = 1e-6;   // of a shape
+constexpr double kMostTurnRad = 1000.0;
+constexpr double kLeastAxis = 1e-6;
+
 Pose from_urdf_pose(const urdf::Pose& pose) {
   Pose result = Pose::Identity();
   result.linear() = Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z)
@@ -67,10 +79,13 @@ class UrdfReader {
  public:
   UrdfReader(const std::string& text, std::string name) : name_(std::move(name)) {
     const ParserMessages messages;
+    check_text(text);
     model_ = urdf::parseURDF(text);
-    if (!model_) {
+    // The parser leaves out a shape that it cannot read, says so and goes on: whatever it says is an error.
+    if (!model_ || !messages.first().empty()) {
       refuse(messages.first().empty() ? "is no URDF" : std::string("is no URDF: ").append(messages.first()));
     }
+    check_tree();
   }
 
   KinematicChain chain(const std::string& base, const std::string& sensor) {
@@ -83,11 +98,10 @@ class UrdfReader {
       }
       links.push_back(at);
     }
-    add_capsules(*parts, *first, 0, Pose::Identity(), links.empty() ? nullptr : links.back().get());
+    add_capsules(*parts, *first, 0, links.empty() ? nullptr : links.back().get());
     for (std::size_t i = links.size(); i-- > 0;) {
       add_joint(*parts, *links[i]);
-      add_capsules(*parts, *links[i], parts->chain.getNrOfSegments(), Pose::Identity(),
-                   i > 0 ? links[i - 1].get() : nullptr);
+      add_capsules(*parts, *links[i], parts->chain.getNrOfSegments(), i > 0 ? links[i - 1].get() : nullptr);
     }
     if (parts->ranges.empty()) {
       refuse("has no joint that moves between link '" + base + "' and link '" + sensor + "'");
@@ -99,6 +113,72 @@ class UrdfReader {
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
 
+  // The parser's functions call themselves for every element within another, and take a chain of links apart so.
+  void check_text(std::string_view text) const {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 24U;
+    constexpr std::size_t kMostLinks = 1000;
+    constexpr std::size_t kDeepest = 100;
+    if (text.size() > kMostBytes) {
+      refuse("has " + std::to_string(text.size()) + " bytes, must be at most " + std::to_string(kMostBytes));
+    }
+    const detail::XmlExtent extent = detail::xml_extent(text, "link");
+    if (extent.depth > kDeepest) {
+      refuse("has elements nested more than " + std::to_string(kDeepest) + " deep");
+    }
+    if (extent.named > kMostLinks) {
+      refuse("has " + std::to_string(extent.named) + " links, must be at most " + std::to_string(kMostLinks));
+    }
+  }
+
+  // Every link has at most one parent, and no link is its own ancestor.
+  void check_tree() {
+    std::map<std::string, const urdf::Joint*> joint_to;  // by the child
+    for (const auto& [name, joint] : model_->joints_) {
+      const auto [found, is_new] = joint_to.try_emplace(joint->child_link_name, joint.get());
+      if (!is_new) {
+        untie();
+        refuse("link '" + joint->child_link_name + "' is the child of two joints, '" + found->second->name +
+               "' and '" + name + "'");
+      }
+    }
+    for (const auto& [name, link] : model_->links_) {
+      std::size_t steps = 0;
+      for (auto up = joint_to.find(name); up != joint_to.end(); up = joint_to.find(up->second->parent_link_name)) {
+        if (++steps > joint_to.size()) {
+          untie();
+          refuse("its joints lead in a circle from link '" + name + "'");
+        }
+      }
+    }
+  }
+
+  // Links own their children: in a circle none would ever be given back.
+  void untie() {
+    for (const auto& [name, link] : model_->links_) {
+      link->child_links.clear();
+    }
+  }
+
+  double checked(double value, double least, double most, const std::string& what) const {
+    if (!(value >= least && value <= most)) {
+      std::ostringstream message;
+      message << what << " is " << value << ", must be in [" << least << ", " << most << "]";
+      refuse(message.str());
+    }
+    return value;
+  }
+
+  Pose checked(const urdf::Pose& pose, const std::string& what) const {
+    for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {
+      (void)checked(value, -kMostM, kMostM, "the origin of " + what);
+    }
+    const Pose result = from_urdf_pose(pose);
+    if (!result.linear().allFinite()) {
+      refuse("the origin of " + what + " has angles that are not finite");
+    }
+    return result;
+  }
+
   urdf::LinkConstSharedPtr link(const std::string& name) const {
     urdf::LinkConstSharedPtr found = model_->getLink(name);
     if (!found) {
@@ -109,17 +189,19 @@ class UrdfReader {
 
   void add_joint(KinematicChain::Parts& parts, const urdf::Link& link) const {
     const urdf::Joint& joint = *link.parent_joint;
-    const Pose parent_from_link = from_urdf_pose(joint.parent_to_joint_origin_transform);
+    const std::string named = "joint '" + joint.name + "'";
+    const Pose parent_from_link = checked(joint.parent_to_joint_origin_transform, named);
     if (joint.type == urdf::Joint::FIXED) {
       parts.add(KDL::Segment(link.name, KDL::Joint(joint.name, KDL::Joint::None), frame_of(parent_from_link)));
       return;
     }
     const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
     if (!turns && joint.type != urdf::Joint::PRISMATIC) {
-      refuse("joint '" + joint.name + "' neither turns nor slides");
+      refuse(named + " neither turns nor slides");
     }
-    const Eigen::Vector3d axis =
-        parent_from_link.linear() * Eigen::Vector3d(joint.axis.x, joint.axis.y, joint.axis.z);
+    const Eigen::Vector3d given_axis(joint.axis.x, joint.axis.y, joint.axis.z);
+    (void)checked(given_axis.norm(), kLeastAxis, 1.0 / kLeastAxis, "the length of the axis of " + named);
+    const Eigen::Vector3d axis = parent_from_link.linear() * given_axis;  // of any length
     const Eigen::Vector3d origin = parent_from_link.translation();
     parts.add(
         KDL::Segment(link.name,
@@ -130,45 +212,59 @@ class UrdfReader {
     if (joint.type == urdf::Joint::CONTINUOUS) {
       parts.ranges.push_back({-std::numbers::pi, std::numbers::pi});
     } else if (joint.limits && joint.limits->lower <= joint.limits->upper) {
-      parts.ranges.push_back({joint.limits->lower, joint.limits->upper});
+      const double most = turns ? kMostTurnRad : kMostM;
+      parts.ranges.push_back({checked(joint.limits->lower, -most, most, "the lower limit of " + named),
+                              checked(joint.limits->upper, -most, most, "the upper limit of " + named)});
     } else {
-      refuse("joint '" + joint.name + "' has no limits, lower <= upper");
+      refuse(named + " has no limits, lower <= upper");
     }
   }
 
   // The shapes of a link and of all that is fixed to it but `next`, which is the chain's own.
   void add_capsules(KinematicChain::Parts& parts, const urdf::Link& link, std::size_t number,
-                    const Pose& number_from_link, const urdf::Link* next) const {
-    for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
-      parts.capsules.push_back(
-          capsule_of(*collision->geometry, number, number_from_link * from_urdf_pose(collision->origin), link.name));
-    }
-    for (const urdf::JointSharedPtr& joint : link.child_joints) {
-      const urdf::LinkConstSharedPtr child = model_->getLink(joint->child_link_name);
-      if (joint->type == urdf::Joint::FIXED && child.get() != next) {
-        add_capsules(parts, *child, number,
-                     number_from_link * from_urdf_pose(joint->parent_to_joint_origin_transform), next);
+                    const urdf::Link* next) const {
+    std::vector<std::pair<const urdf::Link*, Pose>> waiting{{&link, Pose::Identity()}};
+    while (!waiting.empty()) {
+      const auto [at, number_from_at] = waiting.back();
+      waiting.pop_back();
+      for (const urdf::CollisionSharedPtr& collision : at->collision_array) {
+        const std::string named = "a shape of link '" + at->name + "'";
+        parts.capsules.push_back(
+            capsule_of(*collision->geometry, number, number_from_at * checked(collision->origin, named), named));
+      }
+      for (std::size_t i = at->child_joints.size(); i-- > 0;) {
+        const urdf::Joint& joint = *at->child_joints[i];
+        const urdf::LinkConstSharedPtr child = model_->getLink(joint.child_link_name);
+        if (joint.type == urdf::Joint::FIXED && child.get() != next) {
+          waiting.emplace_back(child.get(), number_from_at * checked(joint.parent_to_joint_origin_transform,
+                                                                     "joint '" + joint.name + "'"));
+        }
       }
     }
   }
 
   Capsule capsule_of(const urdf::Geometry& shape, std::size_t link, const Pose& link_from_shape,
-                     const std::string& link_name) const {
+                     const std::string& named) const {
+    const auto length = [&](double value, const char* what) {
+      return checked(value, kLeastM, kMostM, std::string("the ") + what + " of " + named);
+    };
     if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&shape)) {
-      return capsule_about(link, link_from_shape, 0, 0.0, sphere->radius);
+      return capsule_about(link, link_from_shape, 0, 0.0, length(sphere->radius, "radius"));
     }
     if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&shape)) {
-      return capsule_about(link, link_from_shape, 2, 0.5 * cylinder->length, cylinder->radius);
+      return capsule_about(link, link_from_shape, 2, 0.5 * length(cylinder->length, "length"),
+                           length(cylinder->radius, "radius"));
     }
     if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
-      const Eigen::Vector3d half = 0.5 * Eigen::Vector3d(box->dim.x, box->dim.y, box->dim.z);
+      const Eigen::Vector3d half =
+          0.5 * Eigen::Vector3d(length(box->dim.x, "size"), length(box->dim.y, "size"), length(box->dim.z, "size"));
       Eigen::Index longest = 0;
       half.maxCoeff(&longest);
       Eigen::Vector3d across = half;
       across[longest] = 0.0;
       return capsule_about(link, link_from_shape, longest, half[longest], across.norm());
     }
-    refuse("link '" + link_name + "' has a mesh for a collision shape; it must be cylinders, spheres or boxes");
+    refuse(named + " is a mesh; it must be a cylinder, a sphere or a box");
   }
 
   std::string name_;

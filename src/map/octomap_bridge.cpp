@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "map/octomap_file.hpp"
+#include "map/whole_file.hpp"
 
 namespace vantage {
 namespace {
@@ -193,13 +193,7 @@ void save_octomap(const OccupancyMap& map, const std::filesystem::path& path) {
     throw std::invalid_argument("save_octomap: " + path.string() + " must end in .bt or .ot");
   }
   const Keep keep = extension == ".bt" ? Keep::States : Keep::LogOdds;
-  const std::string bytes = OctreeWriter(*make_octree(map, keep)).write(keep);
-  std::ofstream stream(path, std::ios::binary);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) {
-    throw std::runtime_error(path.string() + ": cannot be written");
-  }
+  detail::write_whole_file(path, OctreeWriter(*make_octree(map, keep)).write(keep));
 }
 
 std::unique_ptr<octomap::OcTree> to_octree(const OccupancyMap& map) { return make_octree(map, Keep::LogOdds); }

@@ -2,6 +2,7 @@
 #include "planner/planner_tables.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -14,7 +15,7 @@ std::vector<double> numbers_in(const std::string& text) {
   const char* const end = text.data() + text.size();
   for (const char* at = text.data();; ++at) {
     const auto [after, error] = std::from_chars(at, end, numbers.emplace_back());
-    if (error != std::errc{} || (after != end && *after != ',')) {
+    if (error != std::errc{} || !std::isfinite(numbers.back()) || (after != end && *after != ',')) {
       return {};
     }
     if (after == end) {

@@ -54,11 +54,12 @@ class SettingTable {
     using Number = std::remove_cvref_t<decltype(field(std::declval<Options&>()))>;
     const std::string option = std::string(owner_) + "::" + std::string(name);
     rows_.push_back({{std::string(name), printed(field(defaults_)), std::string(unit), std::string(meaning)},
-                     std::is_integral_v<Number> ? "a whole number" : "a number",
+                     std::is_integral_v<Number> ? "a whole number" : "a finite number",
                      [field](Options& options, const std::string& text) {
                        const auto [end, error] =
                            std::from_chars(text.data(), text.data() + text.size(), field(options));
-                       return error == std::errc{} && end == text.data() + text.size();
+                       return error == std::errc{} && end == text.data() + text.size() &&
+                              std::isfinite(static_cast<double>(field(options)));
                      },
                      [field, range, option](const Options& options) {
                        Options copy = options;

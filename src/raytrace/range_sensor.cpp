@@ -66,21 +66,24 @@ constexpr std::array<Preset, 6> kPresets{{{"kinect", &kinect},
                                           {"vpl", &vpl}}};
 
 void validate_pinhole(const RangeSensor& sensor) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  detail::require_option(positive(sensor.fx), "RangeSensor::fx", sensor.fx, "> 0");
-  detail::require_option(positive(sensor.fy), "RangeSensor::fy", sensor.fy, "> 0");
-  detail::require_option(std::isfinite(sensor.cx), "RangeSensor::cx", sensor.cx, "finite");
-  detail::require_option(std::isfinite(sensor.cy), "RangeSensor::cy", sensor.cy, "finite");
+  const auto is_focal_length = [](double value) { return value >= 1e-3 && value <= 1e7; };
+  const auto is_pixel = [](double value) { return std::abs(value) <= 1e6; };
+  detail::require_option(is_focal_length(sensor.fx), "RangeSensor::fx", sensor.fx, "in [1e-3, 1e7]");
+  detail::require_option(is_focal_length(sensor.fy), "RangeSensor::fy", sensor.fy, "in [1e-3, 1e7]");
+  detail::require_option(is_pixel(sensor.cx), "RangeSensor::cx", sensor.cx, "in [-1e6, 1e6]");
+  detail::require_option(is_pixel(sensor.cy), "RangeSensor::cy", sensor.cy, "in [-1e6, 1e6]");
 }
 
 // Full turns are often written as 6.2832: let them pass.
 constexpr double kAngleSlackRad = 1e-3;
+constexpr double kLeastAngleRad = 1e-4;
 
 void validate_spherical(const RangeSensor& sensor) {
-  detail::require_option(sensor.horizontal_fov_rad > 0.0 && sensor.horizontal_fov_rad <= 2.0 * kPi + kAngleSlackRad,
-                         "RangeSensor::horizontal_fov_rad", sensor.horizontal_fov_rad, "in (0, 2 pi]");
-  detail::require_option(sensor.vertical_fov_rad > 0.0 && sensor.vertical_fov_rad <= kPi + kAngleSlackRad,
-                         "RangeSensor::vertical_fov_rad", sensor.vertical_fov_rad, "in (0, pi]");
+  detail::require_option(
+      sensor.horizontal_fov_rad >= kLeastAngleRad && sensor.horizontal_fov_rad <= 2.0 * kPi + kAngleSlackRad,
+      "RangeSensor::horizontal_fov_rad", sensor.horizontal_fov_rad, "in [1e-4, 2 pi]");
+  detail::require_option(sensor.vertical_fov_rad >= kLeastAngleRad && sensor.vertical_fov_rad <= kPi + kAngleSlackRad,
+                         "RangeSensor::vertical_fov_rad", sensor.vertical_fov_rad, "in [1e-4, pi]");
 }
 
 std::size_t rays_needed(double needed, std::size_t has) {
@@ -150,10 +153,12 @@ const std::vector<std::string_view>& RangeSensor::preset_names() {
 void RangeSensor::validate() const {
   detail::require_option(width > 0, "RangeSensor::width", width, "> 0");
   detail::require_option(height > 0, "RangeSensor::height", height, "> 0");
+  detail::require_option(width <= kMostRays && height <= kMostRays / width, "RangeSensor::width", width,
+                         "at most 16777216 / height: no more rays than that");
   detail::require_option(std::isfinite(min_range_m) && min_range_m >= 0.0, "RangeSensor::min_range_m", min_range_m,
                          ">= 0");
-  detail::require_option(std::isfinite(max_range_m) && max_range_m > min_range_m, "RangeSensor::max_range_m",
-                         max_range_m, "finite and > min_range_m");
+  detail::require_option(max_range_m > min_range_m && max_range_m <= 1e4, "RangeSensor::max_range_m", max_range_m,
+                         "> min_range_m and at most 10000");
   if (projection == Projection::Pinhole) {
     validate_pinhole(*this);
   } else {

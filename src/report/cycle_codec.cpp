@@ -3,13 +3,23 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vantage/geometry/raster_order.hpp>
+#include <vantage/map/brick.hpp>
 
 #include "report/bytes.hpp"
 
 namespace vantage::detail {
 namespace {
 
-constexpr float kUnit = 127.0F;  // of a component of a direction
+constexpr float kUnit = 127.0F;                            // of a component of a direction
+constexpr std::size_t kMostBricks = std::size_t{1} << 22;  // 3 GB as a map
+
+bool is_addressable(const VoxelIndex& brick) {
+  constexpr std::int32_t kFurthest = kFurthestVoxel / Brick::kSide;
+  const auto is_near = [](std::int32_t i) { return i >= -kFurthest && i < kFurthest; };
+  return is_near(brick.x) && is_near(brick.y) && is_near(brick.z);
+}
 
 void put(ByteWriter& out, const Pose& pose) {
   const Eigen::Quaterniond q(pose.linear());
@@ -19,15 +29,27 @@ void put(ByteWriter& out, const Pose& pose) {
   }
 }
 
+// Not by Eigen's commas: a list of them that an error cuts short ends the process.
+Eigen::Vector3d point_from(ByteReader& in) {
+  Eigen::Vector3d point;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    point[axis] = in.real();
+  }
+  return point;
+}
+
 Pose pose_from(ByteReader& in) {
-  Pose pose = Pose::Identity();
-  Eigen::Vector3d at;
-  at << in.real(), in.real(), in.real();
+  const Eigen::Vector3d at = point_from(in);
   Eigen::Quaterniond q;
-  q.x() = in.real();
-  q.y() = in.real();
-  q.z() = in.real();
-  q.w() = in.real();
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    q.coeffs()[i] = in.real();  // x, y, z, w
+  }
+  const double length = q.norm();
+  constexpr double kOff = 1e-3;
+  if (!at.allFinite() || !(std::abs(length - 1.0) < kOff)) {
+    throw std::runtime_error("a pose is none");
+  }
+  Pose pose = Pose::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = at;
   return pose;
@@ -94,7 +116,7 @@ ViewRecord view_from(ByteReader& in) {
   }
   view.passed.resize(in.length(24));
   for (Eigen::Vector3d& point : view.passed) {
-    point << in.real(), in.real(), in.real();
+    point = point_from(in);
   }
   return view;
 }
@@ -218,7 +240,15 @@ RecordedCycle decode(std::string_view bytes, BrickStates& before) {
   cycle.changes.resize(in.length(5));
   VoxelIndex last;
   for (BrickState& change : cycle.changes) {
+    const bool is_first = &change == cycle.changes.data();
+    const VoxelIndex previous = last;
     const VoxelIndex brick = index_from(in, last);
+    if (!is_addressable(brick) || (!is_first && !RasterOrder{}(previous, brick))) {
+      throw std::runtime_error("a brick lies outside any map, or out of order");
+    }
+    if (before.size() >= kMostBricks && before.find(brick) == before.end()) {
+      throw std::runtime_error("the map has more than " + std::to_string(kMostBricks) + " bricks");
+    }
     BrickState& state = before.try_emplace(brick, BrickState{.brick = brick}).first->second;
     read_difference(in, state.known);
     read_difference(in, state.occupied);

@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
+#include <limits>
+#include <sstream>
 #include <unordered_map>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/report/map_export.hpp>
 #include <vector>
 
+#include "map/whole_file.hpp"
 #include "report/bytes.hpp"
 
 namespace vantage {
@@ -75,7 +76,7 @@ void write_ply(const std::vector<Eigen::Vector3d>& vertices,
       body.word(corner, 4);
     }
   }
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   out << "ply\nformat binary_little_endian 1.0\ncomment metres, z up\nelement vertex " << vertices.size()
       << "\nproperty float x\nproperty float y\nproperty float z\n"
          "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -83,10 +84,7 @@ void write_ply(const std::vector<Eigen::Vector3d>& vertices,
     out << "element face " << triangles.size() << "\nproperty list uchar uint vertex_indices\n";
   }
   out << "end_header\n" << body.bytes();
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  detail::write_whole_file(file, out.str());
 }
 
 }  // namespace

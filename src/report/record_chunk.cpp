@@ -15,6 +15,7 @@ constexpr int kChunkLevel = 1;  // the fastest: cells that change lie together a
 constexpr std::size_t kSizes = 9;
 constexpr std::size_t kFrame = kSizes + 4;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostPacked = 1100;  // plain bytes for one: deflate packs no more than 1032 into it
 
 const Bytef* data_of(std::string_view bytes) { return reinterpret_cast<const Bytef*>(bytes.data()); }
 
@@ -70,7 +71,7 @@ std::optional<Chunk> read_chunk(std::istream& in, std::string& problem) {
   in.seekg(0, std::ios::end);
   const std::streamoff left = in.tellg() - here;
   in.seekg(here);
-  if (left < static_cast<std::streamoff>(size)) {
+  if (left < static_cast<std::streamoff>(size) || plain > kMostPacked * (size + 1)) {
     problem = "a chunk is cut off or damaged";
     return std::nullopt;
   }

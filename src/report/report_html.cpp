@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include <vantage/report/report_json.hpp>
 #include <vector>
 
+#include "map/whole_file.hpp"
 #include "report/page_files.hpp"
 #include "report/replay.hpp"
 #include "report/replay_json.hpp"
@@ -63,20 +63,18 @@ json run_json(json report, const detail::Replay* replay) {
 
 // The page with every {{name}} replaced by the file of that name, and {{runs}} by the runs.
 void write_page(const std::string& runs, const std::filesystem::path& html) {
-  std::ofstream out(html, std::ios::binary);
+  std::string out;
   const std::string whole = detail::page_file("page.html");
   std::string_view page = whole;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
     const std::size_t close = page.find("}}", open);
     const std::string_view name = page.substr(open + 2, close - open - 2);
-    out << page.substr(0, open) << (name == "runs" ? runs : detail::page_file(name));
+    out += page.substr(0, open);
+    out += name == "runs" ? runs : detail::page_file(name);
     page.remove_prefix(close + 2);
   }
-  out << page;
-  out.close();
-  if (!out) {
-    throw std::runtime_error(html.string() + ": cannot be written");
-  }
+  out += page;
+  detail::write_whole_file(html, out);
 }
 
 }  // namespace

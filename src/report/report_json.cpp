@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <vantage/report/report_json.hpp>
 #include <vantage/version.hpp>
 #include <vector>
+
+#include "map/whole_file.hpp"
 
 namespace vantage {
 namespace {
@@ -116,12 +116,7 @@ std::string report_json(const RunRecord& record) {
 }
 
 void write_report_json(const RunRecord& record, const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::binary);
-  out << report_json(record);
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  detail::write_whole_file(file, report_json(record));
 }
 
 }  // namespace vantage

@@ -29,12 +29,24 @@ class RunRecordReader::State {
     try {
       head = detail::head_of(chunk->payload);
       head.sensor.validate();
+      (void)OccupancyMap(map_options());
     } catch (const std::exception& error) {
       refuse(error.what());
     }
     run = head.run;
     run.outcome = RunOutcome::Budget;
     run.reason = "the record ends before the run does";
+  }
+
+  [[nodiscard]] OccupancyMapOptions map_options() const {
+    OccupancyMapOptions options;
+    if (head.run.resolution_m > 0.0) {
+      options.resolution_m = head.run.resolution_m;
+    }
+    if (head.region) {
+      options.region = VoxelFrame{options.resolution_m}.box_of(*head.region);
+    }
+    return options;
   }
 
   [[nodiscard]] std::optional<RecordedCycle> next() {
@@ -94,16 +106,7 @@ RunRecordReader::~RunRecordReader() = default;
 
 const RangeSensor& RunRecordReader::sensor() const { return state_->head.sensor; }
 
-OccupancyMap RunRecordReader::new_map() const {
-  OccupancyMapOptions options;
-  if (state_->run.resolution_m > 0.0) {
-    options.resolution_m = state_->run.resolution_m;
-  }
-  if (state_->head.region) {
-    options.region = VoxelFrame{options.resolution_m}.box_of(*state_->head.region);
-  }
-  return OccupancyMap(options);
-}
+OccupancyMap RunRecordReader::new_map() const { return OccupancyMap(state_->map_options()); }
 
 std::optional<RecordedCycle> RunRecordReader::next() { return state_->next(); }
 const RunRecord& RunRecordReader::run() const { return state_->run; }

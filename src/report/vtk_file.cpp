@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "report/vtk_file.hpp"
 
-#include <fstream>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
 
+#include "map/whole_file.hpp"
 #include "report/base64.hpp"
 #include "report/bytes.hpp"
 #include "report/record_chunk.hpp"
@@ -41,15 +40,12 @@ std::string data_array(std::string_view type, std::string_view name, int compone
 }
 
 void write_file(const std::filesystem::path& file, std::string_view type, std::string_view content) {
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type
       << "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
          "compressor=\"vtkZLibDataCompressor\">\n"
       << content << "</VTKFile>\n";
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  write_whole_file(file, out.str());
 }
 
 // Which points each cell of a list takes, and where it ends.

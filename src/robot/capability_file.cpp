@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vantage/robot/capability_map.hpp>
 
+#include "map/whole_file.hpp"
+
 // The file: a line that says what it is, twelve numbers of 64 bits (options, box of cells, count of words, checksum
 // of all else), the words. The least significant byte comes first.
 
@@ -78,12 +80,7 @@ void CapabilityMap::save(const std::filesystem::path& path) const {
   for (const std::uint64_t word : bits_) {
     append(text, word);
   }
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) {
-    throw std::runtime_error(path.string() + ": cannot be written");
-  }
+  detail::write_whole_file(path, text);
 }
 
 CapabilityMap CapabilityMap::load(const std::filesystem::path& path) {

@@ -190,7 +190,8 @@ void ExplorationRun::look_around(Progress& progress, const OnView& on_view) {
   constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
   const auto turns = static_cast<std::size_t>(std::ceil(kFullTurnRad / (0.8 * sensor_.horizontal_angle_rad())));
   const Pose start = progress.pose;
-  for (std::size_t turn = 1; turn < turns && progress.record.views.size() < options_.max_views; ++turn) {
+  for (std::size_t turn = 1; turn < turns && progress.record.views.size() < options_.max_views && !stopped();
+       ++turn) {
     if (on_view) {
       on_view(progress.record.views.back(), known());
     }
@@ -246,7 +247,8 @@ void ExplorationRun::move(Progress& progress, const Pose& to) {
   progress.pose = to;
 }
 
-// To the goal, or to where a scan on the way has closed it, made it needless or spent the budget. The last scan is
+// To the goal, or to where a scan on the way has closed it, made it needless or spent the budget, or somebody stops
+// the run. The last scan is
 // left to be reported with the plan that comes of it.
 void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
   for (std::size_t next = 1; next < plan.path.size(); ++next) {
@@ -260,7 +262,7 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
       move(progress, between(from, to, done_m / length_m));
       scan(progress);
       const bool spent = progress.record.views.size() >= options_.max_views;
-      if (spent || check(plan, known(), *platform_, progress.pose) != PlanCheck::Good) {
+      if (spent || stopped() || check(plan, known(), *platform_, progress.pose) != PlanCheck::Good) {
         return;
       }
       if (on_view) {
@@ -311,9 +313,17 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
   }
   for (;;) {
     Plan next;
-    plan(progress, planner, next);
+    const bool planned = !stopped();
+    if (planned) {
+      plan(progress, planner, next);
+    }
     if (on_view) {
       on_view(record.views.back(), known());
+    }
+    if (!planned || (next.outcome == Outcome::Move && stopped())) {
+      record.outcome = RunOutcome::Interrupted;
+      record.reason = "interrupted after view " + std::to_string(record.views.size());
+      break;
     }
     if (next.outcome != Outcome::Move || next.path.empty()) {
       record.outcome = run_outcome_of(next.outcome);

@@ -4,24 +4,67 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vantage/sim/mesh_file.hpp>
+#include <vector>
 
 #include "map/option_rule.hpp"
+#include "sim/ply_check.hpp"
 
 namespace vantage {
 namespace {
+
+constexpr std::size_t kMostVertices = std::size_t{1} << 27;  // 1.6 GB; a small file can place a part many times
+constexpr unsigned kMostCorners = 1000;  // splitting a polygon takes the square of its corners and more
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
 }
 
-void add_mesh(const aiMesh& part, const aiMatrix4x4& file_from_part, TriangleMesh& mesh) {
+// What the importer made of a file, before anything follows its indices.
+void check_part(const std::filesystem::path& path, const aiMesh* part) {
+  if (part == nullptr || (part->mNumVertices > 0 && part->mVertices == nullptr) ||
+      (part->mNumFaces > 0 && part->mFaces == nullptr)) {
+    refuse(path, "is read in part only: a part of it is missing");
+  }
+  for (unsigned int i = 0; i < part->mNumVertices; ++i) {
+    const aiVector3D& vertex = part->mVertices[i];
+    if (!std::isfinite(vertex.x) || !std::isfinite(vertex.y) || !std::isfinite(vertex.z)) {
+      refuse(path, "vertex " + std::to_string(i) + " is not finite");
+    }
+  }
+  for (unsigned int i = 0; i < part->mNumFaces; ++i) {
+    const aiFace& face = part->mFaces[i];
+    if (face.mNumIndices > kMostCorners) {
+      refuse(path, "a face has " + std::to_string(face.mNumIndices) + " corners, must be at most " +
+                       std::to_string(kMostCorners));
+    }
+    for (unsigned int corner = 0; corner < face.mNumIndices; ++corner) {
+      if (face.mIndices[corner] >= part->mNumVertices) {
+        refuse(path, "a face has a corner at vertex " + std::to_string(face.mIndices[corner]) + " of " +
+                         std::to_string(part->mNumVertices));
+      }
+    }
+  }
+}
+
+void check_scene(const std::filesystem::path& path, const aiScene& scene) {
+  for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
+    check_part(path, scene.mMeshes[i]);
+  }
+}
+
+void add_part(const aiMesh& part, const aiMatrix4x4& file_from_part, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned int i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D vertex = file_from_part * part.mVertices[i];
@@ -35,16 +78,40 @@ void add_mesh(const aiMesh& part, const aiMatrix4x4& file_from_part, TriangleMes
   }
 }
 
-void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& file_from_parent, TriangleMesh& mesh) {
-  const aiMatrix4x4 file_from_node = file_from_parent * node.mTransformation;
-  for (unsigned int i = 0; i < node.mNumMeshes; ++i) {
-    add_mesh(*scene.mMeshes[node.mMeshes[i]], file_from_node, mesh);
+// Every node's parts where its transforms and those of the nodes above it place them, in the order of the file. Nodes
+// may be nested as deep as the file likes: they wait in a list, not on the stack.
+TriangleMesh placed_parts(const std::filesystem::path& path, const aiScene& scene) {
+  struct Waiting {
+    const aiNode* node;
+    aiMatrix4x4 file_from_parent;
+  };
+  TriangleMesh mesh;
+  std::vector<Waiting> waiting;
+  if (scene.mRootNode != nullptr) {
+    waiting.push_back({scene.mRootNode, aiMatrix4x4()});
   }
-  for (unsigned int i = 0; i < node.mNumChildren; ++i) {
-    add_node(scene, *node.mChildren[i], file_from_node, mesh);
+  while (!waiting.empty()) {
+    const Waiting at = waiting.back();
+    waiting.pop_back();
+    const aiMatrix4x4 file_from_node = at.file_from_parent * at.node->mTransformation;
+    for (unsigned int i = 0; i < at.node->mNumMeshes; ++i) {
+      if (at.node->mMeshes[i] >= scene.mNumMeshes) {
+        refuse(path, "is read in part only: a part of it is missing");
+      }
+      const aiMesh& part = *scene.mMeshes[at.node->mMeshes[i]];
+      if (mesh.vertices.size() + part.mNumVertices > kMostVertices) {
+        refuse(path, "has more than " + std::to_string(kMostVertices) + " vertices");
+      }
+      add_part(part, file_from_node, mesh);
+    }
+    for (unsigned int i = at.node->mNumChildren; i-- > 0;) {
+      waiting.push_back({at.node->mChildren[i], file_from_node});
+    }
   }
+  return mesh;
 }
 
+// Transforms of the file and the scale asked for may take a vertex out of the numbers.
 void check_vertices(const std::filesystem::path& path, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite()) {
@@ -53,11 +120,59 @@ void check_vertices(const std::filesystem::path& path, const TriangleMesh& mesh)
   }
 }
 
-bool is_read_with_y_up(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".dae" || extension == ".zae" || extension == ".gltf" || extension == ".glb";
+  return ending;
+}
+
+bool is_read_with_y_up(const std::filesystem::path& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".dae" || ending == ".zae" || ending == ".gltf" || ending == ".glb";
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  if (!in) {
+    refuse(path, "cannot be read");
+  }
+  return bytes;
+}
+
+// Assimp trusts the counts and indices of a PLY file: it gets none that was not checked.
+const aiScene* parsed(const std::filesystem::path& path, Assimp::Importer& importer) {
+  std::array<char, 3> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  if (ending_of(path) != ".ply" && !detail::begins_as_ply(std::string_view(start.data(), start.size()))) {
+    return importer.ReadFile(path.string(), 0);
+  }
+  const std::string bytes = bytes_of(path);
+  try {
+    detail::check_ply(bytes);
+  } catch (const std::runtime_error& error) {
+    refuse(path, std::string("cannot be read as a mesh: ") + error.what());
+  }
+  return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "ply");
+}
+
+// As triangles. What its faces point to is checked before it is split: Assimp does not.
+const aiScene* triangulated(const std::filesystem::path& path, Assimp::Importer& importer) {
+  const aiScene* scene = nullptr;
+  try {
+    scene = parsed(path, importer);
+    if (scene != nullptr) {
+      check_scene(path, *scene);
+      scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    }
+  } catch (const std::bad_alloc&) {
+    refuse(path, "cannot be read as a mesh: there is no memory for it");
+  }
+  if (scene == nullptr) {
+    refuse(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
+  }
+  return scene;
 }
 
 }  // namespace
@@ -75,24 +190,17 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
   Assimp::Importer importer;
   // What a COLLADA file says of its axis, Assimp obeys: the scene's y is up.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up.has_value());
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
-  if (scene == nullptr) {
-    refuse(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
-  }
-  TriangleMesh mesh;
-  if (scene->mRootNode != nullptr) {
-    add_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
-  }
+  const TriangleMesh mesh = placed_parts(path, *triangulated(path, importer));
   if (mesh.triangles.empty()) {
     refuse(path, "holds no triangles");
   }
-  check_vertices(path, mesh);
   Pose z_up = Pose::Identity();
   if (options.up ? *options.up == MeshFileOptions::Up::Y : is_read_with_y_up(path)) {
     z_up.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   }
   TriangleMesh placed;
   placed.append(mesh, z_up, options.scale);
+  check_vertices(path, placed);
   return placed;
 }
 

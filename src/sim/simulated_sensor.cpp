@@ -13,13 +13,14 @@ namespace vantage {
 namespace {
 
 void validate(const SensorNoise& noise) {
-  detail::require_option(std::isfinite(noise.axial) && noise.axial >= 0.0, "SensorNoise::axial", noise.axial, ">= 0");
+  detail::require_option(noise.axial >= 0.0 && noise.axial <= 1000.0, "SensorNoise::axial", noise.axial,
+                         "in [0, 1000]");
   detail::require_option(noise.dropped_share >= 0.0 && noise.dropped_share <= 1.0, "SensorNoise::dropped_share",
                          noise.dropped_share, "in [0, 1]");
-  detail::require_option(std::isfinite(noise.position_m) && noise.position_m >= 0.0, "SensorNoise::position_m",
-                         noise.position_m, ">= 0");
-  detail::require_option(std::isfinite(noise.angle_rad) && noise.angle_rad >= 0.0, "SensorNoise::angle_rad",
-                         noise.angle_rad, ">= 0");
+  detail::require_option(noise.position_m >= 0.0 && noise.position_m <= 10.0, "SensorNoise::position_m",
+                         noise.position_m, "in [0, 10]");
+  detail::require_option(noise.angle_rad >= 0.0 && noise.angle_rad <= std::numbers::pi, "SensorNoise::angle_rad",
+                         noise.angle_rad, "in [0, pi]");
 }
 
 // Own transforms of the engine's bits: the distributions of the standard library differ between its implementations.

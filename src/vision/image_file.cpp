@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -100,6 +104,79 @@ void check_depth_png(const std::filesystem::path& file, const Bytes& bytes) {
   }
 }
 
+struct PixelSize {
+  std::uint64_t width = 0;
+  std::uint64_t height = 0;
+};
+
+// The first frame header (SOF) tells the size; one that was cut off has no end (EOI) after where the pixels begin
+// (SOS).
+std::optional<PixelSize> jpeg_size(const Bytes& bytes) {
+  const auto short_at = [&](std::size_t at) { return std::uint64_t{bytes[at]} << 8U | bytes[at + 1]; };
+  constexpr std::size_t kFrameHeader = 9;  // bytes from the marker to the end of the width
+  std::optional<PixelSize> size;
+  for (std::size_t at = 2; at + kFrameHeader <= bytes.size() && bytes[at] == 0xFF;) {
+    const unsigned char marker = bytes[at + 1];
+    if (marker == 0xFF) {  // padding
+      ++at;
+      continue;
+    }
+    const bool is_frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame && !size) {
+      size = PixelSize{short_at(at + 7), short_at(at + 5)};
+    }
+    if (marker == 0xDA) {
+      constexpr std::array<unsigned char, 2> kEnd{0xFF, 0xD9};
+      const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+      return std::search(from, bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end() ? std::nullopt : size;
+    }
+    at += 2 + short_at(at + 2);
+  }
+  return std::nullopt;
+}
+
+// "P5 width height ..." and its kin, with comments between.
+std::optional<PixelSize> pnm_size(const Bytes& bytes) {
+  std::istringstream in(
+      std::string(bytes.begin() + 2, bytes.begin() + std::min<std::ptrdiff_t>(4096, std::ssize(bytes))));
+  const auto number = [&]() -> std::optional<std::uint64_t> {
+    while ((in >> std::ws) && in.peek() == '#') {
+      in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    std::uint64_t value = 0;
+    return std::isdigit(in.peek()) != 0 && in >> value ? std::optional(value) : std::nullopt;
+  };
+  const auto width = number();
+  const auto height = number();
+  return width && height ? std::optional(PixelSize{*width, *height}) : std::nullopt;
+}
+
+// As the header has it; none where it is no PNG, JPEG or PNM.
+std::optional<PixelSize> size_of(const Bytes& bytes) {
+  constexpr std::size_t kPngHeader = 24;  // bytes to the end of the height
+  if (is_png(bytes)) {
+    return bytes.size() < kPngHeader ? std::nullopt
+                                     : std::optional(PixelSize{number_at(bytes, 16), number_at(bytes, 20)});
+  }
+  if (bytes.size() > 2 && bytes[0] == 0xFF && bytes[1] == 0xD8) {
+    return jpeg_size(bytes);
+  }
+  return bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' ? pnm_size(bytes) : std::nullopt;
+}
+
+// Before anybody makes room for the pixels.
+void check_size(const std::filesystem::path& file, const Bytes& bytes) {
+  constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;  // 8192 x 8192
+  const std::optional<PixelSize> size = size_of(bytes);
+  if (!size) {
+    refuse(file, "is not an image that can be read: no whole PNG, JPEG or PNM");
+  }
+  if (size->width == 0 || size->height == 0 || size->width > kMostPixels / size->height) {
+    refuse(file, "is an image of " + std::to_string(size->width) + " x " + std::to_string(size->height) +
+                     " pixels, must be 1 to " + std::to_string(kMostPixels));
+  }
+}
+
 int flags_of(ImageKind kind) {
   switch (kind) {
     case ImageKind::Depth16:
@@ -125,6 +202,7 @@ cv::Mat read_image(const std::filesystem::path& file, ImageKind kind) {
     }
     check_depth_png(file, bytes);
   }
+  check_size(file, bytes);
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, flags_of(kind));

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vantage/vision/picture.hpp>
 
+#include "map/whole_file.hpp"
 #include "vision/image_file.hpp"
 
 namespace vantage {
@@ -73,13 +74,7 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
   if (!cv::imencode(".png", bgr, bytes)) {
     throw std::runtime_error(file.string() + ": the picture cannot be encoded as PNG");
   }
-  std::ofstream out(file, std::ios::binary);
-  // OpenCV's imwrite says only "no"; a stream of our own fails at a full disk as well as at a missing folder.
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
+  detail::write_whole_file(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 Picture side_by_side(std::span<const Picture> pictures, std::size_t height) {

@@ -38,6 +38,10 @@ Recording Recording::open(std::string_view format, const std::filesystem::path& 
       if (!std::filesystem::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": is not a folder");
       }
+      if (options.intrinsics && name != "tum" && name != "7scenes") {
+        throw std::invalid_argument("RecordingOptions::intrinsics: the files of a recording '" + std::string(name) +
+                                    "' tell them");
+      }
       return open(RecordingReader(folder, options));
     }
   }

@@ -49,14 +49,13 @@ std::vector<StampedPose> poses_in(const std::filesystem::path& list, RecordingRe
   std::vector<StampedPose> poses;
   for (const detail::TextLine& line : detail::lines_of(list)) {
     const auto numbers = detail::numbers_in(line.text);
-    if (!numbers || numbers->size() != 8) {
-      refuse(list, line, "a time stamp and tx ty tz qx qy qz qw");
-    }
+    const bool is_row = numbers && numbers->size() == 8 && std::isfinite(numbers->front());
     bool was_off = false;
-    const auto pose = detail::pose_of_quaternion(Eigen::Matrix<double, 7, 1>(numbers->data() + 1), was_off);
-    if (!pose || !std::isfinite(numbers->front())) {
+    const auto pose =
+        is_row ? detail::pose_of_quaternion(Eigen::Matrix<double, 7, 1>(numbers->data() + 1), was_off) : std::nullopt;
+    if (!pose) {
       reader.skip("line " + std::to_string(line.number) + " of " + list.filename().string(),
-                  "its numbers are not a pose");
+                  is_row ? "its numbers are not a pose" : "it is not a time stamp and tx ty tz qx qy qz qw");
       continue;
     }
     if (was_off) {

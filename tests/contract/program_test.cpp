@@ -112,7 +112,7 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--resolution 1e-7", "--resolution");
   expect_refused(table + "--resolution two", "--resolution: 'two' is not a number");
   expect_refused(table + "--size 8,8", "WorldOptions::length_m is 8, must be 0: table has a size of its own");
-  expect_refused(table + "--band 0.2,1.4,2.5", "HeightBandOptions::sensor_height_m is 2.5, must be within");
+  expect_refused(table + "--band 0.2,1.4,2.5", "--band '0.2,1.4,2.5' must hold LOW <= SENSOR <= HIGH");
   expect_refused(table + "--robot-radius -1", "--robot-radius");
   expect_refused(table + "--max-views 0", "--max-views");
   expect_refused(table + "--max-views -3", "--max-views: '-3' is not a whole number");

@@ -86,6 +86,20 @@ TEST_F(ReplayProgram, PlaysARecordingAndTellsWhatEveryPlannerWouldDo) {
   EXPECT_EQ(nlohmann::json::parse(test::bytes_in(out / "report.json")).at("replay").at("format"), "7scenes");
 }
 
+// What is wrong with a frame costs that frame.
+TEST_F(ReplayProgram, LeavesOutFramesWhosePoseCannotBe) {
+  test::write_text(data() / "frame-000001.pose.txt", "1 0 0 nan\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  test::write_text(data() / "frame-000002.pose.txt", "1 0 0 1e300\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  test::write_text(data() / "frame-000003.pose.txt", "1 0 0 1e6\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  ASSERT_EQ(run(on_data() + "--planner nearest-frontier --json -"), 0) << err_;
+  const auto report = nlohmann::json::parse(out_);
+  EXPECT_EQ(report.at("views"), 2);
+  ASSERT_EQ(report.at("replay").at("skipped").size(), 3U);
+  for (const char* name : {"frame-000001: ", "frame-000002: its pose is at ", "frame-000003: its pose is at "}) {
+    EXPECT_NE(err_.find(name), std::string::npos) << name << err_;
+  }
+}
+
 TEST_F(ReplayProgram, LeavesARecordThatTellsTheSame) {
   const fs::path out = folder_ / "out";
   ASSERT_EQ(
@@ -189,6 +203,9 @@ TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused(on_data() + "--planner magic", "there is no planner 'magic'");
   expect_refused(on_data() + "--planner ,", "there is no planner ''");
   expect_refused(on_data() + "--intrinsics 1,2,3", "--intrinsics has 3 numbers");
+  for (const char* format : {"apc", "kitti-stereo", "stanford"}) {
+    expect_refused("--dataset '" + data().string() + "' --intrinsics 1,2,3,4 --format " + format, "intrinsics");
+  }
   expect_refused(on_data() + "--every 0", "--every is 0");
   expect_refused(on_data() + "--object-box 0,0,0,1,1,1", "--object-box says what counts for --select");
   expect_refused(on_data() + "--select --object-box 0,0,0,1,1", "--object-box has 5 numbers");

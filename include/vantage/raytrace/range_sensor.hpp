@@ -19,18 +19,19 @@ struct RangeSensor {
     Spherical,  ///< columns span the horizontal, rows the vertical field of view in equal angles
   };
 
+  static constexpr std::size_t kMostRays = std::size_t{1} << 24;  ///< 4096 x 4096
+
   Projection projection = Projection::Pinhole;  ///< which of the fields below apply
   std::size_t width = 640;                      ///< columns, > 0
-  std::size_t height = 480;                     ///< rows, > 0
-  double fx = 525.0;                            ///< focal lengths and principal point in pixels; Pinhole only
-  /// Pinhole only.
-  double fy = 525.0;
-  double cx = 319.5;                ///< principal point, pixels; Pinhole only
-  double cy = 239.5;                ///< principal point, pixels; Pinhole only
-  double horizontal_fov_rad = 0.0;  ///< Spherical only, in (0, 2 pi]
-  double vertical_fov_rad = 0.0;    ///< Spherical only, in (0, pi], centred on the horizon
-  double min_range_m = 0.0;         ///< nearer surfaces give no return, >= 0
-  double max_range_m = 4.0;         ///< further surfaces give no return, > min_range_m
+  std::size_t height = 480;                     ///< rows, > 0; width x height is at most kMostRays
+  double fx = 525.0;                            ///< focal length along the rows, pixels, in [1e-3, 1e7]; Pinhole only
+  double fy = 525.0;                            ///< along the columns, likewise
+  double cx = 319.5;                            ///< principal point, pixels, in [-1e6, 1e6]; Pinhole only
+  double cy = 239.5;                            ///< likewise
+  double horizontal_fov_rad = 0.0;              ///< Spherical only, in [1e-4, 2 pi]
+  double vertical_fov_rad = 0.0;                ///< Spherical only, in [1e-4, pi], centred on the horizon
+  double min_range_m = 0.0;                     ///< nearer surfaces give no return, >= 0
+  double max_range_m = 4.0;                     ///< further surfaces give no return, in (min_range_m, 10000]
   /// Whether a ray that meets nothing within range is *known* to be clear (time of flight, lidar). Stereo and
   /// structured light cannot tell "nothing there" from "could not see": leave it false for them.
   bool reports_no_return = false;

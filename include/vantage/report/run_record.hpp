@@ -13,7 +13,7 @@
 namespace VANTAGE_EXPORT vantage {
 
 /// How a whole run ended.
-enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget };
+enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget, Interrupted };
 
 /// What the outcome of a planner that is done makes of the run; Budget for Move.
 [[nodiscard]] constexpr RunOutcome run_outcome_of(Outcome outcome) {
@@ -38,6 +38,8 @@ enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget };
       return "unreachable";
     case RunOutcome::Blocked:
       return "blocked";
+    case RunOutcome::Interrupted:
+      return "interrupted";
     case RunOutcome::Budget:
       break;
   }

@@ -58,6 +58,8 @@ struct ExplorationRunOptions {
   /// as surface coverage. None: that is not measured.
   std::vector<Eigen::Vector3d> surface_samples = {};
   double surface_gap_m = 0.005;  ///< > 0 (V-G, in the reference data)
+  /// Asked after every scan, and after every plan before it is followed; true ends the run there, as interrupted.
+  std::function<bool()> stop = {};
 };
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
@@ -80,8 +82,9 @@ class ExplorationRun {
   /// What the planner plans in: the plane of the band, or without one the map.
   [[nodiscard]] const OccupancyMap& known() const { return band_ ? band_->plane() : map_; }
 
-  /// Runs until the planner says that it is done, or the budget ends it. The space of the body at `start` is declared
-  /// free first. Throws std::invalid_argument if the platform is not admitted at `start` in the true world.
+  /// Runs until the planner says that it is done, or the budget or ExplorationRunOptions::stop ends it. The space of
+  /// the body at `start` is declared free first. Throws std::invalid_argument if the platform is not admitted at
+  /// `start` in the true world.
   RunRecord run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view = {});
 
  private:
@@ -93,6 +96,7 @@ class ExplorationRun {
   void look_around(Progress& progress, const OnView& on_view);
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);
+  [[nodiscard]] bool stopped() const { return options_.stop && options_.stop(); }
   [[nodiscard]] bool collides(const Pose& from, const Pose& to, double radius_m) const;
   void move(Progress& progress, const Pose& to);
 

@@ -20,9 +20,10 @@ struct MeshFileOptions {
 };
 
 /// The triangles of a mesh file in any format that Assimp reads (PLY, OBJ, STL, glTF, COLLADA ...), with the
-/// transforms of its nodes applied. Points, lines and degenerate polygons are left out. Throws std::runtime_error,
-/// naming the path, if the file is missing or cannot be read, holds no triangle, or has a vertex that is not finite;
-/// and std::invalid_argument for a scale that is not positive.
+/// transforms of its nodes applied. Points, lines and degenerate polygons are left out; materials and textures do not
+/// matter. Throws std::runtime_error, naming the path, if the file is missing or damaged, holds no triangle or only a
+/// part of what it names, has a vertex that is not finite, a face whose corner does not exist or with more than 1000
+/// corners, or more than 2^27 vertices; and std::invalid_argument for a scale that is not positive.
 [[nodiscard]] TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
 
 }  // namespace vantage

@@ -36,7 +36,8 @@ struct SkippedFrame {
 struct RecordingOptions {
   std::optional<double> max_range_m = std::nullopt;  ///< see DepthCamera::max_range_m
   std::optional<double> min_range_m = std::nullopt;  ///< see DepthCamera::min_range_m
-  /// fx, fy, cx, cy of the depth images, pixels: for formats whose files do not tell (tum).
+  /// fx, fy, cx, cy of the depth images, pixels: of the formats whose files need not tell, tum and 7scenes; refused
+  /// for the others.
   std::optional<std::array<double, 4>> intrinsics = std::nullopt;
   double max_stamp_gap_s = 0.02;  ///< time stamps further apart than this have nothing to do with each other, > 0
   double cell_m =

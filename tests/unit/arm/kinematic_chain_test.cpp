@@ -259,11 +259,82 @@ TEST(KinematicChain, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(read(robot("<joint name='j' type='floating'><parent link='a'/><child link='b'/></joint>")),
             "x.urdf: joint 'j' neither turns nor slides");
   EXPECT_EQ(read(robot(good, "<collision><geometry><mesh filename='b.stl'/></geometry></collision>")),
-            "x.urdf: link 'b' has a mesh for a collision shape; it must be cylinders, spheres or boxes");
+            "x.urdf: a shape of link 'b' is a mesh; it must be a cylinder, a sphere or a box");
   EXPECT_EQ(complaint([] { (void)KinematicChain::from_dh({}); }), "KinematicChain::from_dh needs at least one row");
   const std::vector<DhRow> rows{{.a_m = 0.5, .range = {-1.0, 1.0}}};
   EXPECT_EQ(complaint([&] { (void)KinematicChain::from_dh(rows, Pose::Identity(), {{.link = 3, .radius_m = 0.1}}); }),
             "Capsule::link is 3, must be < 3");
+}
+
+// Links in a row, the next one fixed to the one before, after a joint that moves.
+std::string long_urdf(std::size_t links) {
+  std::string text =
+      "<robot name='r'><link name='a'/><link name='l0'/><joint name='j' type='continuous'><parent link='a'/>"
+      "<child link='l0'/><axis xyz='0 0 1'/></joint>";
+  for (std::size_t i = 1; i < links; ++i) {
+    const std::string name = std::to_string(i);
+    text.append("<link name='l").append(name).append("'/><joint name='f").append(name).append("' type='fixed'>");
+    text.append("<parent link='l").append(std::to_string(i - 1)).append("'/><child link='l").append(name);
+    text.append("'/></joint>");
+  }
+  return text + "</robot>";
+}
+
+TEST(KinematicChain, RefusesJointsThatAreNoTree) {
+  const auto read = [](const std::string& text, const char* base = "a", const char* sensor = "b") {
+    return complaint([&] { (void)KinematicChain::from_urdf_text(text, base, sensor, "x.urdf"); });
+  };
+  const auto joint = [](const char* name, const char* type, const char* parent, const char* child) {
+    return std::string("<joint name='") + name + "' type='" + type + "'><parent link='" + parent +
+           "'/><child link='" + child + "'/><axis xyz='0 0 1'/></joint>";
+  };
+  const std::string links = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>";
+  for (const char* type : {"continuous", "fixed"}) {
+    EXPECT_NE(read(links + joint("j", type, "b", "c") + joint("k", type, "c", "b") + "</robot>")
+                  .find("x.urdf: its joints lead in a circle from link '"),
+              std::string::npos)
+        << type;
+    EXPECT_NE(read(links + joint("h", type, "a", "b") + joint("j", type, "b", "c") + joint("k", type, "c", "b") +
+                   "</robot>")
+                  .find("x.urdf: link 'b' is the child of two joints, "),
+              std::string::npos)
+        << type;
+  }
+  EXPECT_EQ(read(long_urdf(900), "a", "l899"), "");
+  EXPECT_EQ(read(long_urdf(900), "a", "l0"), "") << "all of them hang on the sensor's own link";
+  EXPECT_EQ(read(long_urdf(20'000), "a", "l0"), "x.urdf: has 20001 links, must be at most 1000");
+  std::string deep = "<robot name='r'>";
+  for (int i = 0; i < 100'000; ++i) {
+    deep += "<x>";
+  }
+  EXPECT_EQ(read(deep), "x.urdf: has elements nested more than 100 deep");
+}
+
+TEST(KinematicChain, RefusesNumbersOfAFileThatMakeNoArm) {
+  const auto read = [](const std::string& axis, const std::string& rest, const std::string& shape) {
+    return complaint([&] {
+      (void)KinematicChain::from_urdf_text(
+          "<robot name='r'><link name='a'/><link name='b'>" + shape +
+              "</link><joint name='j' type='revolute'><parent link='a'/><child link='b'/>" + rest + "<axis xyz='" +
+              axis + "'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>",
+          "a", "b", "x.urdf");
+    });
+  };
+  const auto shape = [](const std::string& geometry) {
+    return "<collision><geometry>" + geometry + "</geometry></collision>";
+  };
+  EXPECT_EQ(read("0 0 1", "", ""), "");
+  EXPECT_NE(read("0 0 0", "", "").find("x.urdf: the length of the axis of joint 'j' is 0"), std::string::npos);
+  EXPECT_NE(read("0 0 1", "<origin xyz='1e9 0 0'/>", "").find("x.urdf: the origin of joint 'j' is 1e+09"),
+            std::string::npos);
+  EXPECT_NE(read("0 0 1", "", shape("<sphere radius='-1'/>")).find("x.urdf: the radius of a shape of link 'b' is -1"),
+            std::string::npos);
+  EXPECT_NE(read("0 0 1", "", shape("<sphere radius='large'/>")).find("x.urdf: is no URDF: "), std::string::npos);
+  EXPECT_NE(read("0 0 1", "", shape("<cone radius='1'/>")).find("x.urdf: is no URDF: "), std::string::npos);
+  EXPECT_NE(read("0 0 1", "", shape("<box size='1 2'/>")).find("x.urdf: is no URDF: "), std::string::npos);
+  EXPECT_NE(read("0 0 1", "", shape("<cylinder radius='1' length='0'/>"))
+                .find("x.urdf: the length of a shape of link 'b' is 0"),
+            std::string::npos);
 }
 
 TEST(KinematicChain, ShapesBecomeCapsulesAroundThem) {

@@ -62,20 +62,25 @@ TEST(RangeSensor, NamesTheFieldAtFault) {
   };
   EXPECT_EQ(with([](RangeSensor& s) { s.width = 0; }), "RangeSensor::width is 0, must be > 0");
   EXPECT_EQ(with([](RangeSensor& s) { s.height = 0; }), "RangeSensor::height is 0, must be > 0");
-  EXPECT_EQ(with([](RangeSensor& s) { s.fx = 0; }), "RangeSensor::fx is 0, must be > 0");
-  EXPECT_EQ(with([](RangeSensor& s) { s.fy = -1; }), "RangeSensor::fy is -1, must be > 0");
-  EXPECT_EQ(with([](RangeSensor& s) { s.cx = kNan; }), "RangeSensor::cx is nan, must be finite");
-  EXPECT_EQ(with([](RangeSensor& s) { s.cy = kNan; }), "RangeSensor::cy is nan, must be finite");
+  EXPECT_EQ(with([](RangeSensor& s) { s.width = s.height = 4096; }), "");
+  EXPECT_EQ(with([](RangeSensor& s) { s.width = s.height = 100'000; }),
+            "RangeSensor::width is 100000, must be at most 16777216 / height: no more rays than that");
+  EXPECT_EQ(with([](RangeSensor& s) { s.height = std::size_t{1} << 63U; }),
+            "RangeSensor::width is 640, must be at most 16777216 / height: no more rays than that");
+  EXPECT_EQ(with([](RangeSensor& s) { s.fx = 0; }), "RangeSensor::fx is 0, must be in [1e-3, 1e7]");
+  EXPECT_EQ(with([](RangeSensor& s) { s.fy = -1; }), "RangeSensor::fy is -1, must be in [1e-3, 1e7]");
+  EXPECT_EQ(with([](RangeSensor& s) { s.cx = kNan; }), "RangeSensor::cx is nan, must be in [-1e6, 1e6]");
+  EXPECT_EQ(with([](RangeSensor& s) { s.cy = kNan; }), "RangeSensor::cy is nan, must be in [-1e6, 1e6]");
   EXPECT_EQ(with([](RangeSensor& s) { s.min_range_m = -0.5; }), "RangeSensor::min_range_m is -0.5, must be >= 0");
   EXPECT_EQ(with([](RangeSensor& s) { s.max_range_m = -1; }),
-            "RangeSensor::max_range_m is -1, must be finite and > min_range_m");
+            "RangeSensor::max_range_m is -1, must be > min_range_m and at most 10000");
   EXPECT_EQ(with([](RangeSensor& s) { s.max_range_m = std::numeric_limits<double>::infinity(); }),
-            "RangeSensor::max_range_m is inf, must be finite and > min_range_m");
+            "RangeSensor::max_range_m is inf, must be > min_range_m and at most 10000");
   good = RangeSensor::preset("lidar");
   EXPECT_EQ(with([](RangeSensor& s) { s.horizontal_fov_rad = 7; }),
-            "RangeSensor::horizontal_fov_rad is 7, must be in (0, 2 pi]");
+            "RangeSensor::horizontal_fov_rad is 7, must be in [1e-4, 2 pi]");
   EXPECT_EQ(with([](RangeSensor& s) { s.vertical_fov_rad = 0; }),
-            "RangeSensor::vertical_fov_rad is 0, must be in (0, pi]");
+            "RangeSensor::vertical_fov_rad is 0, must be in [1e-4, pi]");
   EXPECT_EQ(with([](RangeSensor& s) { s.fx = 0; }), "") << "a spherical sensor has no focal length";
   EXPECT_THROW((void)RangeSensor::pinhole(64, 48, std::numbers::pi, 1.0, 0.0, 4.0), std::invalid_argument);
 }

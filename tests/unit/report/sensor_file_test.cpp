@@ -98,6 +98,9 @@ TEST_F(SensorFile, SaysWhatIsWrongAndWhere) {
       {R"({"width": 64, "height": 48, "fx": 1, "fy": 1, "max_range_m": 4, "reports_no_return": 1})",
        "'reports_no_return' is 1"},
       {R"({"width": 64, "height": 48, "fx": 1, "fy": 1, "max_range_m": 1e999})", "1e999"},
+      {R"({"width": 100000, "height": 100000, "fx": 1, "fy": 1, "max_range_m": 4})", "at most 16777216 / height"},
+      {R"({"width": 64, "height": 48, "fx": 1, "fy": 1, "cx": 1e300, "max_range_m": 4})", "cx is 1e+300"},
+      {R"({"width": 64, "height": 48, "fx": 1, "fy": 1, "max_range_m": 1e30})", "max_range_m is 1e+30"},
   };
   std::size_t ran = 0;
   for (const Case& wrong : cases) {
@@ -107,7 +110,7 @@ TEST_F(SensorFile, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     ++ran;
   }
-  EXPECT_EQ(ran, 20U);
+  EXPECT_EQ(ran, 23U);
 }
 
 TEST_F(SensorFile, NamesAMissingFile) {
