@@ -14,6 +14,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/planner/object_planner.hpp>
 
 namespace vantage {
 namespace {
@@ -95,6 +96,11 @@ class SettingReader {
       field = Box{{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
     }
     return *this;
+  }
+  // Whether one of these was given.
+  [[nodiscard]] bool any_of(std::initializer_list<std::string_view> names) const {
+    return std::any_of(names.begin(), names.end(),
+                       [&](std::string_view name) { return settings_.find(name) != settings_.end(); });
   }
   // Throws if a setting was given that none of the calls above knows.
   void done() const {
@@ -237,6 +243,10 @@ std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setu
   for (const std::string_view name : ray_gain_names()) {
     gains.emplace_back(name, ray_gain_named(name));
   }
+  ObjectPlannerOptions of_surface;
+  // The paper's own settings ask for its way to choose.
+  bool by_cells = read.any_of({"gain", "choice", "min_unknown_cells", "min_overlap_cells", "failed_within_deg",
+                               "vision_angle_deg", "min_depth_m", "max_depth_m"});
   read_survey(read, options.survey)
       .box("object", options.object)
       .numbers("radii_m", options.radii_m)
@@ -259,8 +269,19 @@ std::unique_ptr<ExplorationPlanner> make_next_best_view(const PlannerSetup& setu
                {"hierarchical", VisibilityMethod::Hierarchical}})
       .number("hierarchical_levels", options.hierarchical_levels)
       .number("hypotheses", options.hypotheses)
+      .number("min_new_share", of_surface.min_new_share)
+      .number("near_share", of_surface.near_share)
       .done();
-  return std::make_unique<NextBestViewPlanner>(setup, options);
+  by_cells = by_cells || options.method != VisibilityMethod::Exact;
+  if (!options.object || by_cells) {
+    return std::make_unique<NextBestViewPlanner>(setup, options);
+  }
+  of_surface.object = *options.object;
+  of_surface.radii_m = options.radii_m;
+  of_surface.subdivisions = options.subdivisions;
+  of_surface.random_candidates = options.random_candidates;
+  of_surface.aimed = options.aimed;
+  return std::make_unique<ObjectPlanner>(setup, of_surface);
 }
 
 using Maker = std::unique_ptr<ExplorationPlanner> (*)(const PlannerSetup&, SettingReader&);

@@ -12,6 +12,7 @@
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_record.hpp>
 #include <vantage/robot/platform.hpp>
+#include <vantage/sim/seen_surface.hpp>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/triangle_scene.hpp>
 #include <vantage/sim/truth.hpp>
@@ -41,7 +42,8 @@ struct ExplorationRunOptions {
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;
   int threads = 1;  ///< for the observable cells, > 0
-  /// Whether coverage is measured, which takes finding all observable cells of the world first.
+  /// Whether coverage is measured, which takes finding all observable cells first: those of `unknown_box`, if there is
+  /// one.
   bool measure_coverage = true;
   /// Told of that search as Truth::observable tells of it; none: nobody is.
   std::function<void(double share)> on_observable_share = {};
@@ -54,6 +56,9 @@ struct ExplorationRunOptions {
   /// as surface coverage. None: that is not measured.
   std::vector<Eigen::Vector3d> surface_samples = {};
   double surface_gap_m = 0.005;  ///< > 0 (V-G, in the reference data)
+  /// The surface of an object of which is reported what the images have shown (SeenSurface). None: that is not
+  /// measured.
+  std::vector<SurfaceSample> object_surface = {};
 };
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
@@ -89,6 +94,7 @@ class ExplorationRun {
   void look_around(Progress& progress, const OnView& on_view);
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);
+  void measure_observable(Progress& progress, const Pose& start) const;
   [[nodiscard]] bool still_admitted(const Pose& pose, const std::vector<Pose>& path, std::size_t next) const;
   [[nodiscard]] bool still_sought(const std::vector<VoxelIndex>& cells) const;
   [[nodiscard]] bool collides(const Pose& from, const Pose& to, double radius_m) const;

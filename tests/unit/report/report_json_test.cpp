@@ -60,6 +60,8 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
                                                        "reason",
                                                        "views",
                                                        "path_length_m",
+                                                       "seen_coverage",
+                                                       "seen_observable",
                                                        "coverage",
                                                        "observable_cells",
                                                        "surface_coverage",
@@ -75,8 +77,8 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
   EXPECT_EQ(keys_of(report["time_ms"]["plan"]), (std::vector<std::string>{"median", "max"}));
   ASSERT_EQ(report["cycles"].size(), 3U);
   EXPECT_EQ(keys_of(report["cycles"][0]),
-            (std::vector<std::string>{"view", "pose", "coverage", "path_length_m", "insert_ms", "plan_ms", "utility",
-                                      "frontier_cells", "void_cells", "outcome"}));
+            (std::vector<std::string>{"view", "pose", "coverage", "seen_coverage", "path_length_m", "insert_ms", "plan_ms",
+                                      "utility", "frontier_cells", "void_cells", "outcome"}));
 }
 
 TEST(ReportJson, SaysWhatTheRecordSays) {
@@ -90,6 +92,8 @@ TEST(ReportJson, SaysWhatTheRecordSays) {
   EXPECT_EQ(report["coverage"], 0.998);
   EXPECT_EQ(report["observable_cells"], 123456);
   EXPECT_TRUE(report["surface_coverage"].is_null());
+  EXPECT_TRUE(report["seen_coverage"].is_null());
+  EXPECT_TRUE(report["cycles"][0]["seen_coverage"].is_null());
   EXPECT_EQ(report["leftover"]["too_small"], 3);
   EXPECT_EQ(report["time_ms"]["insert"]["median"], 4.0);
   EXPECT_EQ(report["time_ms"]["insert"]["max"], 9.0);
