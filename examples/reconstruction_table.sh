@@ -31,6 +31,7 @@ row() {
         echo "$object, $setting, $title" >&2
         # shellcheck disable=SC2086 # the options of an object are words
         "$vantage" reconstruct --table ${place[$object]} --object-box -0.4,-0.4,0.43,0.4,0.4,0.95 \
+          --radius 1.5 --start -1.5,0,0.69 \
           --reference "$VANTAGE_DATA/nbv_reference/vpl/${object}_ref_smalltable_nobase.dat" --resolution "${setting%/*}" \
           --set min_unknown_cells="${setting#*/}" "$@" --out "$folder" > "$folder.txt" || [[ $? -eq 3 ]]
       fi

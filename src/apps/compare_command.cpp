@@ -62,11 +62,9 @@ ComparedRun compared(const std::string& file, const std::string& text) {
     run.views = report.at("views").get<double>();
     run.path_m = report.at("path_length_m").get<double>();
     run.share = share_in(report);
-    for (const nlohmann::json& cycle : report.at("cycles")) {
-      run.curve.push_back(share_in(cycle));
-    }
     run.plan_ms = number_or_nan(report.at("time_ms").at("plan").at("median"));
     for (const nlohmann::json& cycle : report.at("cycles")) {
+      run.curve.push_back(share_in(cycle));
       run.seconds += (cycle.at("insert_ms").get<double>() + cycle.at("plan_ms").get<double>()) / 1000.0;
     }
     return run;
@@ -147,9 +145,8 @@ Picture overlaid_coverage(const std::vector<ComparedRun>& runs) {
   LinePlot metres = views;
   metres.title = "coverage over metres";
   metres.x_label = "path travelled [m]";
-  const bool objects = std::all_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
-    return run.report.at("command") == "reconstruct";
-  });
+  const bool objects = std::all_of(runs.begin(), runs.end(),
+                                   [](const ComparedRun& run) { return run.report.at("command") == "reconstruct"; });
   views.y_label = objects ? "surface seen [%]" : "observable cells known rightly [%]";
   metres.y_label = views.y_label;
   for (const ComparedRun& run : runs) {

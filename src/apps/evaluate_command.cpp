@@ -68,7 +68,8 @@ TriangleMesh object_of(const std::string& text) {
   const std::size_t at = text.find('@');
   const std::string how = at == std::string::npos ? "1" : text.substr(at + 1);
   const bool y_up = how.size() > 2 && how.ends_with(",y");
-  const TriangleMesh mesh = read_mesh_file(text.substr(0, at), {.up = y_up ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z});
+  const TriangleMesh mesh =
+      read_mesh_file(text.substr(0, at), {.up = y_up ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z});
   TriangleMesh scaled;
   scaled.append(mesh, Pose::Identity(), std::stod(how));
   return scaled;
@@ -87,8 +88,7 @@ RangeSensor sensor_named(const std::string& name, const ExploreRequest& shared) 
 json result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spread) {
   const TriangleMesh object = object_of(trial.object);
   const RangeSensor sensor = sensor_named(trial.sensor, shared);
-  const ObjectScene scene =
-      object_scene(object, sensor, {.name = trial.object, .resolution_m = trial.resolution_m});
+  const ObjectScene scene = object_scene(object, sensor, {.name = trial.object, .resolution_m = trial.resolution_m});
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = shared.robot_radius_m});
   ExplorationRunOptions options;
   options.map.resolution_m = trial.resolution_m;
@@ -209,7 +209,8 @@ void evaluate_objects(EvaluateRequest& request) {
       request.objects.emplace_back(name);
     }
   }
-  std::map<std::string, json> done = request.results.empty() ? std::map<std::string, json>() : results_in(request.results);
+  std::map<std::string, json> done =
+      request.results.empty() ? std::map<std::string, json>() : results_in(request.results);
   std::ofstream out;
   if (!request.results.empty()) {
     out.open(request.results, std::ios::app);
@@ -242,8 +243,9 @@ void evaluate_objects(EvaluateRequest& request) {
     }
   }
   std::fprintf(stderr, "\r\x1b[K");
-  std::printf("| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
-              "the end | views | path after 5, m | path | s |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
+      "the end | views | path after 5, m | path | s |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& object : request.objects) {
     for (const std::string& planner : request.planners) {
       std::vector<const json*> results;
@@ -263,8 +265,10 @@ void add_evaluate_command(CLI::App& app) {
   request->run.robot_radius_m = 0.05;
   request->run.max_views = 20;
   CLI::App* objects = command->add_subcommand("objects", "How soon how much of objects is seen, over which way");
-  objects->add_option("--objects", request->objects, "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; all "
-                                                     "generated ones unless given")
+  objects
+      ->add_option("--objects", request->objects,
+                   "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; all "
+                   "generated ones unless given")
       ->delimiter(';');
   objects->add_option("--planners", request->planners, "Names")->delimiter(',')->capture_default_str();
   objects->add_option("--sensors", request->sensors, "Names; with a + they report rays that meet nothing")

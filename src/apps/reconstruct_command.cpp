@@ -112,7 +112,8 @@ PlannerSettings settings_for(const ReconstructRequest& request, const ObjectScen
   PlannerSettings settings = planner_settings(scene);
   settings.insert_or_assign("method", request.method);
   settings.insert_or_assign("subdivisions", faces == request.candidates ? std::to_string(subdivisions) : "-1");
-  settings.insert_or_assign("random_candidates", faces == request.candidates ? "0" : std::to_string(request.candidates));
+  settings.insert_or_assign("random_candidates",
+                            faces == request.candidates ? "0" : std::to_string(request.candidates));
   settings.insert_or_assign("aimed_candidates", std::to_string(request.aimed));
   if (request.method != "default") {  // the paper's utility
     settings.insert_or_assign("min_unknown_cells", "12");
@@ -141,10 +142,8 @@ int reconstruct(const ReconstructRequest& request) {
   if (shared.scale == 1.0) {
     std::cerr << doubt_about_object_unit(request.object, object.bounds());
   }
-  ObjectSceneOptions placing{.name = request.object,
-                             .table = request.table,
-                             .radii_m = radii_m,
-                             .resolution_m = shared.resolution_m};
+  ObjectSceneOptions placing{
+      .name = request.object, .table = request.table, .radii_m = radii_m, .resolution_m = shared.resolution_m};
   if (!request.object_box.empty()) {
     placing.object_box = box_of("--object-box", request.object_box);
   }
@@ -187,9 +186,9 @@ int reconstruct(const ReconstructRequest& request) {
     start = start ? start : peer->first_view();
     planner = std::move(peer);
   } else {
-    planner = make_planner(
-        shared.planner, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
-        settings_for(request, scene));
+    planner = make_planner(shared.planner,
+                           {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
+                           settings_for(request, scene));
   }
   start = start ? start : draw_first_view(scene, run.truth(), *platform, shared.seed);
 
@@ -243,17 +242,20 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
   option("--planner", run.planner, "NAME",
          "next-best-view; or to compare with: evenly-spaced (--max-views of them), furthest-view, random-views, and "
          "oracle-greedy, which knows the truth");
-  option("--method", request.method, "default|hierarchical|uniform", "By the surface that a view would be the first to show; or the paper's counts of unknown cells");
+  option("--method", request.method, "default|hierarchical|uniform",
+         "By the surface that a view would be the first to show; or the paper's counts of unknown cells");
   option("--candidates", request.candidates, "N",
          "How many views are tried: 20, 80, 320, 1280 evenly all around; other numbers at random in the room")
       ->check(a_whole_number());
-  option("--radius", request.radii, "M[,M...]",
-         "Their distance from the middle of the box, metres; of several, as many views at each. From where the box fits "
-         "into the image unless given");
+  option(
+      "--radius", request.radii, "M[,M...]",
+      "Their distance from the middle of the box, metres; of several, as many views at each. From where the box fits "
+      "into the image unless given");
   option("--aimed", request.aimed, "N", "So many more, drawn after every scan, aimed at what is left to be seen")
       ->check(a_whole_number());
   option("--start", run.start, "x,y,z[,yaw[,pitch]]",
-         "First pose of the sensor, metres and degrees; unless given drawn from the seed, where much of the box is in view");
+         "First pose of the sensor, metres and degrees; unless given drawn from the seed, where much of the box is "
+         "in view");
   add_sensor_options(command, run, "Views");
 }
 

@@ -46,7 +46,8 @@ void add_tube(TriangleMesh& mesh, const std::function<Vector3d(double)>& curve,
   const auto ring = [&](double u, double v) -> Vector3d {
     constexpr double kStep = 1e-4;
     const Vector3d ahead = (curve(u + kStep) - curve(u - kStep)).normalized();
-    const Vector3d aside = ahead.cross(std::abs(ahead.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).normalized();
+    const Vector3d aside =
+        ahead.cross(std::abs(ahead.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX()).normalized();
     const Vector3d across = ahead.cross(aside);
     return curve(u) + radius_m(u) * (std::cos(kTurn * v) * aside - std::sin(kTurn * v) * across);
   };
@@ -54,7 +55,8 @@ void add_tube(TriangleMesh& mesh, const std::function<Vector3d(double)>& curve,
   add_patch(mesh, ring, pieces, kAround);
   if ((curve(0.0) - curve(1.0)).norm() > 1e-6) {
     add_patch(
-        mesh, [&](double u, double v) -> Vector3d { return curve(0.0) + u * (ring(0.0, v) - curve(0.0)); }, 1, kAround);
+        mesh, [&](double u, double v) -> Vector3d { return curve(0.0) + u * (ring(0.0, v) - curve(0.0)); }, 1,
+        kAround);
     add_patch(
         mesh, [&](double u, double v) -> Vector3d { return curve(1.0) + (1.0 - u) * (ring(1.0, v) - curve(1.0)); }, 1,
         kAround);
@@ -111,7 +113,8 @@ TriangleMesh chair(Dice& dice) {
   }
   const auto slats = 3 + dice.below(4);
   for (std::size_t i = 0; i < slats; ++i) {
-    const double x = (half - 2 * rod) * (2.0 * (static_cast<double>(i) + 1.0) / (static_cast<double>(slats) + 1.0) - 1.0);
+    const double x =
+        (half - 2 * rod) * (2.0 * (static_cast<double>(i) + 1.0) / (static_cast<double>(slats) + 1.0) - 1.0);
     add_rod(mesh, {x, half - rod, seat + 0.021}, {1.02 * x, half + 0.05, top}, 0.6 * rod);
   }
   add_slab(mesh, {-1.05 * half, half + 0.03, top}, {1.05 * half, half + 0.06, top + 0.05});
@@ -147,7 +150,11 @@ TriangleMesh lamp(Dice& dice) {
   add_turned(mesh, {{0.0, 0.0}, {foot, 0.0}, {foot, 0.02}, {0.3 * foot, 0.03}, {0.0, 0.03}});
   add_rod(mesh, {0, 0, 0.031}, {0, 0, height}, 0.008);
   const double low = height - 0.1;
-  add_turned(mesh, {{shade, low}, {0.6 * shade, low + 0.18}, {0.6 * shade - 0.004, low + 0.18}, {shade - 0.004, low}, {shade, low}});
+  add_turned(mesh, {{shade, low},
+                    {0.6 * shade, low + 0.18},
+                    {0.6 * shade - 0.004, low + 0.18},
+                    {shade - 0.004, low},
+                    {shade, low}});
   return mesh;
 }
 
@@ -156,7 +163,9 @@ TriangleMesh mug(Dice& dice) {
   const double radius = 0.038 + 0.02 * dice.share();
   const double height = 0.08 + 0.05 * dice.share();
   const double wall = 0.004;
-  add_turned(mesh, {{0.0, 0.0}, {radius, 0.0}, {radius, height}, {radius - wall, height}, {radius - wall, wall}, {0.0, wall}});
+  add_turned(
+      mesh,
+      {{0.0, 0.0}, {radius, 0.0}, {radius, height}, {radius - wall, height}, {radius - wall, wall}, {0.0, wall}});
   add_tube(
       mesh,
       [=](double u) -> Vector3d {
@@ -173,9 +182,16 @@ TriangleMesh vase(Dice& dice) {
   const double belly = 0.07 + 0.04 * dice.share();
   const double neck = 0.03 + 0.02 * dice.share();
   const double wall = 0.006;
-  add_turned(mesh, {{0.0, 0.0}, {0.6 * belly, 0.0}, {belly, 0.35 * height}, {neck, 0.8 * height}, {1.4 * neck, height},
-                    {1.4 * neck - wall, height}, {neck - wall, 0.8 * height}, {belly - wall, 0.35 * height},
-                    {0.6 * belly - wall, wall}, {0.0, wall}});
+  add_turned(mesh, {{0.0, 0.0},
+                    {0.6 * belly, 0.0},
+                    {belly, 0.35 * height},
+                    {neck, 0.8 * height},
+                    {1.4 * neck, height},
+                    {1.4 * neck - wall, height},
+                    {neck - wall, 0.8 * height},
+                    {belly - wall, 0.35 * height},
+                    {0.6 * belly - wall, wall},
+                    {0.0, wall}});
   return mesh;
 }
 
@@ -235,7 +251,8 @@ TriangleMesh banana(Dice& dice) {
         const double a = arc * (u - 0.5);
         return {bend * std::sin(a), bend * (1.0 - std::cos(a)), thick};
       },
-      [=](double u) { return thick * (0.15 + 0.85 * std::sqrt(std::max(0.0, 1.0 - std::pow(2.0 * u - 1.0, 4)))); }, 32);
+      [=](double u) { return thick * (0.15 + 0.85 * std::sqrt(std::max(0.0, 1.0 - std::pow(2.0 * u - 1.0, 4)))); },
+      32);
   return mesh;
 }
 

@@ -80,8 +80,8 @@ std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(const OccupancyM
   if (options_.subdivisions >= 0) {
     add(views_around(options_.object.centre(), options_.radii_m, options_.subdivisions));
   }
-  if (options_.random_candidates > 0) {
-    const VoxelBox cells = map.region() ? *map.region() : map.bounds().grown(1);
+  const VoxelBox cells = map.region() ? *map.region() : map.bounds().grown(1);
+  if (options_.random_candidates > 0 && !cells.empty()) {
     add(random_views_of(options_.object.centre(), map.frame().box_of(cells), options_.random_candidates,
                         setup_.seed));
   }
@@ -119,8 +119,7 @@ Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& current) {
       plan.candidates.push_back({tried[i].pose, static_cast<double>(tried[i].faces.size())});
     }
   }
-  const double least =
-      std::max(1.0, options_.min_new_share * static_cast<double>(surface_->looked_at()));
+  const double least = std::max(1.0, options_.min_new_share * static_cast<double>(surface_->looked_at()));
   const std::size_t best = order.empty() ? 0 : tried[order.front()].faces.size();
   const bool any_worthwhile = static_cast<double>(best) >= least;
   // The nearest of the good ones first, then the others as they are good.

@@ -15,8 +15,7 @@ double fitting_radius_m(const Box& box, const RangeSensor& sensor, const ObjectS
   const double reach_m = 0.5 * box.extent().norm();
   const double half_angle =
       std::min(0.5 * std::min(sensor.horizontal_angle_rad(), sensor.vertical_angle_rad()), std::asin(0.5));
-  const double furthest_m =
-      std::min(sensor.max_range_m - reach_m, sensor.resolving_range_m(options.resolution_m));
+  const double furthest_m = std::min(sensor.max_range_m - reach_m, sensor.resolving_range_m(options.resolution_m));
   const double nearest_m = std::max(sensor.min_range_m, 0.1) + reach_m;
   const double radius_m = std::max(std::min(reach_m / std::sin(half_angle), furthest_m), nearest_m);
   return options.table ? std::min(radius_m, 1.5) : radius_m;

@@ -117,11 +117,12 @@ std::size_t SeenSurface::observable_count(const Platform& platform, std::span<co
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < samples_.size(); ++i) {
     const SurfaceSample& sample = samples_[i];
-    count += seen_[i] || std::any_of(shuffled.begin(), shuffled.end(), [&](const Eigen::Vector3d& place) {
-               const Eigen::Vector3d towards = sample.point - place;
-               return exposed(sample, place) &&
-                      (platform.can_tilt() || sensor_.in_view(platform.facing(place, towards).inverse() * sample.point));
-             });
+    count +=
+        seen_[i] || std::any_of(shuffled.begin(), shuffled.end(), [&](const Eigen::Vector3d& place) {
+          const Eigen::Vector3d towards = sample.point - place;
+          return exposed(sample, place) &&
+                 (platform.can_tilt() || sensor_.in_view(platform.facing(place, towards).inverse() * sample.point));
+        });
   }
   return count;
 }

@@ -98,9 +98,8 @@ void UnseenSurface::pass_rays(const OccupancyMap& map, const Pose& world_from_se
         leaves = std::min(leaves, std::max(a, b));
       }
       const RayEnd& end = ends[tile.ray[place]];
-      const bool stopped_before =
-          end.occupancy != Occupancy::Free && !looked_.contains(end.cell) &&
-          (frame_.centre_of(end.cell) - from).squaredNorm() < (enters * reach).squaredNorm();
+      const bool stopped_before = end.occupancy != Occupancy::Free && !looked_.contains(end.cell) &&
+                                  (frame_.centre_of(end.cell) - from).squaredNorm() < (enters * reach).squaredNorm();
       if (!(enters < leaves) || stopped_before) {
         continue;
       }

@@ -391,7 +391,8 @@ TEST(RayCaster, SupposesWhatUnknownCellsHold) {
         EXPECT_EQ(end, expected.cast(to, from));
         unknown_ends += end.occupancy == Occupancy::Unknown ? 1U : 0U;
       }
-      for_each_cell(stopping.box().grown(2), [&](const VoxelIndex& at) { EXPECT_EQ(caster.at(at), expected.at(at)); });
+      for_each_cell(stopping.box().grown(2),
+                    [&](const VoxelIndex& at) { EXPECT_EQ(caster.at(at), expected.at(at)); });
       // Nothing is supposed any more of what changes: here all of it.
       map.set_log_odds(stopping.box().grown(8), -2.0);
       caster.update();

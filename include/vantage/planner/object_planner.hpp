@@ -16,11 +16,11 @@ namespace vantage {
 
 /// Options of ObjectPlanner.
 struct ObjectPlannerOptions {
-  Box object;                                         ///< the box of the object, metres
-  std::vector<double> radii_m = {1.5};                ///< candidates look at its middle from shells this far off, > 0
-  int subdivisions = 2;                               ///< those of a shell are 20 * 4^this, in [-1, 6]; -1: none
-  std::size_t random_candidates = 0;                  ///< as many more, from places drawn in the region
-  AimedViewOptions aimed = {};                        ///< and these, aimed at what is left to be seen
+  Box object;                           ///< the box of the object, metres
+  std::vector<double> radii_m = {1.5};  ///< candidates look at its middle from shells this far off, > 0
+  int subdivisions = 2;                 ///< those of a shell are 20 * 4^this, in [-1, 6]; -1: none
+  std::size_t random_candidates = 0;    ///< as many more, from places drawn in the region
+  AimedViewOptions aimed = {};          ///< and these, aimed at what is left to be seen
   double min_new_share = 0.002;  ///< a view must be expected to show this share of the surface seen so far, in [0, 1)
   double near_share = 0.7;  ///< of views expected to show this share of what the best would, the nearest is taken; in
                             ///< (0, 1]

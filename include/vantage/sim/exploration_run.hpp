@@ -42,8 +42,8 @@ struct ExplorationRunOptions {
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;
   int threads = 1;  ///< for the observable cells, > 0
-  /// Whether coverage is measured, which takes finding all observable cells first: those of `unknown_box`, if there is
-  /// one.
+  /// Whether coverage is measured, which takes finding all observable cells first: those of `unknown_box`, if there
+  /// is one.
   bool measure_coverage = true;
   /// Told of that search as Truth::observable tells of it; none: nobody is.
   std::function<void(double share)> on_observable_share = {};

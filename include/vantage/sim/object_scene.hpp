@@ -18,11 +18,11 @@ namespace vantage {
 
 /// How an object is put before a sensor.
 struct ObjectSceneOptions {
-  std::string name = "object";                 ///< World::name
-  bool table = false;                          ///< in the world `table`, else in free space
+  std::string name = "object";                   ///< World::name
+  bool table = false;                            ///< in the world `table`, else in free space
   std::optional<Box> object_box = std::nullopt;  ///< what is to be reconstructed; else 3 cm around the object
-  std::vector<double> radii_m = {};            ///< of the shells of views; none: one from which all of the box is in view
-  double resolution_m = 0.02;                  ///< of the map, > 0
+  std::vector<double> radii_m = {};  ///< of the shells of views; none: one from which all of the box is in view
+  double resolution_m = 0.02;        ///< of the map, > 0
 };
 
 /// Top of the world `table`, metres.
@@ -36,8 +36,8 @@ struct ObjectScene {
 };
 
 /// Puts an object, which lies where it is to be, into its world. Where no radius is given there is one: near enough
-/// that the sensor resolves cells and reaches the far side of the box, and else so far off that a sphere around the box
-/// fits into the image; never in the box, on the table at most 1.5 m (Vasquez-Gomez et al. 2013).
+/// that the sensor resolves cells and reaches the far side of the box, and else so far off that a sphere around the
+/// box fits into the image; never in the box, on the table at most 1.5 m (Vasquez-Gomez et al. 2013).
 [[nodiscard]] ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor,
                                        const ObjectSceneOptions& options);
 

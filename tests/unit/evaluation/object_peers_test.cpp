@@ -37,7 +37,8 @@ struct ObjectInView {
     return options;
   }
   [[nodiscard]] ObjectPeerSetup setup(std::uint64_t seed = 1) const {
-    return {.platform = platform, .scene = &scene, .truth = &run.truth(), .surface = &surface, .views = 6, .seed = seed};
+    return {
+        .platform = platform, .scene = &scene, .truth = &run.truth(), .surface = &surface, .views = 6, .seed = seed};
   }
 
   std::shared_ptr<const FreeFlyer> platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.05});
@@ -82,8 +83,9 @@ TEST(ObjectPeers, PlanTheSameTwiceAndDrawFromTheSeed) {
     EXPECT_TRUE(make_object_peer(name, in_view.setup())->plan(map, start).goal.pose.isApprox(plan.goal.pose)) << name;
   }
   const auto other = make_object_peer("random-views", in_view.setup(2));
-  EXPECT_FALSE(other->plan(map, start).goal.pose.isApprox(
-      make_object_peer("random-views", in_view.setup(1))->plan(map, start).goal.pose));
+  EXPECT_FALSE(
+      other->plan(map, start)
+          .goal.pose.isApprox(make_object_peer("random-views", in_view.setup(1))->plan(map, start).goal.pose));
   EXPECT_THROW((void)make_object_peer("psychic", in_view.setup()), std::invalid_argument);
   EXPECT_THROW((void)make_object_peer("evenly-spaced", {}), std::invalid_argument);
 }

@@ -59,9 +59,9 @@ TEST(ObjectPlanner, EndsWhenNoViewWouldShowMore) {
       std::size_t most = 0;
       for (const Pose& view : views_around(at.scene.box.centre(), at.scene.radii_m)) {
         const std::vector<std::uint32_t> visible = surface.visible_from(view);
-        most = std::max(most, static_cast<std::size_t>(std::count_if(visible.begin(), visible.end(), [&](auto sample) {
-                          return !surface.seen(sample);
-                        })));
+        most =
+            std::max(most, static_cast<std::size_t>(std::count_if(
+                               visible.begin(), visible.end(), [&](auto sample) { return !surface.seen(sample); })));
       }
       EXPECT_LT(most, at.options.object_surface.size() / 20) << name << ", " << reports_no_return;
       EXPECT_GT(record.seen_observable.value_or(0.0), 0.9) << name << ", " << reports_no_return;
@@ -107,7 +107,9 @@ TEST(ObjectPlanner, NamesWhatIsWrong) {
             "ObjectPlannerOptions::object must have min < max on every axis and be finite");
   EXPECT_EQ(complaint([](ObjectPlannerOptions& o) { o.radii_m = {}; }),
             "ObjectPlannerOptions::radii_m is empty, must have at least one radius");
-  EXPECT_EQ(complaint([](ObjectPlannerOptions& o) { o.radii_m = {1.0, 0.0}; }),
+  EXPECT_EQ(complaint([](ObjectPlannerOptions& o) {
+              o.radii_m = {1.0, 0.0};
+            }),
             "ObjectPlannerOptions::radii_m is 0, must be > 0");
   EXPECT_EQ(complaint([](ObjectPlannerOptions& o) { o.min_new_share = 1.0; }),
             "ObjectPlannerOptions::min_new_share is 1, must be in [0, 1)");

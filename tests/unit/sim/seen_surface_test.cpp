@@ -42,7 +42,8 @@ TEST(SeenSurface, SeesWhatTryingAllTrianglesSays) {
     std::vector<bool> seen(surface.samples().size());
     for (int view = 0; view < 5; ++view) {
       const Eigen::Vector3d out = Eigen::Vector3d(metre(engine), metre(engine), metre(engine)).normalized();
-      const Pose pose = pose_looking_along(1.2 * out, -out + 0.5 * Eigen::Vector3d(0.0, metre(engine), metre(engine)));
+      const Pose pose =
+          pose_looking_along(1.2 * out, -out + 0.5 * Eigen::Vector3d(0.0, metre(engine), metre(engine)));
       surface.add(pose);
       const std::vector<std::uint32_t> visible = surface.visible_from(pose);
       for (std::uint32_t i = 0; i < seen.size(); ++i) {
@@ -52,8 +53,8 @@ TEST(SeenSurface, SeesWhatTryingAllTrianglesSays) {
                         back.norm() <= sensor.max_range_m &&
                         normal.dot(back.normalized()) > std::cos(85.0 * std::numbers::pi / 180.0);
         for (const auto& [a, b, c] : mesh.triangles) {
-          const std::array<Eigen::Vector3d, 3> triangle{mesh.vertices[a].cast<double>(), mesh.vertices[b].cast<double>(),
-                                                        mesh.vertices[c].cast<double>()};
+          const std::array<Eigen::Vector3d, 3> triangle{
+              mesh.vertices[a].cast<double>(), mesh.vertices[b].cast<double>(), mesh.vertices[c].cast<double>()};
           expected = expected && !meets(triangle, point + 1e-5 * normal, pose.translation());
         }
         const bool found = std::binary_search(visible.begin(), visible.end(), i);
@@ -96,9 +97,7 @@ TEST(SeenSurface, TellsWhatCanBeSeenAtAll) {
   EXPECT_GT(surface.observable_count(anyhow, high), surface.seen_count());
 }
 
-TEST(SeenSurface, RefusesAMeshWithoutArea) {
-  EXPECT_THROW((void)sample_surface({}), std::invalid_argument);
-}
+TEST(SeenSurface, RefusesAMeshWithoutArea) { EXPECT_THROW((void)sample_surface({}), std::invalid_argument); }
 
 }  // namespace
 }  // namespace vantage
