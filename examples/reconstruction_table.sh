@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Reconstructs the bunny and the dragon of Vasquez-Gomez et al. on their table by every method and prints the table of
-# docs/reconstruction.md: examples/reconstruction_table.sh [WHAT...], where WHAT is among default paper hierarchical
-# uniform gains (default: default paper hierarchical). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage
+# docs/reconstruction.md: examples/reconstruction_table.sh [WHAT...], where WHAT is among aimed paper hierarchical
+# uniform gains (default: aimed paper hierarchical). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage
 # names another). Runs that lie in the folder RESULTS (default: build/reconstruction) already are not made again.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
@@ -31,6 +31,7 @@ row() {
         echo "$object, $setting, $title" >&2
         # shellcheck disable=SC2086 # the options of an object are words
         "$vantage" reconstruct --table ${place[$object]} --object-box -0.4,-0.4,0.43,0.4,0.4,0.95 \
+          --radius 1.5 --start -1.5,0,0.69 \
           --reference "$VANTAGE_DATA/nbv_reference/vpl/${object}_ref_smalltable_nobase.dat" --resolution "${setting%/*}" \
           --set min_unknown_cells="${setting#*/}" "$@" --out "$folder" > "$folder.txt" || [[ $? -eq 3 ]]
       fi
@@ -45,34 +46,34 @@ row() {
 
 echo '| object | cells, m | stops below | method | outcome | views | coverage | path, m | time to plan, median, s |'
 echo '|---|---|---|---|---|---|---|---|---|'
-for what in "${@:-default paper hierarchical}"; do
+for what in "${@:-aimed paper hierarchical}"; do
   for part in $what; do
     case $part in
-      default)
-        row default 'default'
-        row default-cover 'default, cover' --set choice=cover
+      aimed)
+        row greedy '320 aimed, the best' --set choice=greedy
+        row cover-aimed '320 aimed, cover' --set choice=cover
         ;;
       paper)
         row cover '320 candidates, cover' --aimed 0 --set choice=cover
-        row paper '320 candidates, the best' --aimed 0
+        row paper '320 candidates, the best' --aimed 0 --set choice=greedy
         ;;
       hierarchical)
         row hierarchical-cover 'hierarchical, cover' --aimed 0 --method hierarchical --set choice=cover
-        row hierarchical 'hierarchical, the best' --aimed 0 --method hierarchical
+        row hierarchical 'hierarchical, the best' --aimed 0 --method hierarchical --set choice=greedy
         ;;
       uniform)
-        row uniform 'uniform, the best' --aimed 0 --method uniform
+        row uniform 'uniform, the best' --aimed 0 --method uniform --set choice=greedy
         ;;
       gains)
         for gain in unknown-cells occlusion-aware unobserved-voxel rear-side-voxel rear-side-entropy proximity-count; do
-          row "$gain" "$gain" --candidates 80 --aimed 0 --set gain="$gain"
+          row "$gain" "$gain" --candidates 80 --aimed 0 --set gain="$gain" --set choice=greedy
         done
         for gain in unknown-cells proximity-count; do
           row "$gain-cover" "$gain, cover" --candidates 80 --aimed 0 --set gain="$gain" --set choice=cover
         done
         ;;
       *)
-        echo "reconstruction_table.sh: '$part' is none of default paper hierarchical uniform gains" >&2
+        echo "reconstruction_table.sh: '$part' is none of aimed paper hierarchical uniform gains" >&2
         exit 2
         ;;
     esac

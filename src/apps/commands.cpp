@@ -67,6 +67,7 @@ void add_commands(CLI::App& app, int& exit_code) {
 #endif
   add_report_command(app);
   add_compare_command(app);
+  add_evaluate_command(app);
   add_map_command(app, exit_code);
   add_list_command(app);
   // Not inherited by the commands, hence after them.

@@ -12,7 +12,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <vantage/report/report_html.hpp>
-#include <vantage/report/run_record_reader.hpp>
 #include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/picture.hpp>
 
@@ -35,13 +34,19 @@ struct ComparedRun {
   nlohmann::json report;
   double views = 0.0;
   double path_m = 0.0;
-  double share = std::nan("");  // coverage, else surface coverage
+  double share = std::nan("");  // seen coverage, else coverage
   double seconds = 0.0;         // computing
   double plan_ms = std::nan("");
   std::vector<double> curve;  // the share after every view
 };
 
 double number_or_nan(const nlohmann::json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+
+// What was seen of an object, else of the cells of the world; of a report or one of its cycles.
+double share_in(const nlohmann::json& measured) {
+  const auto seen = measured.find("seen_coverage");
+  return number_or_nan(seen != measured.end() && !seen->is_null() ? *seen : measured.at("coverage"));
+}
 
 ComparedRun compared(const std::string& file, const std::string& text) {
   try {
@@ -56,40 +61,16 @@ ComparedRun compared(const std::string& file, const std::string& text) {
     run.name = run.group + ", seed " + report.at("seed").dump();
     run.views = report.at("views").get<double>();
     run.path_m = report.at("path_length_m").get<double>();
-    run.share =
-        number_or_nan(report.at("coverage").is_null() ? report.at("surface_coverage") : report.at("coverage"));
+    run.share = share_in(report);
     run.plan_ms = number_or_nan(report.at("time_ms").at("plan").at("median"));
     for (const nlohmann::json& cycle : report.at("cycles")) {
+      run.curve.push_back(share_in(cycle));
       run.seconds += (cycle.at("insert_ms").get<double>() + cycle.at("plan_ms").get<double>()) / 1000.0;
     }
     return run;
   } catch (const nlohmann::json::exception&) {
     throw std::runtime_error(file + ": is no report.json of a run");
   }
-}
-
-// What the record beside a report says of the surface after every view; nothing where there is none.
-std::vector<double> surface_curve(const std::filesystem::path& record) {
-  std::vector<double> curve;
-  if (!record.empty()) {
-    RunRecordReader reader(record);
-    while (const std::optional<RecordedCycle> cycle = reader.next()) {
-      curve.push_back(cycle->view.surface_coverage.value_or(std::nan("")));
-    }
-  }
-  return curve;
-}
-
-void add_curve(ComparedRun& run, const std::filesystem::path& record) {
-  const nlohmann::json& cycles = run.report.at("cycles");
-  if (run.report.at("coverage").is_null()) {
-    run.curve = surface_curve(record);
-  } else {
-    for (const nlohmann::json& cycle : cycles) {
-      run.curve.push_back(number_or_nan(cycle.at("coverage")));
-    }
-  }
-  run.curve.resize(cycles.size(), std::nan(""));
 }
 
 std::string read_file(const std::string& file) {
@@ -164,9 +145,9 @@ Picture overlaid_coverage(const std::vector<ComparedRun>& runs) {
   LinePlot metres = views;
   metres.title = "coverage over metres";
   metres.x_label = "path travelled [m]";
-  const bool surfaces = std::all_of(runs.begin(), runs.end(),
-                                    [](const ComparedRun& run) { return run.report.at("coverage").is_null(); });
-  views.y_label = surfaces ? "surface measured [%]" : "observable cells known rightly [%]";
+  const bool objects = std::all_of(runs.begin(), runs.end(),
+                                   [](const ComparedRun& run) { return run.report.at("command") == "reconstruct"; });
+  views.y_label = objects ? "surface seen [%]" : "observable cells known rightly [%]";
   metres.y_label = views.y_label;
   for (const ComparedRun& run : runs) {
     LineSeries over_views{.name = run.name};
@@ -193,7 +174,6 @@ void compare(const CompareRequest& request) {
     const std::filesystem::path record = std::filesystem::path(file).parent_path() / "run.record";
     reported.push_back({read_file(file), std::filesystem::exists(record) ? record : std::filesystem::path()});
     runs.push_back(compared(file, reported.back().report));
-    add_curve(runs.back(), reported.back().record);
     if (request.by_folder) {
       runs.back().group = std::filesystem::absolute(file).parent_path().filename().string();
       runs.back().name = runs.back().group;

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <iostream>
 #include <memory>
-#include <random>
-#include <sstream>
 #include <stdexcept>
+#include <vantage/evaluation/object_peers.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/sim/mesh_file.hpp>
+#include <vantage/sim/object_scene.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
@@ -38,7 +37,7 @@ struct ReconstructRequest {
   double gap_m = 0.0;
   std::string method = "default";
   std::uint64_t candidates = 320;
-  std::string radii = "1.5";
+  std::string radii;
   std::uint64_t aimed = 320;
   ExploreRequest run;  // what the commands share
 
@@ -51,7 +50,6 @@ struct ReconstructRequest {
   }
 };
 
-constexpr double kTableTopM = 0.427277;
 constexpr std::uint64_t kMostCandidates = 1'000'000;
 
 // The object where it stands: as told, or in the middle of the table, or where its file has it.
@@ -81,40 +79,16 @@ TriangleMesh placed_object(const ReconstructRequest& request) {
   return placed;
 }
 
-Box object_box_of(const ReconstructRequest& request, const TriangleMesh& object) {
-  if (!request.object_box.empty()) {
-    return box_of("--object-box", request.object_box);
-  }
-  constexpr double kMarginM = 0.03;
-  Box box = object.bounds();
-  box.min.array() -= kMarginM;
-  box.max.array() += kMarginM;
-  if (request.table) {  // not the table itself
-    box.min.z() = std::max(box.min.z(), kTableTopM + 0.5 * request.run.resolution_m);
-  }
-  return box;
-}
-
-// Of the shells of candidates.
+// Of the shells of candidates; none: the scene's own.
 std::vector<double> radii_of(const ReconstructRequest& request) {
+  if (request.radii.empty()) {
+    return {};
+  }
   std::vector<double> radii_m = numbers_of("--radius", request.radii);
   for (const double radius_m : radii_m) {
     detail::require_option(radius_m > 0.0 && radius_m <= 1000.0, "--radius", radius_m, "> 0 and at most 1000 metres");
   }
   return radii_m;
-}
-
-World world_around(const ReconstructRequest& request, const TriangleMesh& object, const Box& box, double furthest_m) {
-  World world;
-  if (request.table) {
-    world = World::by_name("table");
-  } else {
-    const double reach_m = furthest_m + 0.5 * box.extent().norm();
-    world.region = {box.centre().array() - reach_m, box.centre().array() + reach_m};
-  }
-  world.name = request.object;
-  world.mesh.append(object);
-  return world;
 }
 
 // Rows of x y z.
@@ -130,67 +104,32 @@ std::vector<Eigen::Vector3d> points_in(const std::string& path) {
   return points;
 }
 
-// Points drawn evenly from the surface, always the same.
-std::vector<Eigen::Vector3d> surface_points(const TriangleMesh& mesh) {
-  constexpr std::size_t kPoints = 20'000;
-  std::vector<double> areas;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d corner = mesh.vertices[a].cast<double>();
-    const Eigen::Vector3d ab = mesh.vertices[b].cast<double>() - corner;
-    const Eigen::Vector3d ac = mesh.vertices[c].cast<double>() - corner;
-    areas.push_back((areas.empty() ? 0.0 : areas.back()) + 0.5 * ab.cross(ac).norm());
-  }
-  std::mt19937_64 engine(1);
-  const auto share = [&] { return static_cast<double>(engine() >> 11U) * 0x1.0p-53; };
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    const auto at = std::upper_bound(areas.begin(), areas.end() - 1, share() * areas.back());
-    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(at - areas.begin())];
-    double u = share();
-    double v = share();
-    if (u + v > 1.0) {
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    const Eigen::Vector3d corner = mesh.vertices[a].cast<double>();
-    points.emplace_back(corner + u * (mesh.vertices[b].cast<double>() - corner) +
-                        v * (mesh.vertices[c].cast<double>() - corner));
-  }
-  return points;
-}
-
-std::string text_of(std::initializer_list<double> numbers) {
-  std::ostringstream text;
-  text.precision(17);
-  for (const double number : numbers) {
-    text << (text.tellp() > 0 ? "," : "") << number;
-  }
-  return text.str();
-}
-
-// As many candidates as an icosahedron has faces, at some level, are its; any other number is drawn at random. Aimed
-// ones stand no further off than the furthest shell, and as near as a third of that.
-PlannerSettings settings_for(const ReconstructRequest& request, const Box& box, double furthest_m) {
+// As many candidates as an icosahedron has faces, at some level, are its; any other number is drawn at random.
+PlannerSettings settings_for(const ReconstructRequest& request, const ObjectScene& scene) {
   int subdivisions = 0;
   std::uint64_t faces = 20;
   for (; subdivisions < 6 && faces < request.candidates; faces *= 4) {
     ++subdivisions;
   }
-  PlannerSettings settings{
-      {"object", text_of({box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()})},
-      {"radii_m", request.radii},
-      {"method", request.method},
-      {"subdivisions", faces == request.candidates ? std::to_string(subdivisions) : "-1"},
-      {"random_candidates", faces == request.candidates ? "0" : std::to_string(request.candidates)},
-      {"aimed_candidates", std::to_string(request.aimed)},
-      {"aimed_min_distance_m", text_of({furthest_m / 3.0})},
-      {"aimed_max_distance_m", text_of({furthest_m})},
-      {"min_unknown_cells", "12"},
-      {"choice", "greedy"}};  // of aimed views it sees more over a shorter way than covers do
+  PlannerSettings settings = planner_settings(scene);
+  settings.insert_or_assign("method", request.method);
+  settings.insert_or_assign("subdivisions", faces == request.candidates ? std::to_string(subdivisions) : "-1");
+  settings.insert_or_assign("random_candidates",
+                            faces == request.candidates ? "0" : std::to_string(request.candidates));
+  settings.insert_or_assign("aimed_candidates", std::to_string(request.aimed));
+  if (request.method != "default") {  // the paper's utility
+    settings.insert_or_assign("min_unknown_cells", "12");
+    settings.insert_or_assign("choice", "greedy");
+  }
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
   }
   return settings;
+}
+
+bool is_peer(const std::string& planner) {
+  const auto names = object_peer_names();
+  return std::find(names.begin(), names.end(), planner) != names.end();
 }
 
 int reconstruct(const ReconstructRequest& request) {
@@ -209,15 +148,15 @@ int reconstruct(const ReconstructRequest& request) {
   if (shared.scale.value_or(1.0) == 1.0) {
     std::cerr << doubt_about_object_unit(request.object, object.bounds());
   }
-  const Box box = object_box_of(request, object);
-  const double furthest_m = *std::max_element(radii_m.begin(), radii_m.end());
-  const World world = world_around(request, object, box, furthest_m);
-  check_cell_count(world.region, shared.resolution_m);
+  ObjectSceneOptions placing{
+      .name = request.object, .table = request.table, .radii_m = radii_m, .resolution_m = shared.resolution_m};
+  if (!request.object_box.empty()) {
+    placing.object_box = box_of("--object-box", request.object_box);
+  }
+  const ObjectScene scene = object_scene(object, sensor, placing);
+  check_cell_count(scene.world.region, shared.resolution_m);
   const auto platform = std::make_shared<const FreeFlyer>(
       FreeFlyerOptions{.radius_m = shared.robot_radius_m, .yaw_only = shared.yaw_only});
-  const auto planner = make_planner(
-      shared.planner, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
-      settings_for(request, box, furthest_m));
 
   ExplorationRunOptions options;
   options.map.resolution_m = shared.resolution_m;
@@ -228,21 +167,43 @@ int reconstruct(const ReconstructRequest& request) {
   options.body_radius_m = shared.robot_radius_m;
   options.threads = shared.threads;
   options.stop = [&interruption] { return interruption.asked(); };
-  options.measure_coverage = false;
-  options.unknown_box = box;
-  options.surface_samples = request.reference.empty() ? surface_points(object) : points_in(request.reference);
+  options.unknown_box = scene.box;
+  options.object_surface = sample_surface(object);
+  if (request.reference.empty()) {
+    for (const SurfaceSample& sample : options.object_surface) {
+      options.surface_samples.push_back(sample.point);
+    }
+  } else {
+    options.surface_samples = points_in(request.reference);
+  }
   options.surface_gap_m = request.gap_m > 0.0         ? request.gap_m
                           : request.reference.empty() ? shared.resolution_m
                                                       : options.surface_gap_m;
-  const Eigen::Vector3d aside = box.centre() - Eigen::Vector3d(radii_m.front(), 0.0, 0.0);
-  const Pose start = start_of(shared).value_or(pose_looking_along(aside, box.centre() - aside));
-  ExplorationRun run(world, sensor, platform, options);
+  ExplorationRun run(scene.world, sensor, platform, options);
+  std::optional<Pose> start = start_of(shared);
+  std::unique_ptr<ExplorationPlanner> planner;
+  if (is_peer(shared.planner)) {
+    const SeenSurface surface(TriangleScene(scene.world.mesh), options.object_surface, sensor);
+    auto peer = make_object_peer(shared.planner, {.platform = platform,
+                                                  .scene = &scene,
+                                                  .truth = &run.truth(),
+                                                  .surface = &surface,
+                                                  .views = shared.max_views,
+                                                  .seed = shared.seed});
+    start = start ? start : peer->first_view();
+    planner = std::move(peer);
+  } else {
+    planner = make_planner(shared.planner,
+                           {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
+                           settings_for(request, scene));
+  }
+  start = start ? start : draw_first_view(scene, run.truth(), *platform, shared.seed);
 
   ProgressStream told(shared);
   std::ostream& progress = told.stream();
   RunPrinter printer(progress, told.is_terminal());
   RunRecording recording(*planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
-  RunRecord record = run.run(recording, start, [&](const ViewRecord& view, const OccupancyMap& map) {
+  RunRecord record = run.run(recording, *start, [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       interruption.hold();
       printer.head(shared.planner, request.object, shared.sensor, shared.resolution_m, shared.seed);
@@ -286,16 +247,23 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
   const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
     return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Views");
   };
-  option("--method", request.method, "default|hierarchical|uniform", "How what a view would see is counted");
+  option("--planner", run.planner, "NAME",
+         "next-best-view; or to compare with: evenly-spaced (--max-views of them), furthest-view, random-views, and "
+         "oracle-greedy, which knows the truth");
+  option("--method", request.method, "default|hierarchical|uniform",
+         "By the surface that a view would be the first to show; or the paper's counts of unknown cells");
   option("--candidates", request.candidates, "N",
          "How many views are tried: 20, 80, 320, 1280 evenly all around; other numbers at random in the room")
       ->check(a_whole_number());
-  option("--radius", request.radii, "M[,M...]",
-         "Their distance from the middle of the box, metres; of several, as many views at each");
-  option("--aimed", request.aimed, "N", "So many more, drawn after every scan, aimed at cells that are still unknown")
+  option(
+      "--radius", request.radii, "M[,M...]",
+      "Their distance from the middle of the box, metres; of several, as many views at each. From where the box fits "
+      "into the image unless given");
+  option("--aimed", request.aimed, "N", "So many more, drawn after every scan, aimed at what is left to be seen")
       ->check(a_whole_number());
   option("--start", run.start, "x,y,z[,yaw[,pitch]]",
-         "First pose of the sensor, metres and degrees; beside the object unless given");
+         "First pose of the sensor, metres and degrees; unless given drawn from the seed, where much of the box is "
+         "in view");
   add_sensor_options(command, run, "Views");
 }
 
@@ -313,6 +281,7 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  vantage reconstruct --object bunny.ply --table --out bunny\n"
       "  vantage reconstruct --object cup.obj --up y --candidates 1280 --method uniform --json cup.json\n"
+      "A setting of the paper's utility (gain, choice, min_unknown_cells ...) asks for that utility.\n"
       "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written) or a file that\n"
       "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143\n"
       "interrupted.");

@@ -11,5 +11,7 @@ namespace vantage::apps {
 void add_report_command(CLI::App& app);
 /// `vantage compare`: several reports side by side.
 void add_compare_command(CLI::App& app);
+/// `vantage evaluate`: tables of planners beside their peers.
+void add_evaluate_command(CLI::App& app);
 
 }  // namespace vantage::apps

@@ -49,12 +49,12 @@ Picture floor_plan(const RunRecord& record, const OccupancyMap& map, const Range
   return draw_floor_plan(map, content);
 }
 
-// Of the world or, where only an object was to be seen, of its surface.
+// Of the world or, where an object was to be seen, of what was seen of it.
 Picture coverage_plot(const RunRecord& record) {
   LineSeries over_views;
   LineSeries over_metres;
   for (const ViewRecord& view : record.views) {
-    const std::optional<double> coverage = record.coverage ? view.coverage : view.surface_coverage;
+    const std::optional<double> coverage = record.seen_coverage ? view.seen_coverage : view.coverage;
     const double percent = coverage ? 100.0 * *coverage : std::nan("");
     over_views.x.push_back(static_cast<double>(view.view));
     over_views.y.push_back(percent);
@@ -64,7 +64,7 @@ Picture coverage_plot(const RunRecord& record) {
   const auto plot = [&](const char* over, const char* x_label, LineSeries series) {
     return LinePlot{.title = title_of(record) + ": coverage over " + over,
                     .x_label = x_label,
-                    .y_label = record.coverage ? "observable cells known rightly [%]" : "surface measured [%]",
+                    .y_label = record.seen_coverage ? "surface seen [%]" : "observable cells known rightly [%]",
                     .series = {std::move(series)},
                     .y_range = std::pair(0.0, 100.0),
                     .value_unit = " %"};

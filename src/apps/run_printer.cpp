@@ -61,7 +61,9 @@ std::string rounded_time(double seconds) {
 }
 
 std::string bar_text(const ViewRecord& view, double seconds, const ExpectedViews& expected) {
-  const std::optional<double> known = view.coverage ? view.coverage : view.surface_coverage;
+  const std::optional<double> known = view.seen_coverage ? view.seen_coverage
+                                      : view.coverage    ? view.coverage
+                                                         : view.surface_coverage;
   const bool counted = !known && expected.count > 0;
   const auto done = static_cast<double>(view.view);
   std::string text;
@@ -104,6 +106,9 @@ void RunPrinter::line(const ViewRecord& view) {
   if (view.surface_coverage) {
     out_ << format("%5.1f %% of the surface  ", 100.0 * *view.surface_coverage);
   }
+  if (view.seen_coverage) {
+    out_ << format("%5.1f %% seen  ", 100.0 * *view.seen_coverage);
+  }
   out_ << format("%7.1f m  ", view.path_length_m);
   if (!view.surface_coverage) {
     out_ << format("%7zu frontier cells  ", view.frontier_cells);
@@ -129,6 +134,10 @@ void RunPrinter::summary(const RunRecord& record) {
   }
   if (record.surface_coverage) {
     out_ << format("  %-12s %.2f %% of the object's points\n", "surface", 100.0 * *record.surface_coverage);
+  }
+  if (record.seen_coverage && record.seen_observable) {
+    out_ << format("  %-12s %.2f %% of its surface, %.2f %% of what any admitted pose could see\n", "seen",
+                   100.0 * *record.seen_coverage, 100.0 * *record.seen_observable);
   }
   out_ << format("  %-12s %zu unreachable, %zu unobservable, %zu looked at in vain\n", "left over",
                  record.leftover.unreachable, record.leftover.unobservable, record.leftover.in_vain)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <numbers>
-#include <optional>
+#include <array>
 #include <stdexcept>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
@@ -10,6 +9,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/planner/object_planner.hpp>
 
 #include "planner/planner_tables.hpp"
 
@@ -24,6 +24,29 @@ std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_
   Options options;
   table.read(name, settings, options);
   return std::make_unique<Planner>(setup, options);
+}
+
+// With an object the planner of its surface, unless a setting of the paper's utility asks for the paper's way to choose.
+std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const PlannerSettings& settings) {
+  detail::NextBestViewSettings read;
+  detail::next_best_view_settings().read("next-best-view", settings, read);
+  const NextBestViewOptions& options = read.cells;
+  constexpr std::array<std::string_view, 8> kOfThePaper{"gain",         "choice",      "min_unknown_cells",
+                                                        "min_overlap_cells", "failed_within_deg", "vision_angle_deg",
+                                                        "min_depth_m",  "max_depth_m"};
+  const bool as_the_paper =
+      options.method != VisibilityMethod::Exact ||
+      std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
+                  [&](std::string_view name) { return settings.find(name) != settings.end(); });
+  if (!options.object || as_the_paper) {
+    return std::make_unique<NextBestViewPlanner>(setup, options);
+  }
+  read.surface.object = *options.object;
+  read.surface.radii_m = options.radii_m;
+  read.surface.subdivisions = options.subdivisions;
+  read.surface.random_candidates = options.random_candidates;
+  read.surface.aimed = options.aimed;
+  return std::make_unique<ObjectPlanner>(setup, read.surface);
 }
 
 struct Maker {
@@ -56,7 +79,7 @@ const std::vector<Maker>& makers() {
        [] { return detail::frontier_survey_settings().list(); }},
       {"next-best-view",
        [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made<NextBestViewPlanner>(setup, "next-best-view", settings, detail::next_best_view_settings());
+         return made_next_best_view(setup, settings);
        },
        [] { return detail::next_best_view_settings().list(); }},
   };

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 #include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/planner/way_around.hpp>
 #include <vantage/raytrace/hierarchical_ray_tracer.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/view/candidate_views.hpp>
@@ -51,32 +52,6 @@ void validate(const NextBestViewOptions& options) {
 
 // Where something may be seen: the region, or the known cells and those beside them.
 VoxelBox cells_of_interest(const OccupancyMap& map) { return map.region() ? *map.region() : map.bounds().grown(1); }
-
-// Line 4: straight there or around the object where the platform can go that way, for that is soon known; else by the
-// platform's own search.
-std::optional<std::vector<Pose>> way_to(const OccupancyMap& map, const Platform& platform, const Pose& from,
-                                        const Pose& to, const Eigen::Vector3d& middle) {
-  if (platform.admits_motion(map, from, to)) {
-    return std::vector<Pose>{from, to};
-  }
-  const Eigen::Vector3d first = from.translation() - middle;
-  const Eigen::Vector3d last = to.translation() - middle;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(first, last);
-  constexpr int kSteps = 24;
-  std::vector<Pose> arc{from};
-  for (int i = 1; i <= kSteps; ++i) {
-    const double share = static_cast<double>(i) / kSteps;
-    const double radius_m = first.norm() + share * (last.norm() - first.norm());
-    const Eigen::Vector3d outwards =
-        Eigen::Quaterniond::Identity().slerp(share, turn) * Eigen::Vector3d(first.normalized());
-    const Pose next = i == kSteps ? to : platform.facing(middle + radius_m * outwards, -outwards);
-    if (!platform.admits(map, next) || !platform.admits_motion(map, arc.back(), next)) {
-      return platform.path(map, from, to);
-    }
-    arc.push_back(next);
-  }
-  return arc;
-}
 
 }  // namespace
 
@@ -271,7 +246,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     }
     any_worthwhile = true;
     plan.statistics.choose_ms += stopwatch.lap_ms();
-    auto path = way_to(map, *setup_.platform, current, view.pose, options_.object->centre());
+    auto path = way_around(map, *setup_.platform, current, view.pose, options_.object->centre());
     plan.statistics.path_ms += stopwatch.lap_ms();
     if (path) {
       plan.outcome = Outcome::Move;

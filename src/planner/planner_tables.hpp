@@ -5,16 +5,23 @@
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/planner/object_planner.hpp>
 
 #include "planner/setting_table.hpp"
 
 namespace vantage::detail {
+
+/// What the settings of `next-best-view` set: it is one planner of two.
+struct NextBestViewSettings {
+  NextBestViewOptions cells;
+  ObjectPlannerOptions surface;
+};
 
 /// One table per options struct: what `make_planner` reads, `planner_settings` lists and the constructors validate.
 [[nodiscard]] const SettingTable<FrontierSurveyOptions>& frontier_survey_settings();
 [[nodiscard]] const SettingTable<FrontierGainOptions>& frontier_gain_settings();
 [[nodiscard]] const SettingTable<FrontierVoidOptions>& frontier_void_settings();
 [[nodiscard]] const SettingTable<HarmonicOptions>& harmonic_settings();
-[[nodiscard]] const SettingTable<NextBestViewOptions>& next_best_view_settings();
+[[nodiscard]] const SettingTable<NextBestViewSettings>& next_best_view_settings();
 
 }  // namespace vantage::detail

@@ -139,6 +139,24 @@ std::size_t BlockingGrid::update(const OccupancyMap& map) {
   return changed.size();
 }
 
+void BlockingGrid::suppose(const CellSet& stopping) {
+  const VoxelBox& box = stopping.box();
+  if (box.empty()) {
+    return;
+  }
+  const VoxelBox words{word_of(box.lo), word_of(box.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  reach({page_address(words.lo), page_address(words.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}});
+  CellSet within(box);
+  for_each_cell(words, [&](const VoxelIndex& word) {
+    within.insert_word(word, ~std::uint64_t{0});
+    Page& page = writable_page(page_address(word));
+    std::uint64_t& blocking = page.blocking[offset_in_page(word)];
+    blocking = (blocking & ~within.word(word)) | page.occupied[offset_in_page(word)] | stopping.word(word);
+    set_free(page, word, blocking == 0);
+  });
+  refresh_distances();
+}
+
 VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) const {
   const VoxelIndex cell = Brick::first_cell(address);
   const VoxelIndex lo = word_of({cell.x >> level_, cell.y >> level_, cell.z >> level_});

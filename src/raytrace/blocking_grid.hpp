@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <vantage/map/occupancy_map.hpp>
+#include <vantage/raytrace/cell_set.hpp>
 #include <vector>
 
 namespace vantage {
@@ -35,6 +36,9 @@ class BlockingGrid {
 
   /// Takes over what changed in the map since the last call. Returns how many of its bricks changed.
   std::size_t update(const OccupancyMap& map);
+
+  /// As RayCaster::suppose.
+  void suppose(const CellSet& stopping);
 
   /// The word that holds a cell.
   [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }

@@ -56,6 +56,8 @@ RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 std::size_t RayCaster::update() { return grid_->update(*map_); }
 
+void RayCaster::suppose(const CellSet& stopping) { grid_->suppose(stopping); }
+
 Occupancy RayCaster::at(const VoxelIndex& cell) const { return grid_->at(cell); }
 
 std::size_t RayCaster::memory_bytes() const { return sizeof(*this) + grid_->memory_bytes(); }

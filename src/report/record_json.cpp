@@ -115,6 +115,7 @@ std::string end_json(const RunRecord& run) {
                  {"coverage", value_or_null(run.coverage)},
                  {"observable_cells", run.observable_cells},
                  {"surface_coverage", value_or_null(run.surface_coverage)},
+                 {"seen_observable", value_or_null(run.seen_observable)},
                  {"collisions", run.collisions},
                  {"integration_operations", run.integration_operations},
                  {"planning_operations", run.planning_operations},
@@ -133,6 +134,7 @@ void read_end(const std::string& text, RunRecord& run) {
   take(object, "coverage", run.coverage);
   take(object, "observable_cells", run.observable_cells);
   take(object, "surface_coverage", run.surface_coverage);
+  take(object, "seen_observable", run.seen_observable);
   take(object, "collisions", run.collisions);
   take(object, "integration_operations", run.integration_operations);
   take(object, "planning_operations", run.planning_operations);

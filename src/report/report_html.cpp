@@ -42,21 +42,11 @@ json parsed_report(const std::string& text) {
   return report;
 }
 
-// Surface coverage view by view is in the record only.
-json surface_json(const RunRecord& run) {
-  json shares = json::array();
-  for (const ViewRecord& view : run.views) {
-    shares.push_back(view.surface_coverage ? json(*view.surface_coverage) : json(nullptr));
-  }
-  return shares;
-}
-
 json run_json(json report, const detail::Replay* replay) {
   json run = {{"report", std::move(report)}};
   // Of another run, or of one that was still going on: then it does not belong to the report.
   if (replay != nullptr && !replay->cycles.empty() && replay->cycles.size() == run["report"]["cycles"].size()) {
     run["replay"] = detail::replay_json(*replay);
-    run["surface"] = surface_json(replay->run);
   }
   return run;
 }

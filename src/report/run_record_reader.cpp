@@ -85,6 +85,7 @@ class RunRecordReader::State {
     run.travelled.insert(run.travelled.end(), view.passed.begin(), view.passed.end());
     run.coverage = view.coverage;
     run.surface_coverage = view.surface_coverage;
+    run.seen_coverage = view.seen_coverage;
     if (cycle.planned) {
       run.leftover = cycle.leftover;
     }

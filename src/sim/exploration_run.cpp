@@ -12,6 +12,7 @@
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/plan_check.hpp>
 #include <vantage/sim/exploration_run.hpp>
+#include <vantage/view/candidate_views.hpp>
 
 #include "map/option_rule.hpp"
 #include "sim/surface_coverage.hpp"
@@ -86,6 +87,7 @@ struct ExplorationRun::Progress {
   std::vector<Eigen::Vector3d> passed;  // since the scan before
   std::vector<VoxelIndex> observable;
   SurfaceCoverage surface;
+  SeenSurface seen;
   RunRecord record;
 };
 
@@ -155,6 +157,7 @@ void ExplorationRun::know_surroundings() {
 void ExplorationRun::scan(Progress& progress) {
   const Scan scan = progress.sensor.scan(progress.pose);
   progress.surface.add(scan);
+  progress.seen.add(progress.pose);
   const Clock::time_point start = Clock::now();
   const ScanReport report = map_.insert(scan, options_.ray_policy);
   if (band_) {
@@ -180,6 +183,10 @@ void ExplorationRun::scan(Progress& progress) {
   if (!options_.surface_samples.empty()) {
     view.surface_coverage = progress.surface.share();
     record.surface_coverage = view.surface_coverage;
+  }
+  if (!options_.object_surface.empty()) {
+    view.seen_coverage = progress.seen.share();
+    record.seen_coverage = view.seen_coverage;
   }
   record.views.push_back(view);
   progress.since_scan_m = 0.0;
@@ -274,6 +281,30 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
   scan(progress);
 }
 
+// From the lattice that coverage looks from and, for an object is small beside it, from shells around the object.
+void ExplorationRun::measure_observable(Progress& progress, const Pose& start) const {
+  if (options_.object_surface.empty()) {
+    return;
+  }
+  std::vector<Eigen::Vector3d> places;
+  for (const VoxelIndex& cell : truth_.lattice(*platform_, start)) {
+    places.push_back(map_.frame().centre_of(cell));
+  }
+  Box box;
+  for (const SurfaceSample& sample : options_.object_surface) {
+    box.extend(sample.point);
+  }
+  const double reach_m = 0.5 * box.extent().norm();
+  for (const Pose& view : views_around(box.centre(), std::vector{1.1 * reach_m, 1.5 * reach_m, 2.5 * reach_m})) {
+    if (platform_->admits(truth_.map(), view)) {
+      places.push_back(view.translation());
+    }
+  }
+  const std::size_t observable = progress.seen.observable_count(*platform_, places);
+  progress.record.seen_observable =
+      observable == 0 ? 1.0 : static_cast<double>(progress.seen.seen_count()) / static_cast<double>(observable);
+}
+
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
   map_ = OccupancyMap(options_.map);
@@ -285,10 +316,11 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
                     .passed = {start.translation()},
                     .observable = {},
                     .surface = SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
+                    .seen = SeenSurface(scene_, options_.object_surface, sensor_),
                     .record = {}};
   if (options_.measure_coverage) {
-    progress.observable =
-        truth_.observable(*platform_, sensor_, start, options_.threads, options_.on_observable_share);
+    progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads,
+                                            options_.on_observable_share, options_.unknown_box);
   }
   progress.body_radius_m = options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
   RunRecord& record = progress.record;
@@ -337,6 +369,7 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
     }
     follow(progress, next, on_view);
   }
+  measure_observable(progress, start);
   record.peak_memory_mb = peak_memory_mb();
   return std::move(progress.record);
 }

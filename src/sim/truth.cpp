@@ -148,11 +148,20 @@ std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& sta
 }
 
 std::vector<VoxelIndex> Truth::observable(const Platform& platform, const RangeSensor& sensor, const Pose& start,
-                                          int threads, const std::function<void(double)>& on_share) const {
+                                          int threads, const std::function<void(double)>& on_share,
+                                          const std::optional<Box>& within) const {
   sensor.validate();
   const std::vector<VoxelIndex> poses = lattice(platform, start);
   const Sight sight(cells_, map_.frame(), sensor, platform.can_tilt());
-  return seen_cells(sight, region_, poses, threads, on_share);
+  VoxelBox cells = region_;
+  if (within) {
+    const VoxelFrame& frame = map_.frame();
+    const VoxelIndex lo = frame.cell_of(within->min);
+    const VoxelIndex hi = frame.cell_of(within->max) + VoxelIndex{1, 1, 1};
+    cells.lo = {std::max(cells.lo.x, lo.x), std::max(cells.lo.y, lo.y), std::max(cells.lo.z, lo.z)};
+    cells.hi = {std::min(cells.hi.x, hi.x), std::min(cells.hi.y, hi.y), std::min(cells.hi.z, hi.z)};
+  }
+  return cells.empty() ? std::vector<VoxelIndex>() : seen_cells(sight, cells, poses, threads, on_share);
 }
 
 double Truth::coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const {

@@ -9,14 +9,8 @@
 namespace vantage {
 namespace {
 
-// An unknown cell that can be seen from the free cell beside it.
-struct VisibleFace {
-  VoxelIndex unknown;
-  VoxelIndex normal;  // step to the free cell
-};
-
-std::vector<VisibleFace> visible_faces(const RayCaster& caster, const CellSet& sought) {
-  std::vector<VisibleFace> faces;
+std::vector<CellFace> visible_faces(const RayCaster& caster, const CellSet& sought) {
+  std::vector<CellFace> faces;
   sought.for_each([&](const VoxelIndex& cell) {
     if (caster.at(cell) != Occupancy::Unknown) {
       return;
@@ -30,13 +24,13 @@ std::vector<VisibleFace> visible_faces(const RayCaster& caster, const CellSet& s
   return faces;
 }
 
-std::optional<Pose> view_of(const VisibleFace& face, const RayCaster& caster, const AimedViewOptions& options,
+std::optional<Pose> view_of(const CellFace& face, const RayCaster& caster, const AimedViewOptions& options,
                             Dice& dice) {
   constexpr int kDraws = 64;
   constexpr double kIntoFreeCell = 0.5 + 1e-3;  // of a cell: just across the face
   const Eigen::Vector3d normal(face.normal.x, face.normal.y, face.normal.z);
   const Eigen::Vector3d on_face =
-      caster.frame().centre_of(face.unknown) + kIntoFreeCell * caster.frame().size_m * normal;
+      caster.frame().centre_of(face.cell) + kIntoFreeCell * caster.frame().size_m * normal;
   for (int draw = 0; draw < kDraws; ++draw) {
     const Eigen::Vector3d towards = normal + dice.direction();
     const double distance_m =
@@ -63,12 +57,13 @@ void validate(const AimedViewOptions& options) {
 
 std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought, const AimedViewOptions& options,
                               std::uint64_t seed) {
+  return options.count == 0 ? std::vector<Pose>() : aimed_views(caster, visible_faces(caster, sought), options, seed);
+}
+
+std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellFace> faces,
+                              const AimedViewOptions& options, std::uint64_t seed) {
   validate(options);
   std::vector<Pose> views;
-  if (options.count == 0) {
-    return views;
-  }
-  const std::vector<VisibleFace> faces = visible_faces(caster, sought);
   Dice dice(seed);
   for (std::size_t i = 0; i < options.count && !faces.empty(); ++i) {
     if (const std::optional<Pose> view = view_of(faces[dice.below(faces.size())], caster, options, dice)) {

@@ -358,6 +358,51 @@ TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
   EXPECT_GT(cells, 300U * kWorlds);
 }
 
+// As if the map said what is supposed: rays pass the unknown cells of the box but some.
+TEST(RayCaster, SupposesWhatUnknownCellsHold) {
+  std::mt19937 engine(91);
+  std::uniform_int_distribution<std::int32_t> cell(-24, 12);
+  std::size_t rays = 0;
+  std::size_t unknown_ends = 0;
+  for (int round = 0; round < 12; ++round) {
+    OccupancyMap map = test::random_map(engine);
+    RayCaster caster(map);
+    for (int change = 0; change < 3; ++change) {
+      const VoxelIndex lo{cell(engine), cell(engine), cell(engine)};
+      CellSet stopping(VoxelBox{lo, lo + VoxelIndex{17, 9, 14}});
+      OccupancyMap supposed = map;
+      for_each_cell(stopping.box(), [&](const VoxelIndex& at) {
+        if (map.at(at) == Occupancy::Unknown) {
+          if (engine() % 7 == 0) {
+            stopping.insert(at);
+          } else {
+            supposed.set(at, Occupancy::Free);
+          }
+        }
+      });
+      caster.suppose(stopping);
+      const RayCaster expected(supposed);
+      for (int i = 0; i < 200; ++i, ++rays) {
+        const Eigen::Vector3d from = random_point(engine, map.frame(), 3.0);
+        const Eigen::Vector3d to = map.frame().centre_of(lo + VoxelIndex{static_cast<std::int32_t>(engine() % 17),
+                                                                         static_cast<std::int32_t>(engine() % 9),
+                                                                         static_cast<std::int32_t>(engine() % 14)});
+        const RayEnd end = caster.cast(to, from);
+        EXPECT_EQ(end, expected.cast(to, from));
+        unknown_ends += end.occupancy == Occupancy::Unknown ? 1U : 0U;
+      }
+      for_each_cell(stopping.box().grown(2),
+                    [&](const VoxelIndex& at) { EXPECT_EQ(caster.at(at), expected.at(at)); });
+      // Nothing is supposed any more of what changes: here all of it.
+      map.set_log_odds(stopping.box().grown(8), -2.0);
+      caster.update();
+      EXPECT_EQ(caster.at(lo), Occupancy::Free);
+    }
+  }
+  EXPECT_EQ(rays, 7'200U);
+  EXPECT_GT(unknown_ends, 1'000U);
+}
+
 TEST(RayCaster, NamesWhatIsWrong) {
   const OccupancyMap map;
   EXPECT_THROW(RayCaster(map, {.level = 17}), std::invalid_argument);

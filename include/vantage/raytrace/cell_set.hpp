@@ -46,6 +46,10 @@ class CellSet {
       words_[place_of(first)] |= whole ? cells : cells & in_box(first);
     }
   }
+  /// The cells of a word that it holds, as `for_each_word` tells them; none outside the box.
+  [[nodiscard]] std::uint64_t word(const VoxelIndex& word) const {
+    return VoxelBox{lo_, lo_ + extent_}.contains(word) ? words_[place_of({word.x * 4, word.y * 4, word.z * 4})] : 0;
+  }
   /// Takes a cell out.
   void erase(const VoxelIndex& cell) {
     if (box_.contains(cell)) {

@@ -65,6 +65,11 @@ class RayCaster {
   /// coarser cells, which are all taken anew. Returns how many bricks were read. Errors as the constructor.
   std::size_t update();
 
+  /// Supposes what unknown cells hold: in the box of the set rays are stopped by occupied cells and by those of the
+  /// set alone, which must be unknown, and pass all others. This lasts until `update` finds a change of the map there
+  /// or the next call for the same box.
+  void suppose(const CellSet& stopping);
+
   /// The cells of which it speaks: those of the map at its level.
   [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
   /// The options it was made with.

@@ -51,7 +51,8 @@ struct ViewRecord {
   std::size_t view = 0;                    ///< 1 for the first scan
   Pose pose = Pose::Identity();            ///< world_from_sensor of the scan
   std::optional<double> coverage;          ///< after this scan, where the true world is known
-  std::optional<double> surface_coverage;  ///< after this scan, where an object was to be seen
+  std::optional<double> surface_coverage;  ///< after this scan, where an object was to be seen: measured within a gap
+  std::optional<double> seen_coverage;     ///< the same: share of its surface that was in an image (SeenSurface)
   double path_length_m = 0.0;              ///< travelled so far
   double insert_ms = 0.0;                  ///< time to integrate the scan
   double plan_ms = 0.0;                    ///< 0 where the plan before was still being followed
@@ -88,7 +89,9 @@ struct RunRecord {
   std::string reason;                        ///< one sentence, for a person
   std::optional<double> coverage;            ///< at the end, where the true world is known
   std::size_t observable_cells = 0;          ///< cells the sensor could ever see there, by the truth
-  std::optional<double> surface_coverage;    ///< at the end, where an object was to be seen
+  std::optional<double> surface_coverage;    ///< at the end, where an object was to be seen: measured within a gap
+  std::optional<double> seen_coverage;       ///< the same: share of its surface that was in an image
+  std::optional<double> seen_observable;     ///< the same, of what any admitted pose could see
   Leftover leftover;                         ///< frontier or void cells given up
   std::size_t collisions = 0;                ///< of the body with the true world
   std::uint64_t integration_operations = 0;  ///< cell updates by scans

@@ -13,6 +13,7 @@
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_record.hpp>
 #include <vantage/robot/platform.hpp>
+#include <vantage/sim/seen_surface.hpp>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/triangle_scene.hpp>
 #include <vantage/sim/truth.hpp>
@@ -45,7 +46,8 @@ struct ExplorationRunOptions {
   /// Platform::body_box, which counts a margin that the platform keeps for planning as body.
   std::optional<double> body_radius_m = std::nullopt;
   int threads = 1;  ///< for the observable cells, > 0
-  /// Whether coverage is measured, which takes finding all observable cells of the world first.
+  /// Whether coverage is measured, which takes finding all observable cells first: those of `unknown_box`, if there
+  /// is one.
   bool measure_coverage = true;
   /// Told of that search as Truth::observable tells of it; none: nobody is.
   std::function<void(double share)> on_observable_share = {};
@@ -60,6 +62,9 @@ struct ExplorationRunOptions {
   double surface_gap_m = 0.005;  ///< > 0 (V-G, in the reference data)
   /// Asked after every scan, and after every plan before it is followed; true ends the run there, as interrupted.
   std::function<bool()> stop = {};
+  /// The surface of an object of which is reported what the images have shown (SeenSurface). None: that is not
+  /// measured.
+  std::vector<SurfaceSample> object_surface = {};
 };
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal the
@@ -97,6 +102,7 @@ class ExplorationRun {
   void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
   void follow(Progress& progress, const Plan& plan, const OnView& on_view);
   [[nodiscard]] bool stopped() const { return options_.stop && options_.stop(); }
+  void measure_observable(Progress& progress, const Pose& start) const;
   [[nodiscard]] bool collides(const Pose& from, const Pose& to, double radius_m) const;
   void move(Progress& progress, const Pose& to);
 

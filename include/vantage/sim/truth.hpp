@@ -55,11 +55,13 @@ class Truth {
   /// centres passes free cells only, the distance is within the sensor's range (its lower end for surfaces only),
   /// and, for a free cell and a sensor that does not report rays without a return, the line goes on to a surface
   /// within range: nothing else would clear the cell. Orientation is free, but for a platform that cannot tilt the
-  /// cell must be in view of the level sensor turned towards it. In raster order; the same for any number of threads.
-  /// `on_share` is told which share of the cells has been asked, now and then, from one thread at a time.
+  /// cell must be in view of the level sensor turned towards it. Only cells that touch `within`, if given. In raster
+  /// order; the same for any number of threads. `on_share` is told which share of the cells has been asked, now and
+  /// then, from one thread at a time.
   [[nodiscard]] std::vector<VoxelIndex> observable(const Platform& platform, const RangeSensor& sensor,
                                                    const Pose& start, int threads = 1,
-                                                   const std::function<void(double share)>& on_share = {}) const;
+                                                   const std::function<void(double share)>& on_share = {},
+                                                   const std::optional<Box>& within = std::nullopt) const;
 
   /// Share of `cells` that the map knows with the right state; 1 if there are none.
   [[nodiscard]] double coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const;

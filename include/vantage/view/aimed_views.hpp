@@ -3,13 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
+#include <vantage/geometry/voxel.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
+
+/// A face of a cell that stops sight, seen from the cell across it.
+struct CellFace {
+  VoxelIndex cell;    ///< which stops sight
+  VoxelIndex normal;  ///< one of kFaceNeighbours: the step across the face
+};
 
 /// Options of aimed_views.
 struct AimedViewOptions {
@@ -29,6 +37,9 @@ void validate(const AimedViewOptions& options);
 /// often than along it (Lambert's cosine law), until one sees it; a face that none of 64 sees has no view. The same
 /// seed and map give the same views. `caster` must look at the finest cells. Errors as `validate`.
 [[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought,
+                                            const AimedViewOptions& options, std::uint64_t seed);
+/// The same, of faces that are given.
+[[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellFace> faces,
                                             const AimedViewOptions& options, std::uint64_t seed);
 
 }  // namespace vantage

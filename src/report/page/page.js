@@ -26,10 +26,9 @@ function percent(share, digits = 1) {
   return share === null || share === undefined ? "–" : `${(100 * share).toFixed(digits)} %`;
 }
 
-// What a run is measured by where the truth is known: the world's cells or an object's surface.
-function shareOf({ report, surface }, cycle) {
-  if (report.coverage !== null && report.coverage !== undefined) return cycle.coverage;
-  return surface ? surface[cycle.view - 1] : null;
+// What a run is measured by where the truth is known: what was seen of an object, or the world's cells.
+function shareOf(cycle) {
+  return cycle.seen_coverage ?? cycle.coverage ?? null;
 }
 
 // Cubic metres known after a view: what there is to tell of a run of which nobody knows the truth.
@@ -39,11 +38,11 @@ function knownOf({ replay }, i) {
 
 // What the first plot shows of a run at a cycle: shares in percent where anything is measured, else cubic metres.
 function progressOf(run, i) {
-  return measured() ? percentOrNull(shareOf(run, run.report.cycles[i])) : knownOf(run, i);
+  return measured() ? percentOrNull(shareOf(run.report.cycles[i])) : knownOf(run, i);
 }
 
 function measured() {
-  return runs.some((run) => run.report.cycles.some((cycle) => shareOf(run, cycle) !== null));
+  return runs.some((run) => run.report.cycles.some((cycle) => shareOf(cycle) !== null));
 }
 
 // Runs that differ in their seed alone: one colour, and one row of the table.
@@ -71,6 +70,8 @@ function showNumbers() {
     ["outcome", "outcome", report.outcome, report.outcome], ["views", "views", report.views, report.views],
     ["path_length_m", "path", report.path_length_m, `${report.path_length_m.toFixed(1)} m`],
     ["coverage", "coverage", report.coverage, percent(report.coverage, 2)],
+    ["seen_coverage", "seen", report.seen_coverage, percent(report.seen_coverage, 2)],
+    ["seen_observable", "seen of what can be", report.seen_observable, percent(report.seen_observable, 2)],
     ["surface_coverage", "surface", report.surface_coverage, percent(report.surface_coverage, 2)],
     ["collisions", "collisions", report.collisions, report.collisions],
     ["time_ms.insert.median", "insert, median", report.time_ms.insert.median, milliseconds(report.time_ms.insert.median)],
@@ -115,7 +116,7 @@ function showTable() {
   }
   const columns = [
     ["views", (r) => r.report.views, (v) => v.toFixed(0)], ["path [m]", (r) => r.report.path_length_m, (v) => v.toFixed(1)],
-    ["coverage", (r) => r.report.coverage ?? r.report.surface_coverage, (v) => percent(v, 2)],
+    ["coverage", (r) => r.report.seen_coverage ?? r.report.coverage, (v) => percent(v, 2)],
     ["time [s]", (r) => r.seconds[r.seconds.length - 1], (v) => v.toFixed(1)],
     ["plan [ms]", (r) => r.report.time_ms.plan.median, (v) => String(+v.toPrecision(3))],
   ];
@@ -166,7 +167,7 @@ function drawCurves() {
   const from = state.abscissa === "view" ? 1 : 0;
   const progress = runs.map((run) => run.report.cycles.map((_, i) => progressOf(run, i)));
   $("coverage-title").textContent = !measured() ? "Known volume"
-    : runs[0].report.coverage === null ? "Surface measured" : "Cells known rightly";
+    : (runs[0].report.seen_coverage ?? null) === null ? "Cells known rightly" : "Surface seen";
   plots.coverage.begin([from, Math.max(...ends)], [0, measured() ? 100 : Math.max(...progress.flat(), 0)], label,
     measured() ? " %" : " m³");
   runs.forEach((run, k) => {

@@ -49,34 +49,21 @@ RunRecord three_views() {
 
 TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
   const ordered_json report = ordered_json::parse(report_json(three_views()));
-  EXPECT_EQ(keys_of(report), (std::vector<std::string>{"vantage",
-                                                       "command",
-                                                       "world",
-                                                       "planner",
-                                                       "seed",
-                                                       "threads",
-                                                       "resolution_m",
-                                                       "outcome",
-                                                       "reason",
-                                                       "views",
-                                                       "path_length_m",
-                                                       "coverage",
-                                                       "observable_cells",
-                                                       "surface_coverage",
-                                                       "leftover",
-                                                       "collisions",
-                                                       "ray_operations",
-                                                       "time_ms",
-                                                       "peak_memory_mb",
-                                                       "cycles"}));
+  EXPECT_EQ(keys_of(report),
+            (std::vector<std::string>{
+                "vantage",          "command",       "world",           "planner",        "seed",
+                "threads",          "resolution_m",  "outcome",         "reason",         "views",
+                "path_length_m",    "seen_coverage", "seen_observable", "coverage",       "observable_cells",
+                "surface_coverage", "leftover",      "collisions",      "ray_operations", "time_ms",
+                "peak_memory_mb",   "cycles"}));
   EXPECT_EQ(keys_of(report["leftover"]), (std::vector<std::string>{"unreachable", "unobservable", "in_vain", "too_small"}));
   EXPECT_EQ(keys_of(report["ray_operations"]), (std::vector<std::string>{"integration", "planning"}));
   EXPECT_EQ(keys_of(report["time_ms"]), (std::vector<std::string>{"insert", "plan"}));
   EXPECT_EQ(keys_of(report["time_ms"]["plan"]), (std::vector<std::string>{"median", "max"}));
   ASSERT_EQ(report["cycles"].size(), 3U);
   EXPECT_EQ(keys_of(report["cycles"][0]),
-            (std::vector<std::string>{"view", "pose", "coverage", "path_length_m", "insert_ms", "plan_ms", "utility",
-                                      "frontier_cells", "void_cells", "outcome"}));
+            (std::vector<std::string>{"view", "pose", "coverage", "seen_coverage", "path_length_m", "insert_ms",
+                                      "plan_ms", "utility", "frontier_cells", "void_cells", "outcome"}));
 }
 
 TEST(ReportJson, SaysWhatTheRecordSays) {
@@ -90,6 +77,8 @@ TEST(ReportJson, SaysWhatTheRecordSays) {
   EXPECT_EQ(report["coverage"], 0.998);
   EXPECT_EQ(report["observable_cells"], 123456);
   EXPECT_TRUE(report["surface_coverage"].is_null());
+  EXPECT_TRUE(report["seen_coverage"].is_null());
+  EXPECT_TRUE(report["cycles"][0]["seen_coverage"].is_null());
   EXPECT_EQ(report["leftover"]["in_vain"], 3);
   EXPECT_EQ(report["leftover"]["too_small"], 0) << "no count of cells makes a frontier too small";
   EXPECT_EQ(report["time_ms"]["insert"]["median"], 4.0);

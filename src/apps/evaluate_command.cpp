@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vantage/evaluation/object_peers.hpp>
+#include <vantage/evaluation/test_objects.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/sim/exploration_run.hpp>
+#include <vantage/sim/mesh_file.hpp>
+#include <vector>
+
+#include "apps/explore_request.hpp"
+#include "apps/help_format.hpp"
+#include "apps/report_commands.hpp"
+#include "apps/shared_options.hpp"
+
+namespace vantage::apps {
+namespace {
+
+using nlohmann::json;
+
+// `vantage evaluate objects` as it was typed.
+struct EvaluateRequest {
+  std::vector<std::string> objects;
+  std::vector<std::string> planners{"next-best-view", "evenly-spaced", "random-views", "oracle-greedy"};
+  std::vector<std::string> sensors{"vpl", "vpl+"};
+  std::vector<double> resolutions_m{0.01};
+  std::size_t starts = 3;
+  std::string results;
+  bool quick = false;
+  ExploreRequest run;
+};
+
+// One run.
+struct Trial {
+  std::string object;
+  std::string planner;
+  std::string sensor;
+  double resolution_m = 0.01;
+  std::uint64_t start = 1;
+
+  [[nodiscard]] std::string key() const {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g %llu", resolution_m, static_cast<unsigned long long>(start));
+    return object + ' ' + planner + ' ' + sensor + ' ' + text;
+  }
+};
+
+// NAME[:SEED] of a generated object, or FILE[@SCALE[,y]] of a mesh.
+TriangleMesh object_of(const std::string& text) {
+  const auto generated = generated_object_names();
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  if (std::find(generated.begin(), generated.end(), name) != generated.end()) {
+    return generated_object(name, colon == std::string::npos ? 1 : std::stoull(text.substr(colon + 1)));
+  }
+  const std::size_t at = text.find('@');
+  const std::string how = at == std::string::npos ? "1" : text.substr(at + 1);
+  const bool y_up = how.size() > 2 && how.ends_with(",y");
+  const TriangleMesh mesh =
+      read_mesh_file(text.substr(0, at), {.up = y_up ? MeshFileOptions::Up::Y : MeshFileOptions::Up::Z});
+  TriangleMesh scaled;
+  scaled.append(mesh, Pose::Identity(), std::stod(how));
+  return scaled;
+}
+
+// NAME or FILE.json; with a + behind it, it reports rays that meet nothing.
+RangeSensor sensor_named(const std::string& name, const ExploreRequest& shared) {
+  ExploreRequest request = shared;
+  const bool reports = name.ends_with('+');
+  request.sensor = reports ? name.substr(0, name.size() - 1) : name;
+  RangeSensor sensor = sensor_of(request);
+  sensor.reports_no_return = sensor.reports_no_return || reports;
+  return sensor;
+}
+
+json result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spread) {
+  const TriangleMesh object = object_of(trial.object);
+  const RangeSensor sensor = sensor_named(trial.sensor, shared);
+  const ObjectScene scene = object_scene(object, sensor, {.name = trial.object, .resolution_m = trial.resolution_m});
+  const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = shared.robot_radius_m});
+  ExplorationRunOptions options;
+  options.map.resolution_m = trial.resolution_m;
+  options.max_views = spread > 0 ? spread : shared.max_views;
+  options.scan_spacing_m = 0.0;
+  options.seed = trial.start;
+  options.noise = noise_of(shared);
+  options.measure_coverage = false;
+  options.unknown_box = scene.box;
+  options.object_surface = sample_surface(object);
+  ExplorationRun run(scene.world, sensor, platform, options);
+  const auto names = object_peer_names();
+  Pose start = draw_first_view(scene, run.truth(), *platform, trial.start);
+  std::unique_ptr<ExplorationPlanner> planner;
+  if (std::find(names.begin(), names.end(), trial.planner) != names.end()) {
+    const SeenSurface surface(TriangleScene(scene.world.mesh), options.object_surface, sensor);
+    auto peer = make_object_peer(trial.planner, {.platform = platform,
+                                                 .scene = &scene,
+                                                 .truth = &run.truth(),
+                                                 .surface = &surface,
+                                                 .views = options.max_views,
+                                                 .seed = trial.start});
+    start = peer->first_view().value_or(start);
+    planner = std::move(peer);
+  } else {
+    PlannerSettings settings = planner_settings(scene);
+    for (const auto& [name, value] : settings_of(shared)) {
+      settings.insert_or_assign(name, value);
+    }
+    planner = make_planner(trial.planner, {.sensor = sensor, .platform = platform, .seed = trial.start}, settings);
+  }
+  const auto began = std::chrono::steady_clock::now();
+  const RunRecord record = run.run(*planner, start);
+  json result{{"key", trial.key()},
+              {"object", trial.object},
+              {"planner", trial.planner},
+              {"seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count()},
+              {"outcome", to_string(record.outcome)},
+              {"observable", *record.seen_observable > 0.0 ? *record.seen_coverage / *record.seen_observable : 0.0},
+              {"seen", json::array()},
+              {"path_m", json::array()},
+              {"plan_ms", json::array()}};
+  for (const ViewRecord& view : record.views) {
+    result["seen"].push_back(*view.seen_coverage);
+    result["path_m"].push_back(view.path_length_m);
+    result["plan_ms"].push_back(view.plan_ms);
+  }
+  return result;
+}
+
+std::map<std::string, json> results_in(const std::string& file) {
+  std::map<std::string, json> results;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    json result = json::parse(line, nullptr, false);
+    if (result.is_object() && result.contains("key")) {  // a run that was cut off leaves half a line
+      results.insert_or_assign(result.at("key").get<std::string>(), result);
+    }
+  }
+  return results;
+}
+
+// The value at a share of the sorted ones.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+// After so many views, or as many as there are.
+double at_view(const json& list, std::size_t view) {
+  return list.empty() ? 0.0 : list.at(std::min(view, list.size()) - 1).get<double>();
+}
+
+void print_row(const std::string& object, const std::string& planner, const std::vector<const json*>& results) {
+  constexpr std::size_t kShown = 10;
+  std::printf("| %s | %s |", object.c_str(), planner.c_str());
+  const auto over = [&](const auto& value) {
+    std::vector<double> values;
+    for (const json* result : results) {
+      values.push_back(value(*result));
+    }
+    return values;
+  };
+  for (std::size_t view = 1; view <= kShown; ++view) {
+    std::printf(" %.0f", 100.0 * quantile(over([&](const json& r) { return at_view(r.at("seen"), view); }), 0.5));
+  }
+  const auto enough = over([](const json& r) {
+    const double wanted = 0.95 * r.at("observable").get<double>();
+    const json& seen = r.at("seen");
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i].get<double>() >= wanted) {
+        return static_cast<double>(i + 1);
+      }
+    }
+    return 99.0;
+  });
+  const auto views = over([](const json& r) { return static_cast<double>(r.at("seen").size()); });
+  const auto last = over([](const json& r) { return 100.0 * r.at("seen").back().get<double>(); });
+  std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.0f | %.1f | %.1f | %.1f |\n",
+              quantile(over([](const json& r) { return 100.0 * r.at("observable").get<double>(); }), 0.5),
+              quantile(enough, 0.5), quantile(enough, 0.25), quantile(enough, 0.75), quantile(last, 0.5),
+              quantile(views, 0.5), quantile(over([](const json& r) { return at_view(r.at("path_m"), 5); }), 0.5),
+              quantile(over([](const json& r) { return r.at("path_m").back().get<double>(); }), 0.5),
+              quantile(over([](const json& r) { return r.at("seconds").get<double>(); }), 0.5));
+}
+
+void evaluate_objects(EvaluateRequest& request) {
+  if (request.quick) {
+    request.starts = 1;
+    request.sensors = {"vpl+"};
+    request.resolutions_m = {0.02};
+  }
+  if (request.objects.empty()) {
+    for (const std::string_view name : generated_object_names()) {
+      request.objects.emplace_back(name);
+    }
+  }
+  std::map<std::string, json> done =
+      request.results.empty() ? std::map<std::string, json>() : results_in(request.results);
+  std::ofstream out;
+  if (!request.results.empty()) {
+    out.open(request.results, std::ios::app);
+  }
+  std::map<std::pair<std::string, std::string>, std::vector<json>> rows;
+  const std::size_t all = request.objects.size() * request.sensors.size() * request.resolutions_m.size() *
+                          request.starts * request.planners.size();
+  std::size_t count = 0;
+  for (const std::string& object : request.objects) {
+    for (const std::string& sensor : request.sensors) {
+      for (const double resolution_m : request.resolutions_m) {
+        for (std::uint64_t start = 1; start <= request.starts; ++start) {
+          std::size_t taken = 0;  // by the planner that is compared
+          for (const std::string& planner : request.planners) {
+            const Trial trial{object, planner, sensor, resolution_m, start};
+            std::fprintf(stderr, "\r%zu of %zu  %s\x1b[K", ++count, all, trial.key().c_str());
+            auto found = done.find(trial.key());
+            if (found == done.end()) {
+              const std::size_t spread = planner == "evenly-spaced" ? taken : 0;
+              found = done.emplace(trial.key(), result_of(trial, request.run, spread)).first;
+              out << found->second.dump() << '\n' << std::flush;
+            }
+            if (planner == "next-best-view") {
+              taken = found->second.at("seen").size();
+            }
+            rows[{object, planner}].push_back(found->second);
+          }
+        }
+      }
+    }
+  }
+  std::fprintf(stderr, "\r\x1b[K");
+  std::printf(
+      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
+      "the end | views | path after 5, m | path | s |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const std::string& object : request.objects) {
+    for (const std::string& planner : request.planners) {
+      std::vector<const json*> results;
+      for (const json& result : rows[{object, planner}]) {
+        results.push_back(&result);
+      }
+      print_row(object, planner, results);
+    }
+  }
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("evaluate", "Print tables of planners beside their peers");
+  const auto request = std::make_shared<EvaluateRequest>();
+  request->run.robot_radius_m = 0.05;
+  request->run.max_views = 20;
+  CLI::App* objects = command->add_subcommand("objects", "How soon how much of objects is seen, over which way");
+  objects
+      ->add_option("--objects", request->objects,
+                   "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; all "
+                   "generated ones unless given")
+      ->delimiter(';');
+  objects->add_option("--planners", request->planners, "Names")->delimiter(',')->capture_default_str();
+  objects->add_option("--sensors", request->sensors, "Names; with a + they report rays that meet nothing")
+      ->delimiter(',')
+      ->capture_default_str();
+  objects->add_option("--resolutions", request->resolutions_m, "Metres")->delimiter(',')->capture_default_str();
+  objects->add_option("--starts", request->starts, "First views of each")->capture_default_str();
+  objects->add_option("--results", request->results, "FILE that keeps every run; those in it are not run again");
+  objects->add_option("--max-views", request->run.max_views, "Scans after which a run ends")->capture_default_str();
+  objects->add_flag("--quick", request->quick, "One start, one sensor, 0.02 m");
+  add_setting_option(*objects, request->run, "A setting of the planner next-best-view");
+  objects->callback([request] { evaluate_objects(*request); });
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/sim/object_scene.hpp>
+#include <vantage/view/candidate_views.hpp>
+
+#include "geometry/dice.hpp"
+
+namespace vantage {
+namespace {
+
+double fitting_radius_m(const Box& box, const RangeSensor& sensor, const ObjectSceneOptions& options) {
+  const double reach_m = 0.5 * box.extent().norm();
+  const double half_angle =
+      std::min(0.5 * std::min(sensor.horizontal_angle_rad(), sensor.vertical_angle_rad()), std::asin(0.5));
+  const double furthest_m = std::min(sensor.max_range_m - reach_m, sensor.resolving_range_m(options.resolution_m));
+  const double nearest_m = std::max(sensor.min_range_m, 0.1) + reach_m;
+  const double radius_m = std::max(std::min(reach_m / std::sin(half_angle), furthest_m), nearest_m);
+  return options.table ? std::min(radius_m, 1.5) : radius_m;
+}
+
+std::string comma_separated(const std::vector<double>& numbers) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const double number : numbers) {
+    text << (text.tellp() > 0 ? "," : "") << number;
+  }
+  return text.str();
+}
+
+}  // namespace
+
+ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, const ObjectSceneOptions& options) {
+  ObjectScene scene;
+  if (options.object_box) {
+    scene.box = *options.object_box;
+  } else {
+    constexpr double kMarginM = 0.03;
+    scene.box = object.bounds();
+    scene.box.min.array() -= kMarginM;
+    scene.box.max.array() += kMarginM;
+    if (options.table) {  // not the table itself
+      scene.box.min.z() = std::max(scene.box.min.z(), kTableTopM + 0.5 * options.resolution_m);
+    }
+  }
+  scene.radii_m =
+      options.radii_m.empty() ? std::vector{fitting_radius_m(scene.box, sensor, options)} : options.radii_m;
+  if (options.table) {
+    scene.world = World::by_name("table");
+  } else {
+    const double reach_m =
+        *std::max_element(scene.radii_m.begin(), scene.radii_m.end()) + 0.5 * scene.box.extent().norm();
+    scene.world.region = {scene.box.centre().array() - reach_m, scene.box.centre().array() + reach_m};
+  }
+  scene.world.name = options.name;
+  scene.world.mesh.append(object);
+  return scene;
+}
+
+PlannerSettings planner_settings(const ObjectScene& scene) {
+  const double furthest_m = *std::max_element(scene.radii_m.begin(), scene.radii_m.end());
+  const Box& box = scene.box;
+  return {{"object", comma_separated({box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()})},
+          {"radii_m", comma_separated(scene.radii_m)},
+          {"aimed_candidates", "320"},
+          {"aimed_min_distance_m", comma_separated({furthest_m / 3.0})},
+          {"aimed_max_distance_m", comma_separated({furthest_m})}};
+}
+
+Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platform& platform, std::uint64_t seed) {
+  const Eigen::Vector3d extent = scene.box.extent();
+  const Eigen::Vector3d sides(extent.y() * extent.z(), extent.z() * extent.x(), extent.x() * extent.y());
+  const std::vector<double> radius{scene.radii_m.front()};
+  std::vector<std::pair<double, Pose>> views;
+  double largest = 0.0;
+  for (const Pose& view : views_around(scene.box.centre(), radius)) {
+    const Pose pose = platform.facing(view.translation(), optical_axis(view));
+    if (platform.admits(truth.map(), pose)) {
+      views.emplace_back(sides.dot(optical_axis(pose).cwiseAbs()), pose);
+      largest = std::max(largest, views.back().first);
+    }
+  }
+  std::erase_if(views, [&](const auto& view) { return view.first < 0.9 * largest; });
+  if (views.empty()) {
+    throw std::invalid_argument("the robot's body fits nowhere on the first shell of views, " +
+                                std::to_string(radius.front()) + " m around the object");
+  }
+  Dice dice(seed);
+  return views[dice.below(views.size())].second;
+}
+
+}  // namespace vantage
