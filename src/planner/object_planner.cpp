@@ -10,7 +10,7 @@
 #include <vantage/view/candidate_views.hpp>
 
 #include "map/option_rule.hpp"
-#include "planner/frontier_cycle.hpp"
+#include "planner/stopwatch.hpp"
 #include "raytrace/shared_work.hpp"
 
 namespace vantage {
