@@ -30,8 +30,14 @@ function(vantage_add_library component)
   # The same bits on every processor: a * b + c rounds twice, as written. And no errno, which keeps sqrt out of vectors.
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
   set_target_properties(
-    ${target} PROPERTIES EXPORT_NAME ${component} POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
-                         VISIBILITY_INLINES_HIDDEN ON VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    ${target}
+    PROPERTIES EXPORT_NAME ${component}
+               POSITION_INDEPENDENT_CODE ON
+               CXX_VISIBILITY_PRESET hidden
+               VISIBILITY_INLINES_HIDDEN ON
+               DEFINE_SYMBOL ""
+               VERSION ${PROJECT_VERSION}
+               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   vantage_warnings(${target})
   if(VANTAGE_INSTALL)
     install(

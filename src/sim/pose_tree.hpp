@@ -104,11 +104,10 @@ class PoseTree {
            any_in(in_order ? node.far : node.near, query, is_solid, ask);
   }
 
-  // Whether all lines from the centre of the cell to those of the box are stopped by one of the first slices of cells
-  // on their way: that is where nearly all that are stopped, are.
+  // Whether one slice of cells on their way stops all lines from the centre of the cell to those of the box. A slice
+  // that does not has a free cell, mostly among the first that are looked at.
   template <class IsSolid>
   static bool is_hidden(const VoxelBox& box, const VoxelIndex& cell, const IsSolid& is_solid) {
-    constexpr std::int32_t kSlices = 12;
     const std::array<std::int32_t, 3> lo = axes_of(box.lo - cell);
     const std::array<std::int32_t, 3> hi = axes_of(box.hi - VoxelIndex{1, 1, 1} - cell);
     std::size_t main = 3;
@@ -128,12 +127,9 @@ class PoseTree {
     const std::size_t v = (main + 2) % 3;
     const Range slope_u = slopes(lo[u], hi[u], along);
     const Range slope_v = slopes(lo[v], hi[v], along);
-    for (std::int32_t slice = 1; slice < nearest && slice <= kSlices; ++slice) {
+    for (std::int32_t slice = 1; slice < nearest; ++slice) {
       const auto [first_u, last_u] = crossed(slope_u, slice);
       const auto [first_v, last_v] = crossed(slope_v, slice);
-      if ((last_u - first_u) * (last_v - first_v) > 64) {
-        return false;
-      }
       bool all_solid = true;
       for (std::int32_t b = first_v; b <= last_v && all_solid; ++b) {
         for (std::int32_t a = first_u; a <= last_u && all_solid; ++a) {

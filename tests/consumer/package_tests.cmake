@@ -30,10 +30,10 @@ if(VANTAGE_INSTALL)
   vantage_consumer_test(installed -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}")
   string(JOIN "$<SEMICOLON>" components_list ${components})
   vantage_consumer_test(installed_every_component -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}"
-                        "-DCOMPONENTS=${components_list}")
+                        "-DCOMPONENTS=${components_list}" -DOTHER_PROCESSORS=ON)
   vantage_consumer_test(installed_without_heavy -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}" ${without_heavy})
   add_test(NAME package.unknown_component
-           COMMAND "${CMAKE_COMMAND}" --fresh -G "${CMAKE_GENERATOR}" -S "${consumer_source}" -B
+           COMMAND "${CMAKE_COMMAND}" -G "${CMAKE_GENERATOR}" -S "${consumer_source}" -B
                    "${consumer_build}/unknown_component" -DWAY=installed "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
                    "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DCOMPONENTS=core;telepathy")
   set_tests_properties(
@@ -52,4 +52,4 @@ if(VANTAGE_INSTALL)
 endif()
 vantage_consumer_test(subdirectory -DWAY=subdirectory "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}" -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
 vantage_consumer_test(fetchcontent -DWAY=fetchcontent "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
-                      -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
+                      -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
