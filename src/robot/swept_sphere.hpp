@@ -8,6 +8,8 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/voxel.hpp>
 
+#include "geometry/box_distance.hpp"
+
 namespace vantage::detail {
 
 /// Distance between a segment and a box, metres. The squared distance along the segment is convex and piecewise
@@ -46,7 +48,7 @@ namespace vantage::detail {
 [[nodiscard]] inline bool sphere_touches(const VoxelFrame& frame, const Eigen::Vector3d& centre, double radius_m,
                                          const VoxelIndex& cell) {
   return frame.cell_of(centre) == cell ||
-         frame.box_of(cell).distance_to(centre) < touching_distance_m(frame, radius_m);
+         distance_between(frame.box_of(cell), centre) < touching_distance_m(frame, radius_m);
 }
 
 /// The box around what a sphere can touch of one slab of cells while its centre goes from `from` to `to`: `slab` is

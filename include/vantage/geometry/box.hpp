@@ -30,9 +30,7 @@ struct Box {
     max = max.cwiseMax(point);
   }
   /// Distance from `point` to the nearest point of the box, 0 inside.
-  [[nodiscard]] double distance_to(const Eigen::Vector3d& point) const {
-    return (min - point).cwiseMax(point - max).cwiseMax(0.0).norm();
-  }
+  [[nodiscard]] double distance_to(const Eigen::Vector3d& point) const;
 };
 
 }  // namespace vantage
