@@ -57,12 +57,17 @@ TEST(ObjectPeers, TakeViewsThatAreAdmittedAndTheOracleSeesMost) {
       const Pose start =
           peer->first_view().value_or(draw_first_view(in_view.scene, in_view.run.truth(), *in_view.platform, 2));
       const RunRecord record = in_view.run.run(*peer, start);
-      EXPECT_EQ(record.views.size(), 6U) << name;
+      if (name == "oracle-greedy") {
+        EXPECT_LE(record.views.size(), 6U) << "it ends when it has seen all";
+      } else {
+        EXPECT_EQ(record.views.size(), 6U) << name;
+      }
       EXPECT_EQ(record.collisions, 0U) << name;
       ASSERT_TRUE(record.seen_observable);
       EXPECT_LE(*record.seen_observable, 1.0);
       EXPECT_GE(*record.seen_observable, *record.seen_coverage);
-      after_three[std::string(name)] += *record.views[2].seen_coverage;
+      after_three[std::string(name)] +=
+          *record.views[std::min<std::size_t>(3, record.views.size()) - 1].seen_coverage;
     }
   }
   for (const auto& [name, seen] : after_three) {
@@ -90,7 +95,6 @@ TEST(ObjectPeers, PlanTheSameTwiceAndDrawFromTheSeed) {
   EXPECT_THROW((void)make_object_peer("evenly-spaced", {}), std::invalid_argument);
 }
 
-// Their surfaces are closed: no sample sees the open from its inner side.
 TEST(TestObjects, StandOnTheGroundAndVaryWithTheSeed) {
   for (const std::string_view name : generated_object_names()) {
     const TriangleMesh mesh = generated_object(name);
