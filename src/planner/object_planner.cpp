@@ -40,7 +40,7 @@ void check(const ObjectPlannerOptions& options) {
 
 ObjectPlanner::ObjectPlanner(const PlannerSetup& setup, const ObjectPlannerOptions& options)
     : setup_(setup), options_(options) {
-  detail::validate(setup);
+  setup.validate();
   check(options);
 }
 
@@ -102,8 +102,7 @@ std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(const OccupancyM
 
 Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& current) {
   detail::Stopwatch stopwatch;
-  detail::validate(map, current);
-  follow(map, current);
+  follow(map, orthonormalised(current));
   Plan plan;
   plan.statistics.survey_ms = stopwatch.lap_ms();
   std::vector<Candidate> tried = candidates(map, current);
@@ -144,7 +143,7 @@ Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& current) {
   plan.statistics.path_ms = stopwatch.lap_ms();
   if (plan.outcome != Outcome::Move) {
     plan.outcome = any_worthwhile ? Outcome::Blocked : Outcome::Explored;
-    (any_worthwhile ? plan.leftover.unreachable : plan.leftover.too_small) = best;
+    (any_worthwhile ? plan.leftover.unreachable : plan.leftover.unobservable) = best;
     plan.reason = any_worthwhile ? "there is no way to any view that would show more of the object"
                                  : "no admitted view would show more of the object";
   }

@@ -14,11 +14,7 @@ namespace vantage {
 namespace {
 
 const PlannerSetup& checked(const PlannerSetup& setup, const FrontierSurveyOptions& options) {
-  if (setup.platform == nullptr) {
-    throw std::invalid_argument("PlannerSetup::platform is null, must be a platform");
-  }
-  detail::require_option(setup.threads >= 1, "PlannerSetup::threads", setup.threads, ">= 1");
-  setup.sensor.validate();
+  setup.validate();
   detail::require_option(options.patience >= 1, "FrontierSurveyOptions::patience", options.patience, ">= 1");
   detail::require_option(options.sight_directions >= 6, "FrontierSurveyOptions::sight_directions",
                          options.sight_directions, ">= 6");

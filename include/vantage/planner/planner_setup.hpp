@@ -19,6 +19,9 @@ struct PlannerSetup {
   double goal_tolerance_m = 0.3;
   /// ... and its optical axis is turned by no more than this from the goal's, radians, >= 0.
   double goal_tolerance_rad = 0.35;
+
+  /// Throws std::invalid_argument naming what is missing or breaks its rule.
+  void validate() const;
 };
 
 }  // namespace vantage
