@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/map/scan.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+
+namespace vantage::testing {
+
+enum class Building : std::uint8_t {
+  Rooms,    // walls of one cell, doors that stand open
+  Sheets,   // the same with walls without thickness, between two cells
+  Grille,   // a wall of bars, seen through and never passed
+  Doors,    // doors close and open
+  Walker,   // somebody walks to and fro
+};
+inline constexpr std::size_t kBuildings = 5;
+
+/// A small building of cells, in space or one layer of cells, in which things may move while a robot explores it.
+struct ChangingWorld {
+  VoxelFrame frame{0.2};
+  VoxelGrid<std::uint8_t> solid;
+  VoxelGrid<std::uint8_t> sheets;  // bit a: a wall without thickness on the upper face across axis a
+  VoxelBox door{};                 // empty: none that moves
+  std::optional<VoxelBox> person;
+  std::size_t clock = 0;
+
+  [[nodiscard]] bool is_flat() const { return solid.box().extent().z == 1; }
+  [[nodiscard]] bool is_static() const { return door.empty() && !person; }
+  [[nodiscard]] bool door_is_closed() const { return clock % 24 >= 3 && clock % 24 < 15; }
+  [[nodiscard]] bool is_solid(const VoxelIndex& cell) const {
+    return solid.value_or(cell, 1) != 0 || (door.contains(cell) && door_is_closed()) ||
+           (person && person->contains(cell));
+  }
+  /// Whether a ray or a body cannot pass from one cell to a face neighbour.
+  [[nodiscard]] bool parted(const VoxelIndex& a, const VoxelIndex& b) const {
+    const VoxelIndex step = b - a;
+    const int axis = step.x != 0 ? 0 : step.y != 0 ? 1 : 2;
+    const VoxelIndex lower = step.x + step.y + step.z > 0 ? a : b;
+    return (sheets.value_or(lower, 0) >> axis & 1) != 0;
+  }
+  [[nodiscard]] bool has_sheet(const VoxelIndex& cell) const {
+    return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                       [&](const VoxelIndex& step) { return parted(cell, cell + step); });
+  }
+  /// Whether the centre of `cell` is in sight from `origin`.
+  [[nodiscard]] bool in_sight(const Eigen::Vector3d& origin, const VoxelIndex& cell) const {
+    VoxelIndex last = frame.cell_of(origin);
+    for (const VoxelIndex& next : VoxelRay(frame, origin, frame.centre_of(cell))) {
+      if ((next != last && parted(last, next)) || (next != cell && is_solid(next))) {
+        return false;
+      }
+      last = next;
+    }
+    return true;
+  }
+  /// Time goes on; nobody walks into the robot, and no door closes on it.
+  void tick(const Eigen::Vector3d& robot) {
+    const VoxelIndex at = frame.cell_of(robot);
+    const auto is_near = [&](const VoxelBox& box) { return box.grown(3).contains(at); };
+    if (!(is_near(door) && !door_is_closed())) {
+      ++clock;
+    }
+    if (person) {
+      const std::int32_t step = clock / 8 % 2 == 0 ? -1 : 1;
+      const VoxelBox next{person->lo + VoxelIndex{step, 0, 0}, person->hi + VoxelIndex{step, 0, 0}};
+      bool has_room = !is_near(next);
+      for_each_cell(next, [&](const VoxelIndex& cell) { has_room = has_room && solid.value_or(cell, 1) == 0; });
+      person = has_room ? next : *person;
+    }
+  }
+};
+
+[[nodiscard]] inline ChangingWorld make_changing_world(Building building, std::uint32_t seed, double cell_m,
+                                                       bool flat) {
+  constexpr std::int32_t kX = 21;
+  constexpr std::int32_t kY = 15;
+  const std::int32_t top = flat ? 1 : 8;
+  ChangingWorld world;
+  world.frame = VoxelFrame{cell_m};
+  world.solid = VoxelGrid<std::uint8_t>({{0, 0, 0}, {kX, kY, top}}, 0);
+  world.sheets = VoxelGrid<std::uint8_t>(world.solid.box(), 0);
+  std::mt19937 engine(seed);
+  const auto draw = [&](std::int32_t lo, std::int32_t hi) {
+    return lo + static_cast<std::int32_t>(engine() % static_cast<std::uint32_t>(hi - lo + 1));
+  };
+  const auto fill = [&](const VoxelBox& box, std::uint8_t value) {
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      if (world.solid.contains(cell)) {
+        world.solid[cell] = value;
+      }
+    });
+  };
+  const bool thin = building == Building::Sheets;
+  const auto wall = [&](const VoxelBox& box, std::uint8_t axis, bool stands) {
+    if (!thin) {
+      fill(box, stands ? 1 : 0);
+      return;
+    }
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      if (world.sheets.contains(cell)) {
+        world.sheets[cell] = stands ? static_cast<std::uint8_t>(1U << axis) : 0;
+      }
+    });
+  };
+  const std::int32_t head = flat ? 1 : 6;
+  const std::int32_t across = draw(7, 10);
+  const std::int32_t gap = draw(2, 10);
+  const VoxelBox doorway{{across, gap, flat ? 0 : 1}, {across + 1, gap + 3, head}};
+  wall({{across, 0, 0}, {across + 1, kY, top}}, 0, true);
+  if (building == Building::Grille) {
+    for (std::int32_t y = 2; y < kY - 1; y += 2) {
+      fill({{across, y, flat ? 0 : 1}, {across + 1, y + 1, head}}, 0);
+    }
+  } else {
+    wall(doorway, 0, false);
+  }
+  const std::int32_t cross = draw(6, 8);
+  wall({{across + 1, cross, 0}, {kX, cross + 1, top}}, 1, true);
+  wall({{across + 4, cross, flat ? 0 : 1}, {across + 7, cross + 1, head}}, 1, false);
+  for (int i = 0; i < 3; ++i) {
+    const VoxelIndex lo{draw(across + 3, 18), draw(1, 12), flat ? 0 : draw(1, 5)};
+    if (lo.y < cross - 2 || lo.y > cross + 3) {
+      fill({lo, lo + VoxelIndex{1, 1, draw(1, 2)}}, 1);
+    }
+  }
+  for_each_cell(world.solid.box(), [&](const VoxelIndex& c) {
+    if (c.x == 0 || c.y == 0 || c.x == kX - 1 || c.y == kY - 1 || (!flat && (c.z == 0 || c.z == top - 1))) {
+      world.solid[c] = 1;
+    }
+  });
+  if (building == Building::Doors) {
+    world.door = doorway;
+  }
+  if (building == Building::Walker) {
+    world.person = VoxelBox{{across + 5, 2, flat ? 0 : 1}, {across + 7, 4, flat ? 1 : 5}};
+    fill({{across + 2, 2, flat ? 0 : 1}, {kX - 1, 4, flat ? 1 : 5}}, 0);
+  }
+  return world;
+}
+
+/// What the sensor measures: along each ray, a return just inside the first solid cell or just behind the first sheet.
+[[nodiscard]] inline Scan scan_of(const ChangingWorld& world, const RangeSensor& sensor, const Pose& pose) {
+  Scan scan;
+  scan.world_from_sensor = pose;
+  scan.max_range_m = sensor.max_range_m;
+  const Eigen::Vector3d origin = pose.translation();
+  const double far_m = 40.0 * world.frame.size_m;
+  for (const Eigen::Vector3f& direction : sensor.directions()) {
+    const Eigen::Vector3d ray = pose.linear() * direction.cast<double>();
+    VoxelIndex last = world.frame.cell_of(origin);
+    for (const VoxelIndex& cell : VoxelRay(world.frame, origin, origin + far_m * ray)) {
+      const bool blocked = world.is_solid(cell) || (cell != last && world.parted(last, cell));
+      last = cell;
+      if (!blocked) {
+        continue;
+      }
+      const Box box = world.frame.box_of(cell);
+      double entry_m = 0.0;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        if (std::abs(ray[axis]) > 1e-12) {
+          entry_m = std::max(entry_m, std::min((box.min[axis] - origin[axis]) / ray[axis],
+                                               (box.max[axis] - origin[axis]) / ray[axis]));
+        }
+      }
+      const double range_m = entry_m + 1e-4;
+      if (range_m >= sensor.min_range_m && range_m <= sensor.max_range_m) {
+        scan.points.emplace_back(direction * static_cast<float>(range_m));
+      } else if (range_m > sensor.max_range_m && sensor.reports_no_return) {
+        scan.no_return.push_back(direction);
+      }
+      break;
+    }
+  }
+  return scan;
+}
+
+}  // namespace vantage::testing

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: MIT
+//
+// What a robot can rely on, held over every planner with its default settings: buildings in which things may move, hosts
+// that do not do quite what they are told, sensors, sizes of cells, space and plane. VANTAGE_CONTRACT_SEEDS says how many
+// worlds every planner meets with every host (a nightly run: hundreds); VANTAGE_CONTRACT_FIRST_SEED where they begin.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/ground_robot.hpp>
+#include <vector>
+
+#include "contract/changing_world.hpp"
+#include "contract/slow_audit.hpp"
+#include "support/sanitized.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::Building;
+using testing::ChangingWorld;
+
+constexpr std::size_t kMostPlans = 250;
+constexpr double kBodyCells = 0.7;  // radius
+
+enum class Host : std::uint8_t {
+  Perfect,
+  StopsShort,       // by up to 0.3 m and 15 degrees
+  AbortsSilently,   // one goal in three, half way
+  AbortsAndReports,
+  MovedByHand,      // every fifth time
+  Inexact,          // is 1 cm and half a degree from where it believes to be
+  OffCentre,
+  InACorner,
+  PlansFromACopy,   // of the map, a new one each time
+  Stuck,            // never moves, and does not say so
+};
+constexpr std::size_t kHosts = 10;
+
+std::string name_of(Host host) {
+  static const std::vector<std::string> names{"perfect",       "stops_short", "aborts_silently", "aborts_and_reports",
+                                              "moved_by_hand", "inexact",     "off_centre",      "in_a_corner",
+                                              "plans_from_a_copy", "stuck"};
+  return names[static_cast<std::size_t>(host)];
+}
+
+/// A world, a sensor and what carries it.
+struct Scene {
+  Building building = Building::Rooms;
+  std::uint32_t seed = 1;
+  std::size_t sensor_kind = 0;
+  double cell_m = 0.2;
+  bool flat = false;
+
+  /// Every building, sensor, size and dimension in turn, none of them in step with another.
+  static Scene numbered(std::uint32_t number) {
+    const std::uint32_t kind = number * 37 % 90;
+    return {static_cast<Building>(kind % testing::kBuildings), number, kind / 5 % 3,
+            std::array{0.1, 0.2, 0.4}[kind / 15 % 3], kind / 45 == 1};
+  }
+  [[nodiscard]] ChangingWorld world() const { return testing::make_changing_world(building, seed, cell_m, flat); }
+  [[nodiscard]] RangeSensor sensor() const {
+    constexpr double kPi = std::numbers::pi;
+    const double tall = flat ? 0.001 : 1.0;
+    const auto rows = [&](std::size_t count) { return flat ? std::size_t{1} : count; };
+    RangeSensor sensor = sensor_kind == 0
+                             ? RangeSensor::spherical(180, rows(90), 2 * kPi, tall * kPi, 0.0, 15.0 * cell_m)
+                         : sensor_kind == 1
+                             ? RangeSensor::pinhole(96, rows(72), 70.0 * kPi / 180.0, tall * 0.95, 0.0, 25.0 * cell_m)
+                             : RangeSensor::spherical(240, rows(16), 2 * kPi, tall * 0.52, 0.0, 25.0 * cell_m);
+    sensor.reports_no_return = true;
+    return sensor;
+  }
+  [[nodiscard]] std::shared_ptr<const Platform> platform() const {
+    const double radius_m = kBodyCells * cell_m;
+    if (flat) {
+      return std::make_shared<GroundRobot>(GroundRobotOptions{.radius_m = radius_m});
+    }
+    return std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = radius_m, .yaw_only = sensor_kind == 2});
+  }
+};
+
+std::ostream& operator<<(std::ostream& out, const Scene& scene) {
+  return out << "scene " << scene.seed << " (building " << static_cast<int>(scene.building) << ", sensor "
+             << scene.sensor_kind << ", cells of " << scene.cell_m << " m, " << (scene.flat ? "plane" : "space") << ")";
+}
+
+double turn_rad(const Pose& a, const Pose& b) {
+  return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
+}
+
+double length_m(const std::vector<Pose>& path) {
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    sum_m += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return sum_m;
+}
+
+Pose along(const std::vector<Pose>& path, double way_m) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double step_m = (path[i].translation() - path[i - 1].translation()).norm();
+    if (way_m < step_m) {
+      Pose pose = path[i];
+      pose.translation() =
+          path[i - 1].translation() + way_m / step_m * (path[i].translation() - path[i - 1].translation());
+      return pose;
+    }
+    way_m -= step_m;
+  }
+  return path.back();
+}
+
+bool same(const Plan& a, const Plan& b) {
+  return a.outcome == b.outcome && a.leftover == b.leftover && a.goal.pose.matrix() == b.goal.pose.matrix() &&
+         a.goal.utility == b.goal.utility && a.sought == b.sought && a.path.size() == b.path.size() &&
+         std::equal(a.path.begin(), a.path.end(), b.path.begin(),
+                    [](const Pose& p, const Pose& q) { return p.matrix() == q.matrix(); });
+}
+
+/// A robot, the host that drives it, and what came of it.
+class Run {
+ public:
+  Run(const std::string& planner, Host host, const Scene& scene)
+      : host_(host),
+        scene_(scene),
+        world_(scene.world()),
+        sensor_(scene.sensor()),
+        platform_(scene.platform()),
+        map_({.resolution_m = scene.cell_m, .region = world_.frame.box_of(world_.solid.box())}),
+        engine_(scene.seed),
+        planner_(make_planner(planner, {sensor_, platform_, 7, 1})),
+        on_threads_(make_planner(planner, {sensor_, platform_, 7, 2})) {
+    const double cell = scene.cell_m;
+    Eigen::Vector3d at = world_.frame.centre_of({3, 3, scene.flat ? 0 : 3});
+    if (host == Host::OffCentre) {
+      at += cell * Eigen::Vector3d(0.31, -0.22, scene.flat ? 0.0 : 0.13);
+    } else if (host == Host::InACorner) {
+      at = cell * Eigen::Vector3d::Constant(1.0 + kBodyCells + 1e-3);
+      at.z() = scene.flat ? 0.5 * cell : at.z();
+    }
+    pose_ = pose_looking(at, 0.3);
+    map_.assume_free(platform_->body_box(pose_));
+    look();
+    explore();
+  }
+
+  std::size_t plans = 0;
+  Plan last;
+  std::size_t collisions = 0;
+  std::size_t most_asks = 0;      // of one goal in a row without coming nearer
+  std::size_t disagreements = 0;  // of one and of two threads
+  std::size_t thrown = 0;
+
+  [[nodiscard]] std::vector<VoxelIndex> left() const {
+    return testing::still_observable(map_, *platform_, sensor_, pose_, looked_);
+  }
+  [[nodiscard]] double coverage() const {
+    OccupancyMap truth({.resolution_m = scene_.cell_m, .region = world_.frame.box_of(world_.solid.box())});
+    for_each_cell(world_.solid.box(), [&](const VoxelIndex& cell) {
+      truth.set(cell, world_.is_solid(cell) ? Occupancy::Occupied : Occupancy::Free);
+    });
+    std::vector<VoxelIndex> places{{3, 3, scene_.flat ? 0 : 3}};
+    std::set<VoxelIndex> known(places.begin(), places.end());
+    for (std::size_t next = 0; next < places.size(); ++next) {
+      for (const VoxelIndex& step : kFaceNeighbours) {
+        const VoxelIndex cell = places[next] + step;
+        if (platform_->admits_cell(truth, cell) && !world_.has_sheet(cell) && known.insert(cell).second) {
+          places.push_back(cell);
+        }
+      }
+    }
+    std::size_t observable = 0;
+    std::size_t seen = 0;
+    for_each_cell(world_.solid.box(), [&](const VoxelIndex& cell) {
+      const Eigen::Vector3d centre = world_.frame.centre_of(cell);
+      const auto sees = [&](const VoxelIndex& place) {
+        const Eigen::Vector3d from = world_.frame.centre_of(place);
+        const Pose facing = platform_->facing(from, centre - from);
+        return (centre - from).norm() <= sensor_.max_range_m &&
+               sensor_.in_view(facing.linear().transpose() * (centre - from)) && world_.in_sight(from, cell);
+      };
+      if (!world_.is_solid(cell) && (known.contains(cell) || std::any_of(places.begin(), places.end(), sees))) {
+        ++observable;
+        seen += map_.at(cell) != Occupancy::Unknown ? 1U : 0U;
+      }
+    });
+    EXPECT_GT(observable, 50U);
+    return static_cast<double>(seen) / static_cast<double>(observable);
+  }
+
+ private:
+  double draw(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
+
+  void look() {
+    Scan scan = testing::scan_of(world_, sensor_, truly_at());
+    scan.world_from_sensor = pose_;
+    map_.insert(scan);
+    looked_.poses.push_back(pose_);
+    world_.tick(pose_.translation());
+  }
+  // Where it is when it believes to be at `pose_`.
+  Pose truly_at() {
+    if (host_ != Host::Inexact) {
+      return pose_;
+    }
+    const Eigen::Vector3d off(draw(-1, 1), draw(-1, 1), scene_.flat ? 0.0 : draw(-1, 1));
+    Pose pose = pose_;
+    pose.linear() = Eigen::AngleAxisd(draw(-0.5, 0.5) * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()) *
+                    pose_.linear();
+    pose.translation() += 0.01 * off.normalized();
+    return pose;
+  }
+
+  Plan plan() {
+    if (host_ != Host::PlansFromACopy) {
+      const Plan made = planner_->plan(map_, pose_);
+      if (host_ == Host::Perfect) {
+        disagreements += same(made, on_threads_->plan(map_, pose_)) ? 0U : 1U;
+      }
+      return made;
+    }
+    const OccupancyMap copy = map_;
+    return planner_->plan(copy, pose_);
+  }
+
+  void explore() {
+    std::size_t waits = 0;
+    for (; plans < kMostPlans; ++plans) {
+      last = plan();
+      if (last.outcome == Outcome::Unreachable && !world_.is_static() && waits < 30) {
+        ++waits;  // as the contract says: ask again later
+        look();
+        continue;
+      }
+      if (last.outcome != Outcome::Move) {
+        return;
+      }
+      count_asks();
+      for (const VoxelIndex& cell : last.sought) {
+        looked_.sought[cell].insert(map_.frame().cell_of(last.goal.pose.translation()));
+      }
+      go();
+      look();
+    }
+  }
+
+  void count_asks() {
+    const double way = length_m(last.path) + turn_rad(pose_, last.goal.pose);
+    const VoxelIndex goal = map_.frame().cell_of(last.goal.pose.translation());
+    const bool again = goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && way > asked_way_ - 0.01;
+    asks_ = again ? asks_ + 1 : 1;
+    most_asks = std::max(most_asks, asks_);
+    asked_for_ = goal;
+    asked_ = last.goal.pose;
+    asked_way_ = again ? std::min(way, asked_way_) : way;
+  }
+
+  void go() {
+    const double whole_m = length_m(last.path);
+    double way_m = whole_m;
+    Pose end = last.goal.pose;
+    if (host_ == Host::Stuck) {
+      return;
+    }
+    const bool aborts = (host_ == Host::AbortsSilently || host_ == Host::AbortsAndReports) && engine_() % 3 == 0;
+    if (aborts) {
+      way_m = 0.5 * whole_m;
+      end = along(last.path, way_m);
+    } else if (host_ == Host::StopsShort) {
+      way_m = std::max(0.0, whole_m - draw(0.0, 0.3));
+      const double off_rad = draw(-15.0, 15.0) * std::numbers::pi / 180.0;
+      end.translation() = along(last.path, way_m).translation();
+      end.linear() = Eigen::AngleAxisd(off_rad, Eigen::Vector3d::UnitZ()) * end.linear();
+    }
+    for (double at_m = 0.0; at_m < way_m; at_m += 0.5 * scene_.cell_m) {
+      collisions += collides(along(last.path, at_m)) ? 1U : 0U;
+    }
+    collisions += collides(end) ? 1U : 0U;
+    pose_ = end;
+    if (host_ == Host::AbortsAndReports) {
+      planner_->report(map_, pose_, aborts ? GoalResult::Failed : GoalResult::Reached);
+    }
+    if (host_ == Host::MovedByHand && plans % 5 == 4) {
+      carry();
+    }
+  }
+  // The body's sphere against what stands still.
+  [[nodiscard]] bool collides(const Pose& pose) const {
+    const double radius_m = kBodyCells * scene_.cell_m - 1e-6;
+    const VoxelIndex at = world_.frame.cell_of(pose.translation());
+    bool touches = false;
+    for_each_cell(VoxelBox{at, at + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& cell) {
+      if (world_.solid.value_or(cell, 1) == 0 || (scene_.flat && cell.z != 0)) {
+        return;
+      }
+      const Box box = world_.frame.box_of(cell);
+      const Eigen::Vector3d nearest = pose.translation().cwiseMax(box.min).cwiseMin(box.max);
+      touches = touches || (nearest - pose.translation()).norm() < radius_m;
+    });
+    return touches;
+  }
+  // Somebody takes the robot and puts it down elsewhere, where it fits.
+  void carry() {
+    for (int attempt = 0; attempt < 200; ++attempt) {
+      Pose there = pose_;
+      const VoxelIndex extent = world_.solid.box().extent();
+      there.translation() = world_.frame.centre_of({static_cast<std::int32_t>(draw(1.0, extent.x - 1.0)),
+                                                    static_cast<std::int32_t>(draw(1.0, extent.y - 1.0)),
+                                                    scene_.flat ? 0 : static_cast<std::int32_t>(draw(2.0, 5.0))});
+      if (!collides(there) && !world_.is_solid(world_.frame.cell_of(there.translation()))) {
+        pose_ = there;
+        map_.assume_free(platform_->body_box(pose_));
+        return;
+      }
+    }
+  }
+
+  Host host_;
+  Scene scene_;
+  ChangingWorld world_;
+  RangeSensor sensor_;
+  std::shared_ptr<const Platform> platform_;
+  OccupancyMap map_;
+  std::mt19937 engine_;
+  std::unique_ptr<ExplorationPlanner> planner_;
+  std::unique_ptr<ExplorationPlanner> on_threads_;
+  Pose pose_ = Pose::Identity();
+  testing::LookedAt looked_;
+  VoxelIndex asked_for_{};
+  Pose asked_ = Pose::Identity();
+  double asked_way_ = 0.0;
+  std::size_t asks_ = 0;
+};
+
+std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
+  const char* const text = std::getenv(variable);
+  return text != nullptr ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
+}
+
+class ExplorationContract : public ::testing::TestWithParam<std::tuple<std::string, Host>> {};
+
+TEST_P(ExplorationContract, Holds) {
+  const auto& [planner, host] = GetParam();
+  const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", test::kSanitized ? 1 : 2);
+  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
+  std::size_t cases = 0;
+  std::size_t ended = 0;
+  for (std::uint32_t i = 0; i < seeds; ++i) {
+    const Scene scene = Scene::numbered(first + i * kHosts + static_cast<std::uint32_t>(host));
+    const Run run(planner, host, scene);
+    const std::string what = ::testing::PrintToString(scene) + ", " + planner + ", " + name_of(host) + ", " +
+                             std::to_string(run.plans) + " plans, " + std::string(to_string(run.last.outcome)) + ": " +
+                             run.last.reason;
+    SCOPED_TRACE(what);
+    ++cases;
+    EXPECT_LT(run.plans, kMostPlans) << "it does not end by itself";
+    EXPECT_NE(run.last.outcome, Outcome::Blocked);
+    ended += run.last.outcome != Outcome::Move ? 1U : 0U;
+    EXPECT_EQ(run.collisions, 0U);
+    EXPECT_EQ(run.disagreements, 0U) << "of one and two threads";
+    EXPECT_LE(run.most_asks, host == Host::Stuck ? 6U : 2U) << "the same goal again and again";
+    if (run.last.outcome == Outcome::Explored) {
+      const std::vector<VoxelIndex> left = run.left();
+      EXPECT_EQ(left.size(), 0U) << "still observable: " << left.front().x << " " << left.front().y << " "
+                                 << left.front().z;
+    }
+    const ChangingWorld world = scene.world();
+    if (!world.is_static() || host == Host::Stuck || run.last.outcome == Outcome::Move) {
+      continue;
+    }
+    EXPECT_GE(run.coverage(), 0.99);
+    if (host != Host::Perfect) {
+      const Run perfect(planner, Host::Perfect, scene);
+      EXPECT_LE(run.plans, 3 * perfect.plans + 5) << "the perfect host takes " << perfect.plans;
+    }
+  }
+  EXPECT_EQ(cases, seeds);
+  EXPECT_EQ(ended, seeds);
+}
+
+std::vector<std::string> planners() { return {planner_names().begin(), planner_names().end()}; }
+
+std::vector<Host> hosts() {
+  std::vector<Host> all;
+  for (std::size_t i = 0; i < kHosts; ++i) {
+    all.push_back(static_cast<Host>(i));
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ExplorationContract,
+                         ::testing::Combine(::testing::ValuesIn(planners()), ::testing::ValuesIn(hosts())),
+                         [](const ::testing::TestParamInfo<std::tuple<std::string, Host>>& info) {
+                           std::string name = std::get<0>(info.param) + "_" + name_of(std::get<1>(info.param));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(ExplorationContractSuite, HoldsEveryPlannerToEveryHostInEveryKindOfWorld) {
+  EXPECT_EQ(planners().size(), 5U);
+  EXPECT_EQ(hosts().size(), kHosts);
+  std::set<std::tuple<Building, std::size_t, double, bool>> kinds;
+  for (std::uint32_t number = 0; number < 90; ++number) {
+    const Scene scene = Scene::numbered(number);
+    kinds.insert({scene.building, scene.sensor_kind, scene.cell_m, scene.flat});
+  }
+  EXPECT_EQ(kinds.size(), testing::kBuildings * 3 * 3 * 2);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/robot/platform.hpp>
+#include <vector>
+
+namespace vantage::testing {
+
+/// Whether every cell that the segment touches, be it at an edge, passes `clear`: layer by layer across the axis that
+/// it runs along most.
+template <class Clear>
+[[nodiscard]] bool touches_only(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                Clear&& clear) {
+  constexpr double kHair = 1e-6;  // cells
+  const Eigen::Vector3d a = from / frame.size_m;
+  const Eigen::Vector3d b = to / frame.size_m;
+  Eigen::Index axis = 0;
+  (b - a).cwiseAbs().maxCoeff(&axis);
+  const double low = std::min(a[axis], b[axis]);
+  const double high = std::max(a[axis], b[axis]);
+  for (double layer = std::floor(low - kHair); layer <= std::floor(high + kHair); layer += 1.0) {
+    const auto at = [&](double along) -> Eigen::Vector3d {
+      const double share = high > low ? (std::clamp(along, low, high) - a[axis]) / (b[axis] - a[axis]) : 0.0;
+      return a + share * (b - a);
+    };
+    const Eigen::Vector3d p = at(layer);
+    const Eigen::Vector3d q = at(layer + 1.0);
+    Eigen::Vector3d lo = p.cwiseMin(q).array() - kHair;
+    Eigen::Vector3d hi = p.cwiseMax(q).array() + kHair;
+    lo[axis] = hi[axis] = layer + 0.5;
+    for (double z = std::floor(lo.z()); z <= hi.z(); z += 1.0) {
+      for (double y = std::floor(lo.y()); y <= hi.y(); y += 1.0) {
+        for (double x = std::floor(lo.x()); x <= hi.x(); x += 1.0) {
+          if (!clear(VoxelIndex{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
+                                static_cast<std::int32_t>(z)})) {
+            return false;
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// The cells to whose centres the platform may go from `current`, by a flood over what it admits.
+[[nodiscard]] inline std::set<VoxelIndex> places_from(const OccupancyMap& map, const Platform& platform,
+                                                      const Pose& current) {
+  std::set<VoxelIndex> places;
+  std::vector<VoxelIndex> queue;
+  const VoxelIndex home = map.frame().cell_of(current.translation());
+  for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& cell) {
+    Pose there = current;
+    there.translation() = map.frame().centre_of(cell);
+    if (queue.empty() && platform.admits_cell(map, cell) && platform.admits_motion(map, current, there)) {
+      queue.push_back(cell);
+      places.insert(cell);
+    }
+  });
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex cell = queue[next] + step;
+      if (platform.admits_cell(map, cell) && places.insert(cell).second) {
+        queue.push_back(cell);
+      }
+    }
+  }
+  return places;
+}
+
+/// What a run has looked at, as its host can tell: the poses of its scans, and from how many goals which cells were
+/// sought.
+struct LookedAt {
+  std::vector<Pose> poses;
+  std::map<VoxelIndex, std::set<VoxelIndex>> sought;
+};
+
+/// Unknown cells beside free ones that the sensor could still observe from some place and that were not looked at in
+/// vain: in its view from two cells, or sought from four goals.
+[[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
+                                                              const RangeSensor& sensor, const Pose& current,
+                                                              const LookedAt& looked) {
+  const VoxelFrame& frame = map.frame();
+  const std::set<VoxelIndex> places = places_from(map, platform, current);
+  const auto in_range = [&](const Eigen::Vector3d& line) {
+    return line.norm() >= sensor.min_range_m && line.norm() <= sensor.max_range_m;
+  };
+  std::set<VoxelIndex> unknown;
+  for_each_cell(map.bounds(), [&](const VoxelIndex& cell) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      if (map.at(cell) == Occupancy::Free && map.in_region(cell + step) && map.at(cell + step) == Occupancy::Unknown) {
+        unknown.insert(cell + step);
+      }
+    }
+  });
+  std::vector<VoxelIndex> left;
+  for (const VoxelIndex& cell : unknown) {
+    const Eigen::Vector3d centre = frame.centre_of(cell);
+    const auto is_clear = [&](const VoxelIndex& other) {
+      return other == cell || (map.at(other) == Occupancy::Free && !map.contested(other));
+    };
+    const bool observable = std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
+      const Eigen::Vector3d from = frame.centre_of(place);
+      const Pose facing = platform.facing(from, centre - from);
+      return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
+             platform.admits(map, facing) && touches_only(frame, from, centre, is_clear);
+    });
+    if (!observable) {
+      continue;
+    }
+    std::set<VoxelIndex> from_cells;
+    for (const Pose& pose : looked.poses) {
+      const Eigen::Vector3d line = centre - pose.translation();
+      const auto passes = [&](const VoxelIndex& other) {
+        const VoxelIndex d = other - cell;
+        return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1 || is_clear(other);
+      };
+      if (in_range(line) && sensor.in_view(pose.linear().transpose() * line) &&
+          touches_only(frame, pose.translation(), centre, passes)) {
+        from_cells.insert(frame.cell_of(pose.translation()));
+      }
+    }
+    const auto sought = looked.sought.find(cell);
+    if (from_cells.size() < 2 && (sought == looked.sought.end() || sought->second.size() < 4)) {
+      left.push_back(cell);
+    }
+  }
+  return left;
+}
+
+}  // namespace vantage::testing
