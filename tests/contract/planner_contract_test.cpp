@@ -184,20 +184,31 @@ TEST_P(PlannerContract, ItSaysExploredExactlyWhenNothingObservableIsLeft) {
   EXPECT_EQ(explored, 3U * kSeeds);
 }
 
-TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedTheMap) {
-  const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan& plan) {
-    EXPECT_TRUE(
-        same(plan, make_planner(GetParam().planner, robot.setup())->plan(robot.map(), robot.pose())));
+// What was tried belongs to one map: to a copy of it a planner comes as one made now.
+TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedAnotherMap) {
+  std::unique_ptr<ExplorationPlanner> follower;
+  const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan&) {
+    if (!follower) {
+      follower = make_planner(GetParam().planner, robot.setup());
+    }
+    const OccupancyMap copy = robot.map();
+    EXPECT_TRUE(same(follower->plan(copy, robot.pose()),
+                     make_planner(GetParam().planner, robot.setup())->plan(copy, robot.pose())));
   });
   EXPECT_GE(plans, 3U * kSeeds * 2U);
 }
 
 TEST_P(PlannerContract, PlanningTwiceAndOnMoreThreadsChangesNothing) {
+  std::unique_ptr<ExplorationPlanner> on_threads;
+  OccupancyMap::Revision last = 0;
   const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner& planner, const Plan& plan) {
     EXPECT_TRUE(same(plan, planner.plan(robot.map(), robot.pose())));
     const OccupancyMap::Revision before = robot.map().revision();
-    EXPECT_TRUE(
-        same(plan, make_planner(GetParam().planner, robot.setup(2))->plan(robot.map(), robot.pose())));
+    if (before <= last || !on_threads) {  // another world
+      on_threads = make_planner(GetParam().planner, robot.setup(2));
+    }
+    last = before;
+    EXPECT_TRUE(same(plan, on_threads->plan(robot.map(), robot.pose())));
     EXPECT_EQ(robot.map().revision(), before);
   });
   EXPECT_GE(plans, 3U * kSeeds * 2U);
