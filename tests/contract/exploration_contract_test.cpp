@@ -17,6 +17,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
@@ -153,7 +154,12 @@ class DrivenRobot {
       at.z() = scene.flat ? 0.5 * cell : at.z();
     }
     pose_ = pose_looking(at, 0.3);
-    map_.assume_free(platform_->body_box(pose_));
+    assume_free(map_, *platform_, pose_, start_clearance_m(*platform_, sensor_));
+    for_each_cell(world_.solid.box(), [&](const VoxelIndex& cell) {
+      if (world_.is_solid(cell)) {
+        map_.set(cell, Occupancy::Unknown);  // whoever starts a robot sees what is no free space
+      }
+    });
     look();
     explore();
   }
@@ -325,7 +331,7 @@ class DrivenRobot {
                                                     scene_.flat ? 0 : static_cast<std::int32_t>(draw(2.0, 5.0))});
       if (!collides(there) && !world_.is_solid(world_.frame.cell_of(there.translation()))) {
         pose_ = there;
-        map_.assume_free(platform_->body_box(pose_));
+        assume_free(map_, *platform_, pose_);
         return;
       }
     }
