@@ -155,9 +155,9 @@ class DrivenRobot {
     }
     pose_ = pose_looking(at, 0.3);
     assume_free(map_, *platform_, pose_, start_clearance_m(*platform_, sensor_));
-    for_each_cell(world_.solid.box(), [&](const VoxelIndex& cell) {
-      if (world_.is_solid(cell)) {
-        map_.set(cell, Occupancy::Unknown);  // whoever starts a robot sees what is no free space
+    for_each_cell(world_.solid.box(), [&](const VoxelIndex& at_cell) {
+      if (world_.is_solid(at_cell)) {
+        map_.set(at_cell, Occupancy::Unknown);  // whoever starts a robot sees what is no free space
       }
     });
     look();
