@@ -94,7 +94,7 @@ TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
 }
 
 bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
-  const bool same_map = map_.is(map);
+  const bool same_map = map_.is_copied_from(map) && map.revision() >= reviewed_;
   if (same_map && reviewed_ == map.revision()) {
     if (expected_ && reported_ == GoalResult::Failed) {  // needs no scan to be known
       fail(map.frame().cell_of(expected_->goal.translation()));
@@ -168,8 +168,13 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
         return;
       }
       Looks& looks = new_look_at(map, cell);
-      was_in_view(map, current, cell) ? add_if_it_differs(cell, here, looks.in_vain)
-                                      : add_if_it_differs(cell, goal, looks.missed);
+      const bool looked = was_in_view(map, current, cell);
+      if (looked) {
+        add_if_it_differs(cell, here, looks.in_vain);
+      }
+      if (!looked || differ(cell, here, goal)) {  // the goal is no nearer than this to be had
+        add_if_it_differs(cell, goal, looks.missed);
+      }
     };
     std::for_each(expected_->sought.begin(), expected_->sought.end(), look);
     const std::vector<VoxelIndex>& hoped = expected_->hoped;

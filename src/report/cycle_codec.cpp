@@ -15,7 +15,7 @@ namespace {
 constexpr float kUnit = 127.0F;                            // of a component of a direction
 constexpr std::size_t kMostBricks = std::size_t{1} << 22;  // 3 GB as a map
 
-bool is_addressable(const VoxelIndex& brick) {
+bool brick_is_addressable(const VoxelIndex& brick) {
   constexpr std::int32_t kFurthest = kFurthestVoxel / Brick::kSide;
   const auto is_near = [](std::int32_t i) { return i >= -kFurthest && i < kFurthest; };
   return is_near(brick.x) && is_near(brick.y) && is_near(brick.z);
@@ -245,7 +245,7 @@ RecordedCycle decode(std::string_view bytes, BrickStates& before) {
     const bool is_first = &change == cycle.changes.data();
     const VoxelIndex previous = last;
     const VoxelIndex brick = index_from(in, last);
-    if (!is_addressable(brick) || (!is_first && !RasterOrder{}(previous, brick))) {
+    if (!brick_is_addressable(brick) || (!is_first && !RasterOrder{}(previous, brick))) {
       throw std::runtime_error("a brick lies outside any map, or out of order");
     }
     if (before.size() >= kMostBricks && before.find(brick) == before.end()) {

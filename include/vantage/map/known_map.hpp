@@ -14,12 +14,19 @@ class KnownMap {
   /// No map.
   KnownMap() = default;
   /// This one.
-  explicit KnownMap(const OccupancyMap& map) : address_(&map), token_(map.identity().token_) {}
+  explicit KnownMap(const OccupancyMap& map)
+      : address_(&map), token_(map.identity().token_), origin_(map.identity().origin_) {}
 
   /// Whether `map` is that map, perhaps moved elsewhere; by now it may have changed (OccupancyMap::changed_since).
   [[nodiscard]] bool is(const OccupancyMap& map) const {
     const std::shared_ptr<const char> token = token_.lock();
     return token != nullptr && token == map.identity().token_;
+  }
+  /// Whether `map` is that map or shares its origin: a copy of it, or one of which both are copies. A host may hand a
+  /// new snapshot of its map to every plan.
+  [[nodiscard]] bool is_copied_from(const OccupancyMap& map) const {
+    const std::shared_ptr<const char> origin = origin_.lock();
+    return origin != nullptr && origin == map.identity().origin_;
   }
   /// Whether it also lies where it lay, so that pointers to it still hold.
   [[nodiscard]] bool is_in_place(const OccupancyMap& map) const { return address_ == &map && is(map); }
@@ -27,6 +34,7 @@ class KnownMap {
  private:
   const OccupancyMap* address_ = nullptr;
   std::weak_ptr<const char> token_;  // a token that is still held belongs to that map alone
+  std::weak_ptr<const char> origin_;
 };
 
 }  // namespace vantage
