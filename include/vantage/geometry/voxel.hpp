@@ -45,12 +45,15 @@ inline constexpr std::array<VoxelIndex, 6> kFaceNeighbours{
 }
 
 namespace detail {
-/// The one conversion of a length in cells to an address: rounded towards zero, and held within kFurthestVoxel; NaN
-/// becomes -kFurthestVoxel.
-[[nodiscard]] constexpr std::int32_t to_address(double cells) {
+/// A length in cells, held within kFurthestVoxel; NaN becomes -kFurthestVoxel.
+[[nodiscard]] constexpr double within_addresses(double cells) {
   constexpr double kFurthest = kFurthestVoxel;
   const double above = cells > -kFurthest ? cells : -kFurthest;
-  return static_cast<std::int32_t>(above < kFurthest ? above : kFurthest);
+  return above < kFurthest ? above : kFurthest;
+}
+/// The one conversion of a length in cells to an address: the same, rounded towards zero.
+[[nodiscard]] constexpr std::int32_t to_address(double cells) {
+  return static_cast<std::int32_t>(within_addresses(cells));
 }
 
 consteval std::array<VoxelIndex, 26> all_neighbours() {
@@ -159,7 +162,7 @@ struct VoxelFrame {
 
  private:
   [[nodiscard]] std::int32_t coordinate_of(double metres) const {
-    const double cells = metres / size_m;
+    const double cells = detail::within_addresses(metres / size_m);
     const std::int32_t towards_zero = detail::to_address(cells);  // std::floor is a call before SSE 4.1
     return towards_zero - (towards_zero > cells ? 1 : 0);
   }

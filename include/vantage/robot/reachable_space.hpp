@@ -60,7 +60,9 @@ class ReachableSpace {
   template <class Visit>
   void for_each_brick(Visit&& visit) const {
     for (std::size_t number = 0; number < planes_.size(); ++number) {
-      visit(number_.address(number), planes_[number]);
+      if (planes_[number] != BrickPlane{}) {
+        visit(number_.address(number), planes_[number]);
+      }
     }
   }
 

@@ -34,6 +34,7 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
     return Occupancy::Unknown;
   }
   bool all_free = true;
+  bool any = false;  // a step of less than a cell may have no layer
   for (std::int32_t z = -40; z < 40 && options.floor != FloorRule::Ignored; ++z) {
     const VoxelIndex cell{x, y, z};
     if (map.frame().centre_of(cell).z() >= options.min_height_m ||
@@ -44,7 +45,9 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
       return Occupancy::Free;
     }
     all_free = all_free && map.at(cell) == Occupancy::Free;
+    any = true;
   }
+  all_free = all_free && any;
   switch (options.floor) {
     case FloorRule::Ignored:
       return Occupancy::Free;
