@@ -95,8 +95,8 @@ class SparseNumbers {
   template <class Visit>
   void with_neighbour(std::size_t position, std::size_t axis, std::int32_t /*at*/, std::int32_t step,
                       const Visit& visit) const {
-    const VoxelIndex neighbour = cells_[position] + VoxelIndex{axis == 0 ? step : 0, axis == 1 ? step : 0,
-                                                               axis == 2 ? step : 0};
+    const VoxelIndex neighbour =
+        cells_[position] + VoxelIndex{axis == 0 ? step : 0, axis == 1 ? step : 0, axis == 2 ? step : 0};
     if (const std::uint32_t other = positions_[neighbour]; other != kNoVoid) {
       visit(other);
     }

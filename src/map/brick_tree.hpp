@@ -103,8 +103,9 @@ class BrickTree {
     if (left == 0 || level == 0) {
       return left != 0;
     }
-    const VoxelBox whole{{(bricks.lo.x + rest) >> shift, (bricks.lo.y + rest) >> shift, (bricks.lo.z + rest) >> shift},
-                         {bricks.hi.x >> shift, bricks.hi.y >> shift, bricks.hi.z >> shift}};
+    const VoxelBox whole{
+        {(bricks.lo.x + rest) >> shift, (bricks.lo.y + rest) >> shift, (bricks.lo.z + rest) >> shift},
+        {bricks.hi.x >> shift, bricks.hi.y >> shift, bricks.hi.z >> shift}};
     if ((left & children_in(node, whole)) != 0) {
       return true;
     }

@@ -108,7 +108,7 @@ Occupancy HeightBand::state_of(const OccupancyMap& map, const VoxelIndex& column
     free += state == Occupancy::Free ? 1 : 0;
   }
   return free > 0 && free >= options_.free_share * (above_ - lowest_) ? state_by_floor(map, column)
-                                                                       : Occupancy::Unknown;
+                                                                      : Occupancy::Unknown;
 }
 
 // Of a column whose band is free.

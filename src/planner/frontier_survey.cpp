@@ -143,9 +143,8 @@ bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const Tr
 // The targets beside a known surface; all of them if there is none.
 std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
   const auto beside_surface = [&](const FrontierTarget& target) {
-    return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(), [&](const VoxelIndex& step) {
-      return map.at(target.unknown + step) == Occupancy::Occupied;
-    });
+    return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(),
+                       [&](const VoxelIndex& step) { return map.at(target.unknown + step) == Occupancy::Occupied; });
   };
   std::vector<FrontierTarget> beside;
   std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside), beside_surface);

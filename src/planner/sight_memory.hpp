@@ -21,10 +21,10 @@ namespace vantage::detail {
 /// Where sight passes and where the platform can go, from survey to survey, and what looking around unknown cells has
 /// found there: an answer stands until something changes where it was looked for.
 ///
-/// Cells are kept in blocks of 4 x 4 x 4. Changes are found by comparing blocks that were written to, all of them where
-/// the map is another one, with what they were in the survey before. A change in a block that an answer has looked at
-/// makes it be looked for anew. An answer is that of a memory that begins now, always. Memory follows what is known,
-/// never the box around it.
+/// Cells are kept in blocks of 4 x 4 x 4. Changes are found by comparing blocks that were written to, all of them
+/// where the map is another one, with what they were in the survey before. A change in a block that an answer has
+/// looked at makes it be looked for anew. An answer is that of a memory that begins now, always. Memory follows what
+/// is known, never the box around it.
 class SightMemory {
  public:
   /// Takes over what is clear and what is reachable now. Lines of sight are `direction_count` rays of `furthest_m`.
@@ -75,12 +75,12 @@ class SightMemory {
   double furthest_m_ = 0.0;
   std::size_t direction_count_ = 0;
   std::optional<SightTree> tree_;
-  KnownMap map_;                      // that was followed last
+  KnownMap map_;  // that was followed last
   OccupancyMap::Revision followed_ = 0;
-  BrickGrid<Block> blocks_;           // by their addresses, as if they were cells
-  std::vector<VoxelIndex> reached_;   // the bricks of the map with places, in the survey before
-  BrickTree places_;                  // that are reachable
-  VoxelIndex last_brick_;             // of blocks, that was looked at last
+  BrickGrid<Block> blocks_;          // by their addresses, as if they were cells
+  std::vector<VoxelIndex> reached_;  // the bricks of the map with places, in the survey before
+  BrickTree places_;                 // that are reachable
+  VoxelIndex last_brick_;            // of blocks, that was looked at last
   std::uint32_t last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;

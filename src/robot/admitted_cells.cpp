@@ -22,8 +22,8 @@ class StaleBoxes {
                    {tile(bricks.hi.x - 1) + 1, tile(bricks.hi.y - 1) + 1, tile(bricks.hi.z - 1) + 1}},
                   [&](const VoxelIndex& address) {
                     const VoxelIndex lo{address.x * kTileBricks, address.y * kTileBricks, address.z * kTileBricks};
-                    const VoxelBox inside = detail::box_overlap(
-                        bricks, {lo, lo + VoxelIndex{kTileBricks, kTileBricks, kTileBricks}});
+                    const VoxelBox inside =
+                        detail::box_overlap(bricks, {lo, lo + VoxelIndex{kTileBricks, kTileBricks, kTileBricks}});
                     const std::size_t number = numbers_.place(address, boxes_.size());
                     if (number == boxes_.size()) {
                       boxes_.push_back(inside);

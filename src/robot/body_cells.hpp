@@ -13,8 +13,8 @@
 
 namespace vantage::detail {
 
-/// Whether a sphere touches more cells than a map can know, so that it fits nowhere: what keeps the cost of a body from
-/// growing with its volume.
+/// Whether a sphere touches more cells than a map can know, so that it fits nowhere: what keeps the cost of a body
+/// from growing with its volume.
 [[nodiscard]] inline bool is_larger_than_known(const OccupancyMap& map, double radius_m) {
   const double cells = 4.0 / 3.0 * std::numbers::pi * std::pow(radius_m / map.resolution_m(), 3.0);
   return cells > static_cast<double>(map.brick_count() * Brick::kCells);

@@ -20,7 +20,8 @@ bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
   if (!is_rigid(pose) || !map.frame().addressable(position) || !height_allowed(position.z())) {
     return false;
   }
-  if (detail::is_larger_than_known(map, reach_m()) || (options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6)) {
+  if (detail::is_larger_than_known(map, reach_m()) ||
+      (options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6)) {
     return false;
   }
   return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),

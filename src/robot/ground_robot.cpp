@@ -22,9 +22,9 @@ bool GroundRobot::admits(const OccupancyMap& map, const Pose& pose) const {
     return false;
   }
   const std::int32_t layer = map.frame().cell_of(position).z;
-  return detail::swept_sphere_is_clear(
-      map.frame(), position, position, reach_m(), [&](const VoxelIndex& cell) { return map.is_clear(cell); },
-      {layer, layer + 1});
+  return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
+                                       [&](const VoxelIndex& cell) { return map.is_clear(cell); },
+                                       {layer, layer + 1});
 }
 
 bool GroundRobot::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
@@ -49,9 +49,7 @@ bool GroundRobot::admits_motion(const OccupancyMap& map, const Pose& from, const
   const std::int32_t layer = frame.cell_of(a).z;
   return detail::swept_sphere_is_clear(
       frame, a, b, reach_m(),
-      [&](const VoxelIndex& cell) {
-        return map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell);
-      },
+      [&](const VoxelIndex& cell) { return map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell); },
       {layer, layer + 1});
 }
 

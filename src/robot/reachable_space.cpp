@@ -80,10 +80,10 @@ ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform
 
 // Breadth first over the faces of cells, the neighbours in the order of kFaceNeighbours.
 void ReachableSpace::flood(const AdmittedCells& admitted) {
-  constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;   // a brick beside another that no step has led to
-  constexpr std::uint32_t kNone = kUnmet - 1;     // a brick without an admitted cell
+  constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;  // a brick beside another that no step has led to
+  constexpr std::uint32_t kNone = kUnmet - 1;    // a brick without an admitted cell
   struct Flooded {
-    BrickPlane left;                                                 // admitted, not reached
+    BrickPlane left;  // admitted, not reached
     std::array<std::uint32_t, kFaceNeighbours.size()> beside{};
   };
   std::vector<Flooded> bricks;  // by their numbers
@@ -150,9 +150,8 @@ bool ReachableSpace::any_in(const VoxelBox& cells) const {
     const VoxelIndex first = Brick::first_cell(brick);
     bool found = cells.contains(first) && cells.contains(first + VoxelIndex{7, 7, 7}) && reached != BrickPlane{};
     for (std::size_t word = 0; word < Brick::kWords && !found; ++word) {
-      for_each_offset(reached[word], word, [&](std::size_t offset) {
-        found = found || cells.contains(first + Brick::cell_at(offset));
-      });
+      for_each_offset(reached[word], word,
+                      [&](std::size_t offset) { found = found || cells.contains(first + Brick::cell_at(offset)); });
     }
     return found;
   };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// plan/nearest-frontier/tunnel-folded, plan/nearest-frontier/tunnel-spread: the same tunnel of ten million known cells of
-// 0.1 m, folded up side by side, and as a staircase over 2 x 2 km: a whole plan after the cells before a hole in its wall
-// became known. What a plan costs follows the cells, not the box around them. `map_mb` is what the map takes.
+// plan/nearest-frontier/tunnel-folded, plan/nearest-frontier/tunnel-spread: the same tunnel of ten million known
+// cells of 0.1 m, folded up side by side, and as a staircase over 2 x 2 km: a whole plan after the cells before a
+// hole in its wall became known. What a plan costs follows the cells, not the box around them. `map_mb` is what the
+// map takes.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -78,8 +79,8 @@ void plan_in_tunnel(benchmark::State& state, Course course) {
 }
 
 const bool registered = [] {
-  for (const auto& [name, course] :
-       {std::pair{"plan/nearest-frontier/tunnel-folded", Course::Folded}, {"plan/nearest-frontier/tunnel-spread", Course::Spread}}) {
+  for (const auto& [name, course] : {std::pair{"plan/nearest-frontier/tunnel-folded", Course::Folded},
+                                     {"plan/nearest-frontier/tunnel-spread", Course::Spread}}) {
     benchmark::RegisterBenchmark(name, [course = course](benchmark::State& state) { plan_in_tunnel(state, course); })
         ->Unit(benchmark::kMillisecond)
         ->Iterations(10);

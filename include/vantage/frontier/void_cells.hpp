@@ -14,8 +14,8 @@ namespace VANTAGE_EXPORT vantage {
 [[nodiscard]] ConvexHull occupied_hull(const OccupancyMap& map);
 
 /// The void cells of the map: unknown, inside its region, and with the centre inside (or on) the hull of the occupied
-/// cells (Dornhege & Kleiner 2011, IV-B), in raster order (z, then y, then x). None where that hull is empty, and none
-/// further from all that is known than VoidTiles tells.
+/// cells (Dornhege & Kleiner 2011, IV-B), in raster order (z, then y, then x). None where that hull is empty, and
+/// none further from all that is known than VoidTiles tells.
 [[nodiscard]] std::vector<VoxelIndex> void_cells(const OccupancyMap& map);
 
 /// How many void cells the map has.

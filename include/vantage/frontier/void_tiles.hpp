@@ -9,9 +9,9 @@
 namespace VANTAGE_EXPORT vantage {
 
 /// Where cells of a map may be void: the tiles of 8 x 8 x 8 bricks (64 cells along an edge) that hold a brick of the
-/// map, and the 26 around each of them. So a void cell is nowhere further than two tiles from what the map holds, every
-/// cell of the hull within one tile of it may be void, and looking for voids costs what is known, however far apart it
-/// lies: a hull may span a thousand times as much.
+/// map, and the 26 around each of them. So a void cell is nowhere further than two tiles from what the map holds,
+/// every cell of the hull within one tile of it may be void, and looking for voids costs what is known, however far
+/// apart it lies: a hull may span a thousand times as much.
 class VoidTiles {
  public:
   /// No tiles.

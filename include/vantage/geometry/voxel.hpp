@@ -113,8 +113,8 @@ void for_each_cell(const VoxelBox& box, Visit&& visit) {
   }
 }
 
-/// The only place where metres become cells and cells become metres. What lies further off than kFurthestVoxel cells is
-/// brought to there, axis by axis, never beyond the range of an address; a NaN is brought to the lowest address.
+/// The only place where metres become cells and cells become metres. What lies further off than kFurthestVoxel cells
+/// is brought to there, axis by axis, never beyond the range of an address; a NaN is brought to the lowest address.
 /// `addressable` tells beforehand.
 struct VoxelFrame {
   double size_m;  ///< edge of a cell, > 0
@@ -158,7 +158,9 @@ struct VoxelFrame {
                                   {cells_up_to(box.max.x()), cells_up_to(box.max.y()), cells_up_to(box.max.z())}};
   }
   /// How many cells a length spans, rounded up.
-  [[nodiscard]] std::int32_t cells_up_to(double metres) const { return detail::to_address(std::ceil(metres / size_m)); }
+  [[nodiscard]] std::int32_t cells_up_to(double metres) const {
+    return detail::to_address(std::ceil(metres / size_m));
+  }
 
  private:
   [[nodiscard]] std::int32_t coordinate_of(double metres) const {

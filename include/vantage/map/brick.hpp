@@ -23,10 +23,10 @@ struct Brick {
   static constexpr std::size_t kWords = 8;    ///< sub-bricks, and so words of a plane
   static constexpr std::size_t kCells = 512;  ///< cells of a brick
 
-  BrickPlane known{};                                 ///< bit plane: free or occupied
-  BrickPlane occupied{};                              ///< bit plane: occupied, a subset of `once_occupied`
-  BrickPlane once_occupied{};                         ///< bit plane: occupied now or before, a subset of `known`
-  std::array<std::int8_t, kCells> log_odds{};         ///< in steps, by `offset_of`
+  BrickPlane known{};                          ///< bit plane: free or occupied
+  BrickPlane occupied{};                       ///< bit plane: occupied, a subset of `once_occupied`
+  BrickPlane once_occupied{};                  ///< bit plane: occupied now or before, a subset of `known`
+  std::array<std::int8_t, kCells> log_odds{};  ///< in steps, by `offset_of`
 
   /// The brick that holds a cell.
   [[nodiscard]] static constexpr VoxelIndex of_cell(const VoxelIndex& cell) {

@@ -11,8 +11,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A set of cells that may lie anywhere, one bit each, by bricks: memory follows the bricks that were written to, never
-/// the box around them.
+/// A set of cells that may lie anywhere, one bit each, by bricks: memory follows the bricks that were written to,
+/// never the box around them.
 class BrickSet {
  public:
   /// Whether it holds a cell.

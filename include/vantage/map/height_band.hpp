@@ -15,7 +15,7 @@ namespace VANTAGE_EXPORT vantage {
 enum class FloorRule : std::uint8_t {
   Ignored,  ///< nothing: for maps without a floor, such as a floor plan
   NoDrop,   ///< that it is not missing: where every cell down to a step below the band is known free, there is none
-  Seen,     ///< that it is there: a cell within a step below the band is occupied, or HeightBand::assume_floor said so
+  Seen,  ///< that it is there: a cell within a step below the band is occupied, or HeightBand::assume_floor said so
 };
 
 /// Which heights of a map count for a robot that drives, and where its plane lies. Cells count whose centres lie
@@ -27,8 +27,8 @@ struct HeightBandOptions {
   /// Share of the cells of a column that must be free before the column is, in (0, 1]. With 1 a camera that sees only
   /// a part of the band from nearby, as most do, is shut in by what it stands beside.
   double free_share = 0.25;
-  /// Where a robot may drive. A sensor that looks level does not see the floor beside it: with FloorRule::Seen it needs
-  /// HeightBand::assume_floor where it starts.
+  /// Where a robot may drive. A sensor that looks level does not see the floor beside it: with FloorRule::Seen it
+  /// needs HeightBand::assume_floor where it starts.
   FloorRule floor = FloorRule::NoDrop;
   /// The lowest floor, below `min_height_m`, >= 0: cells count whose upper face lies above it. A robot drives down no
   /// deeper step.
@@ -40,8 +40,9 @@ struct HeightBandOptions {
 /// a single plane of the grid); together with a GroundRobot the harmonic field becomes one of two dimensions.
 ///
 /// A column of the band is occupied if a cell of it is, or if it is a drop (FloorRule::NoDrop); free if at least
-/// `free_share` of its cells are free and its floor is as HeightBandOptions::floor asks; else unknown. Its cells lie at the clamping limits, so none is contested: rays at a grazing angle wear a
-/// wall away cell by cell, hardly ever a column of it.
+/// `free_share` of its cells are free and its floor is as HeightBandOptions::floor asks; else unknown. Its cells lie
+/// at the clamping limits, so none is contested: rays at a grazing angle wear a wall away cell by cell, hardly ever a
+/// column of it.
 ///
 ///     HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.2, .sensor_height_m = 0.8});
 ///     map.insert(scan);
@@ -81,7 +82,7 @@ class HeightBand {
   OccupancyMap plane_;
   KnownMap map_;  // that was followed last
   OccupancyMap::Revision followed_ = 0;
-  BrickSet assumed_;  // columns of the plane with a floor
+  BrickSet assumed_;                                       // columns of the plane with a floor
   std::set<std::pair<std::int32_t, std::int32_t>> stale_;  // y, x of the columns of bricks to be asked again
 };
 

@@ -27,8 +27,8 @@ class Platform {
   /// platform may know how to give faster for all of them at once. Memory follows the box (AdmittedCells asks for no
   /// box that is much larger than what is known in it).
   [[nodiscard]] virtual VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const;
-  /// How far from the sensor the body ends, metres: whether a cell is admitted never depends on cells that lie further
-  /// off. Infinite where that is not known.
+  /// How far from the sensor the body ends, metres: whether a cell is admitted never depends on cells that lie
+  /// further off. Infinite where that is not known.
   [[nodiscard]] virtual double reach_m() const { return std::numeric_limits<double>::infinity(); }
   /// Whether the platform may move the sensor straight from one pose to the other: every cell that the body touches
   /// on the way is known free, or touched already at `from` (so that a platform may leave a place found too tight).

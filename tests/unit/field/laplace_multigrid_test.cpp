@@ -199,10 +199,21 @@ TEST(LaplaceDomain, OfAHeightBandIsAPlane) {
   std::mt19937 engine(43);
   std::uniform_int_distribution<int> draw(0, 99);
   std::size_t cells = 0;
-  for (const HeightBandOptions& options : std::vector<HeightBandOptions>{
-           {.min_height_m = -0.3, .max_height_m = 0.45, .sensor_height_m = 0.1, .free_share = 1.0, .floor = FloorRule::Ignored},
-           {.min_height_m = 0.2, .max_height_m = 0.3, .sensor_height_m = 0.25, .free_share = 1.0, .floor = FloorRule::Ignored},
-           {.min_height_m = 0.5, .max_height_m = 0.9, .sensor_height_m = 0.6, .free_share = 0.5, .floor = FloorRule::Ignored}}) {
+  for (const HeightBandOptions& options : std::vector<HeightBandOptions>{{.min_height_m = -0.3,
+                                          .max_height_m = 0.45,
+                                          .sensor_height_m = 0.1,
+                                          .free_share = 1.0,
+                                          .floor = FloorRule::Ignored},
+                                                                         {.min_height_m = 0.2,
+                                                                         .max_height_m = 0.3,
+                                                                         .sensor_height_m = 0.25,
+                                                                         .free_share = 1.0,
+                                                                         .floor = FloorRule::Ignored},
+                                                                         {.min_height_m = 0.5,
+                                                                         .max_height_m = 0.9,
+                                                                         .sensor_height_m = 0.6,
+                                                                         .free_share = 0.5,
+                                                                         .floor = FloorRule::Ignored}}) {
     OccupancyMap map({.resolution_m = 0.1, .region = Box{{-2.0, -1.7, -0.6}, {2.1, 1.9, 1.2}}});
     for_each_cell(*map.region(), [&](const VoxelIndex& cell) {
       const int drawn = draw(engine);

@@ -74,7 +74,9 @@ TEST(VoidCells, OfAHugeHullAreNearWhatIsKnown) {
   EXPECT_EQ(VoidTracker(map).cells(), voids);
   // The corner at the origin: all of the tile it lies in and of those beyond, but where the hull ends.
   EXPECT_EQ(std::count_if(voids.begin(), voids.end(),
-                          [](const VoxelIndex& cell) { return VoxelBox{{0, 0, 0}, {128, 128, 128}}.contains(cell); }),
+                          [](const VoxelIndex& cell) {
+                            return VoxelBox{{0, 0, 0}, {128, 128, 128}}.contains(cell);
+                          }),
             128 * 128 * 128 - 1);
   EXPECT_LT(voids.size(), 5'000'000U);
 }

@@ -309,7 +309,8 @@ void change_at_random(OccupancyMap& map, std::mt19937& engine) {
       Scan scan;
       scan.world_from_sensor = pose_looking(map.frame().centre_of(lo), 0.0);
       for (int i = 0; i < 30; ++i) {
-        scan.points.emplace_back(0.1F * static_cast<float>(coordinate()), 0.1F * static_cast<float>(coordinate()), 2.0F);
+        scan.points.emplace_back(0.1F * static_cast<float>(coordinate()), 0.1F * static_cast<float>(coordinate()),
+                                 2.0F);
       }
       map.insert(scan);
       break;
@@ -367,10 +368,10 @@ TEST(AdmittedCells, FollowWhateverHappensToAMap) {
         for (int box = 0; box < 5; ++box) {
           const auto coordinate = [&] { return static_cast<std::int32_t>(engine() % 60) - 22; };
           const VoxelIndex lo{coordinate(), coordinate(), coordinate()};
-          const VoxelBox cells{lo, lo + VoxelIndex{1 + coordinate() / 4, 3, 1 + static_cast<std::int32_t>(engine() % 19)}};
-          ASSERT_EQ(space.any_in(cells), std::any_of(expected.begin(), expected.end(), [&](const VoxelIndex& cell) {
-                      return cells.contains(cell);
-                    }));
+          const VoxelBox cells{
+              lo, lo + VoxelIndex{1 + coordinate() / 4, 3, 1 + static_cast<std::int32_t>(engine() % 19)}};
+          ASSERT_EQ(space.any_in(cells), std::any_of(expected.begin(), expected.end(),
+                                                     [&](const VoxelIndex& cell) { return cells.contains(cell); }));
         }
       }
     }
