@@ -112,11 +112,7 @@ Picture field_picture(const HarmonicField& field, const OccupancyMap& map, const
 void add_void_pictures(const VoidSearch& search, const OccupancyMap& map, const Pose& sensor,
                        const std::string& after, std::map<std::string, Picture>& pictures) {
   std::vector<VoxelIndex> voids;
-  for_each_cell(search.voids.box(), [&](const VoxelIndex& cell) {
-    if (search.voids.number_at(cell) != VoidClusters::kNone) {
-      voids.push_back(cell);
-    }
-  });
+  search.voids.for_each_cell([&](const VoxelIndex& cell) { voids.push_back(cell); });
   std::vector<Ellipsoid> ellipsoids;
   for (const FrontierVoid& one : search.frontier_voids) {
     ellipsoids.push_back(search.voids.clusters()[one.cluster].ellipsoid);

@@ -56,6 +56,18 @@ class VoidClusters {
   /// The cluster that holds a cell, as a position in `clusters()`; kNone where the cell is none of the void cells.
   [[nodiscard]] std::uint32_t number_at(const VoxelIndex& cell) const { return numbers_[cell]; }
 
+  /// Calls `visit(VoxelIndex)` for every void cell.
+  template <class Visit>
+  void for_each_cell(Visit&& visit) const {
+    for (std::size_t brick = 0; brick < numbers_.bricks(); ++brick) {
+      for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
+        if (numbers_.values(brick)[offset] != kNone) {
+          visit(Brick::first_cell(numbers_.address(brick)) + Brick::cell_at(offset));
+        }
+      }
+    }
+  }
+
  private:
   std::vector<VoidCluster> clusters_;
   BrickGrid<std::uint32_t> numbers_{kNone};
