@@ -122,8 +122,7 @@ for part in "${@:-paper baselines ablation}"; do
       paper)
         head_of_table panoramic
         row 'harmonic' harmonic --planner harmonic
-        row 'harmonic, scans on the way spared' spared --planner harmonic --set spare_scans=true
-        row 'harmonic, faithful' faithful --planner harmonic --set faithful=true
+        row 'harmonic, faithful' faithful --planner harmonic --set mode=faithful
         row 'frontier-gain, 100 hypotheses' gain-100 --planner frontier-gain
         row 'nearest-frontier' nearest --planner nearest-frontier
         ;;
@@ -137,18 +136,14 @@ for part in "${@:-paper baselines ablation}"; do
         ;;
       ablation)
         head_of_table panoramic
-        row 'faithful' faithful --planner harmonic --set faithful=true
-        row '+ looks early, takes the shortest way there' early --planner harmonic --set faithful=true \
+        row 'faithful' faithful --planner harmonic --set mode=faithful
+        row '+ looks early, takes the shortest way there' early --planner harmonic --set mode=faithful \
           --set look_early=true --set shortest_way=true
         for detour in 2 0.5; do
-          row "+ near frontiers first, detour $detour m" "detour-$detour" --planner harmonic --set faithful=true \
+          row "+ near frontiers first, detour $detour m" "detour-$detour" --planner harmonic --set mode=faithful \
             --set look_early=true --set shortest_way=true --set "detour_m=$detour"
         done
         row '+ detour 0.2 m: the default' harmonic --planner harmonic
-        row 'default, scans on the way spared' spared --planner harmonic --set spare_scans=true
-        row 'faithful, to the boundary of most flux' faithful-flux --planner harmonic --set faithful=true \
-          --set sink_choice=largest-flux
-        row 'default, to the boundary of most flux' flux --planner harmonic --set sink_choice=largest-flux
         row 'default, looks from beside the boundary' late --planner harmonic --set look_early=false
         ;;
       kinect | stereo)

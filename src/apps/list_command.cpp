@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -65,12 +66,24 @@ void list() {
   }
 }
 
+void list_settings(const std::string& planner) {
+  std::cout << "settings of " << planner << " (--set name=value): name, default, unit, meaning\n";
+  for (const PlannerSetting& setting : planner_settings(planner)) {
+    char text[96];
+    std::snprintf(text, sizeof text, "  %-22s %-14s %-9s ", setting.name.c_str(), setting.default_value.c_str(),
+                  setting.unit.c_str());
+    std::cout << text << setting.meaning << '\n';
+  }
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "Name the worlds, planners and sensors there are");
-  command->footer("Example:\n  vantage list | grep -A9 planners");
-  command->callback(list);
+  command->footer("Example:\n  vantage list --settings harmonic");
+  auto planner = std::make_shared<std::string>();
+  command->add_option("--settings", *planner, "The settings of this planner instead");
+  command->callback([planner] { planner->empty() ? list() : list_settings(*planner); });
 }
 
 }  // namespace vantage::apps

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vantage/robot/free_flyer.hpp>
