@@ -4,14 +4,23 @@
 #include <numbers>
 #include <vantage/planner/assume_free.hpp>
 
+#include "map/option_rule.hpp"
+
 namespace vantage {
+namespace {
+
+constexpr double kFurthestClearM = 5.0;
+
+}  // namespace
 
 // Of the body's box only the ellipsoid in it: the box's corners may hold a wall.
 void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, double clearance_m) {
+  detail::require_option(clearance_m >= 0.0 && clearance_m <= kFurthestClearM, "assume_free: clearance_m", clearance_m,
+                         "in [0, 5] metres");
   const Box body = platform.body_box(pose);
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
-  const Eigen::Vector3d clear = Eigen::Vector3d::Constant(std::max(clearance_m, 0.0));
+  const Eigen::Vector3d clear = Eigen::Vector3d::Constant(clearance_m);
   const Eigen::Vector3d position = pose.translation();
   const Eigen::Vector3d least = body.min.cwiseMin(position - clear);
   const Eigen::Vector3d most = body.max.cwiseMax(position + clear);
@@ -28,14 +37,16 @@ void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, 
 
 double start_clearance_m(const Platform& platform, const RangeSensor& sensor) {
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
-  // At this distance an opening of so much to either side fits into a view of this angle.
+  // At this distance an opening of so much to either side fits into a view of this angle. A view without an extent is
+  // that of a sensor in a plane, for which nothing lies beside it.
+  constexpr double kFlatRad = 1e-2;
   const auto fits_at_m = [](double side_m, double angle_rad) {
-    return angle_rad < std::numbers::pi ? side_m / std::tan(0.5 * angle_rad) : 0.0;
+    return angle_rad > kFlatRad && angle_rad < std::numbers::pi ? side_m / std::tan(0.5 * angle_rad) : 0.0;
   };
   const double side_m = std::max(half.x(), half.y());
   const double blind_m = std::max({fits_at_m(half.z(), sensor.vertical_angle_rad()),
                                    fits_at_m(side_m, sensor.horizontal_angle_rad()), sensor.min_range_m});
-  return blind_m > 0.0 ? std::hypot(blind_m, std::max(side_m, half.z())) : 0.0;
+  return blind_m > 0.0 ? std::min(std::hypot(blind_m, std::max(side_m, half.z())), kFurthestClearM) : 0.0;
 }
 
 }  // namespace vantage

@@ -10,7 +10,8 @@
 namespace VANTAGE_EXPORT vantage {
 
 /// Declares the space free that a robot needs for its first plan, as whoever starts it there vouches for: the still
-/// unknown cells that its body touches at `pose`, and those within `clearance_m` of the sensor.
+/// unknown cells that its body touches at `pose`, and those within `clearance_m` of the sensor. Throws
+/// std::invalid_argument unless `clearance_m` is in [0, 5].
 ///
 ///     assume_free(map, *platform, pose, start_clearance_m(*platform, sensor));
 void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, double clearance_m = 0.0);

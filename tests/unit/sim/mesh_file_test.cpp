@@ -193,8 +193,8 @@ TEST(MeshFileFaces, OfTooManyCornersAreRefusedInAnyFormat) {
   std::string obj;
   std::string face = "f";
   for (int i = 1; i <= 1001; ++i) {
-    obj += "v " + std::to_string(i) + " " + std::to_string(i * i % 17) + " 0\n";
-    face += " " + std::to_string(i);
+    obj.append("v ").append(std::to_string(i)).append(" ").append(std::to_string(i * i % 17)).append(" 0\n");
+    face.append(" ").append(std::to_string(i));
   }
   std::ofstream(folder / "round.obj") << obj << face << '\n';
   try {
