@@ -1,17 +1,102 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-#include <string_view>
+#include <fcntl.h>
+#include <sys/types.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+// In a header, as every library writes by it and shows nothing of its own to another.
 namespace vantage::detail {
+
+// Where the bytes of a file go first.
+struct WritePlace {
+  std::filesystem::path opened;
+  std::filesystem::path renamed;  // empty: written to as it is
+};
+
+// A link is followed, so that it stays one.
+inline WritePlace write_place_of(const std::filesystem::path& path) {
+  std::error_code none;
+  const bool is_link = std::filesystem::is_symlink(path, none);
+  const std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(path, none) : path;
+  if (std::filesystem::exists(target, none) && !std::filesystem::is_regular_file(target, none)) {
+    return {target, {}};
+  }
+  return {std::filesystem::path(target) += ".part", target};
+}
+
+class WholeFile {
+ public:
+  WholeFile(const std::filesystem::path& named, WritePlace place)
+      : named_(named),
+        place_(std::move(place)),
+        file_(::open(place_.opened.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY, 0666)) {
+    if (file_ < 0) {
+      fail();
+    }
+  }
+  WholeFile(const WholeFile&) = delete;
+  WholeFile(WholeFile&&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+  WholeFile& operator=(WholeFile&&) = delete;
+  // What was not finished goes.
+  ~WholeFile() {
+    if (file_ >= 0) {
+      ::close(file_);
+    }
+    if (!finished_ && !place_.renamed.empty()) {
+      ::unlink(place_.opened.c_str());
+    }
+  }
+
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+      if (written < 0 && errno != EINTR) {
+        fail();
+      }
+      bytes.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+    }
+  }
+  void finish() {
+    const int file = std::exchange(file_, -1);
+    if (::close(file) != 0) {
+      fail();
+    }
+    if (!place_.renamed.empty() && ::rename(place_.opened.c_str(), place_.renamed.c_str()) != 0) {
+      fail();
+    }
+    finished_ = true;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw std::runtime_error(named_.string() + ": cannot be written: " + std::generic_category().message(errno));
+  }
+
+  const std::filesystem::path& named_;
+  WritePlace place_;
+  int file_;
+  bool finished_ = false;
+};
 
 /// Writes a file so that its name holds all of `bytes` or what it held before: they go to NAME.part, which takes the
 /// name once it is whole. A device or a pipe is written to as it is. Throws std::runtime_error with the path and the
 /// system's reason; then there is no NAME.part.
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+inline void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
+  OpenFile file(path, write_place_of(path));
+  file.write(bytes);
+  file.finish();
+}
 
 /// Whether such a file could be begun: throws as `write_whole_file` does. Leaves nothing behind.
-void try_whole_file(const std::filesystem::path& path);
+inline void try_whole_file(const std::filesystem::path& path) { WholeFile(path, write_place_of(path)); }
 
 }  // namespace vantage::detail

@@ -161,7 +161,7 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   } else if (reported_ == GoalResult::Failed) {
     fail(goal);
   } else if (reported_ == GoalResult::Reached || arrived(current)) {
-    std::erase_if(places_, [&](const Place& place) { return place.cell == goal; });
+    settle(goal, (expected_->goal.translation() - current.translation()).norm());
     const VoxelIndex here = map.frame().cell_of(current.translation());
     const auto look = [&](const VoxelIndex& cell) {
       if (map.at(cell) != Occupancy::Unknown) {
@@ -201,6 +201,18 @@ bool TriedViews::was_in_view(const OccupancyMap& map, const Pose& pose, const Vo
          sensor_.in_view(pose.linear().transpose() * line) &&
          VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
              .all_from_the_end([&](const VoxelIndex& cell) { return touch(cell, unknown) || map.is_clear(cell); });
+}
+
+// A robot that is no nearer to a goal than this will not be next time either: a goal that is asked for once more fails.
+void TriedViews::settle(const VoxelIndex& goal, double off_m) {
+  Place& place = place_of(goal);
+  if (off_m < 0.5 * cell_m_) {
+    std::erase_if(places_, [&](const Place& one) { return one.cell == goal; });
+  } else if (place.nearest_way == 0.0) {
+    fail(goal);
+  } else {
+    place.nearest_way = 0.0;
+  }
 }
 
 void TriedViews::fail(const VoxelIndex& goal) {

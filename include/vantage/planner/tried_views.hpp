@@ -136,6 +136,7 @@ class TriedViews {
   Looks& new_look_at(const OccupancyMap& map, const VoxelIndex& unknown);
   void forget(const OccupancyMap& map);
   void evaluate(const OccupancyMap& map, const Pose& current);
+  void settle(const VoxelIndex& goal, double off_m);
   void fail(const VoxelIndex& goal);
   void rest_now();
   Place& place_of(const VoxelIndex& cell);
