@@ -9,8 +9,8 @@
 #include "frontier/lattice_point.hpp"
 #include "frontier/on_facet.hpp"
 #include "geometry/box_around.hpp"
-#include "geometry/plane_distance.hpp"
 #include "geometry/box_overlap.hpp"
+#include "geometry/plane_distance.hpp"
 
 namespace vantage::detail {
 namespace {

@@ -8,8 +8,8 @@
 namespace vantage {
 
 /// Takes back, after `mark_rays`, what rays are marked to have passed of surfaces that the same scan sees
-/// (OccupancyMapOptions::keep_grazed_cells): of the cells occupied in `map`, those that touch a cell in which some ray
-/// ends, and for each drawn ray the unbroken run that ends with it.
+/// (OccupancyMapOptions::keep_grazed_cells): of the cells occupied in `map`, those that touch a cell in which some
+/// ray ends, and for each drawn ray the unbroken run that ends with it.
 void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks);
 
 }  // namespace vantage

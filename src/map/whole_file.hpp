@@ -91,7 +91,7 @@ class WholeFile {
 /// name once it is whole. A device or a pipe is written to as it is. Throws std::runtime_error with the path and the
 /// system's reason; then there is no NAME.part.
 inline void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
-  OpenFile file(path, write_place_of(path));
+  WholeFile file(path, write_place_of(path));
   file.write(bytes);
   file.finish();
 }

@@ -15,8 +15,8 @@ constexpr double kFurthestClearM = 5.0;
 
 // Of the body's box only the ellipsoid in it: the box's corners may hold a wall.
 void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, double clearance_m) {
-  detail::require_option(clearance_m >= 0.0 && clearance_m <= kFurthestClearM, "assume_free: clearance_m", clearance_m,
-                         "in [0, 5] metres");
+  detail::require_option(clearance_m >= 0.0 && clearance_m <= kFurthestClearM, "assume_free: clearance_m",
+                         clearance_m, "in [0, 5] metres");
   const Box body = platform.body_box(pose);
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
@@ -24,15 +24,16 @@ void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, 
   const Eigen::Vector3d position = pose.translation();
   const Eigen::Vector3d least = body.min.cwiseMin(position - clear);
   const Eigen::Vector3d most = body.max.cwiseMax(position + clear);
-  for_each_cell(VoxelBox{frame.cell_of(least), frame.cell_of(most) + VoxelIndex{1, 1, 1}}, [&](const VoxelIndex& cell) {
-    const Box box = frame.box_of(cell);
-    const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
-    const bool in_body = (nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9;
-    if (in_body || box.distance_to(position) < clearance_m) {
-      const Eigen::Vector3d within = 0.25 * box.extent();
-      map.assume_free({box.min + within, box.max - within});
-    }
-  });
+  for_each_cell(VoxelBox{frame.cell_of(least), frame.cell_of(most) + VoxelIndex{1, 1, 1}},
+                [&](const VoxelIndex& cell) {
+                  const Box box = frame.box_of(cell);
+                  const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
+                  const bool in_body = (nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9;
+                  if (in_body || box.distance_to(position) < clearance_m) {
+                    const Eigen::Vector3d within = 0.25 * box.extent();
+                    map.assume_free({box.min + within, box.max - within});
+                  }
+                });
 }
 
 double start_clearance_m(const Platform& platform, const RangeSensor& sensor) {

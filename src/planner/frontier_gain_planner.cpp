@@ -22,8 +22,8 @@ std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
   double best_value = 0.0;
   const auto consider = [&](TargetView candidate) {
     ++plan.statistics.views_scored;
-    const double value =
-        candidate.view.utility - options_.cost_per_m * platform.distance_m(situation().current(), candidate.view.pose);
+    const double value = candidate.view.utility -
+                         options_.cost_per_m * platform.distance_m(situation().current(), candidate.view.pose);
     if (candidate.view.utility > 0.0) {
       plan.candidates.push_back(candidate.view);
     }

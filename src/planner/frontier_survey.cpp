@@ -29,12 +29,7 @@ class ViewpointSearch {
  public:
   ViewpointSearch(const VoxelFrame& frame, const Platform& platform, const RangeSensor& sensor,
                   const ReachableSpace& reachable, const TriedViews& tried, detail::SightMemory& memory)
-      : frame_(frame),
-        platform_(platform),
-        sensor_(sensor),
-        reachable_(reachable),
-        tried_(tried),
-        memory_(memory) {}
+      : frame_(frame), platform_(platform), sensor_(sensor), reachable_(reachable), tried_(tried), memory_(memory) {}
 
   // Looks back from `unknown`, first straight away through the frontier cell, then all around.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
@@ -228,8 +223,7 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, ReachableSpace 
 }
 
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
-                                const Pose& current, const FrontierSurveyOptions& options,
-                                const TriedViews& tried) {
+                                const Pose& current, const FrontierSurveyOptions& options, const TriedViews& tried) {
   const std::shared_ptr<const Platform> borrowed(std::shared_ptr<void>(), &platform);
   return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried);
 }

@@ -139,8 +139,8 @@ void FrontierVoidPlanner::accumulate(PlanStatistics& statistics) {
   const FrontierSurvey& survey = situation().survey();
   const std::vector<UtilityVector> vectors =
       utility_vectors(search_.voids, search_.frontier_voids, map.frame(), options_.most_vectors);
-  const AccumulatedUtility utility =
-      accumulate_utility(map, survey.reachable, vectors, situation().sensor().min_range_m, situation().sensor().max_range_m);
+  const AccumulatedUtility utility = accumulate_utility(
+      map, survey.reachable, vectors, situation().sensor().min_range_m, situation().sensor().max_range_m);
   statistics.ray_operations += utility.operations;
   for (std::size_t i = 0; i < utility.cells.size(); ++i) {
     if (utility.cells[i] > 0) {
@@ -161,9 +161,8 @@ std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, 
   std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays);
   const TriedViews& tried = situation().tried();
   if (tried.size() > 0) {
-    std::erase_if(seen, [&](const SightedCell& one) {
-      return tried.gave_up(one.cell) || tried.tried_from(one.cell, place);
-    });
+    std::erase_if(
+        seen, [&](const SightedCell& one) { return tried.gave_up(one.cell) || tried.tried_from(one.cell, place); });
   }
   return seen;
 }
@@ -251,8 +250,7 @@ std::optional<ChosenView> FrontierVoidPlanner::nearest_frontier(PlanStatistics& 
   }
   const GridPaths ways(situation().reachable());
   for (const double detour_m : {0.0, std::numeric_limits<double>::max()}) {
-    for (const VoxelIndex& viewpoint :
-         ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m())) {
+    for (const VoxelIndex& viewpoint : ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m())) {
       const auto target = std::find_if(targets.begin(), targets.end(),
                                        [&](const FrontierTarget& one) { return one.viewpoint == viewpoint; });
       TargetView view = view_of_target(situation(), *target, statistics.ray_operations);

@@ -46,7 +46,8 @@ LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d
   for (const FrontierTarget& target : situation.survey().targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
     const double range_m = line.norm();
-    if (range_m >= sensor.min_range_m && range_m <= furthest_m && !situation.tried().tried_from(target.unknown, place_) &&
+    if (range_m >= sensor.min_range_m && range_m <= furthest_m &&
+        !situation.tried().tried_from(target.unknown, place_) &&
         in_plain_sight(map, position, target.unknown, operations)) {
       sightings_.push_back({target.unknown, line});
     }

@@ -26,18 +26,18 @@ std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_
   return std::make_unique<Planner>(setup, options);
 }
 
-// With an object the planner of its surface, unless a setting of the paper's utility asks for the paper's way to choose.
+// With an object the planner of its surface, unless a setting of the paper's utility asks for the paper's way to
+// choose.
 std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const PlannerSettings& settings) {
   detail::NextBestViewSettings read;
   detail::next_best_view_settings().read("next-best-view", settings, read);
   const NextBestViewOptions& options = read.cells;
-  constexpr std::array<std::string_view, 8> kOfThePaper{"gain",         "choice",      "min_unknown_cells",
-                                                        "min_overlap_cells", "failed_within_deg", "vision_angle_deg",
-                                                        "min_depth_m",  "max_depth_m"};
-  const bool as_the_paper =
-      options.method != VisibilityMethod::Exact ||
-      std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
-                  [&](std::string_view name) { return settings.find(name) != settings.end(); });
+  constexpr std::array<std::string_view, 8> kOfThePaper{
+      "gain",        "choice",     "min_unknown_cells", "min_overlap_cells", "failed_within_deg", "vision_angle_deg",
+      "min_depth_m", "max_depth_m"};
+  const bool as_the_paper = options.method != VisibilityMethod::Exact ||
+                            std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
+                                        [&](std::string_view name) { return settings.find(name) != settings.end(); });
   if (!options.object || as_the_paper) {
     return std::make_unique<NextBestViewPlanner>(setup, options);
   }

@@ -12,9 +12,8 @@ std::optional<ChosenView> NearestFrontierPlanner::choose(Plan& plan) {
   std::transform(targets.begin(), targets.end(), viewpoints.begin(),
                  [](const FrontierTarget& target) { return target.viewpoint; });
   std::vector<VoxelIndex> way = GridPaths(situation().reachable()).to_nearest(viewpoints);
-  const auto nearest = std::find_if(targets.begin(), targets.end(), [&](const FrontierTarget& target) {
-    return target.viewpoint == way.back();
-  });
+  const auto nearest = std::find_if(targets.begin(), targets.end(),
+                                    [&](const FrontierTarget& target) { return target.viewpoint == way.back(); });
   return ChosenView{view_of_target(situation(), *nearest, plan.statistics.ray_operations), std::move(way)};
 }
 

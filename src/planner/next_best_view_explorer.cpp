@@ -35,11 +35,10 @@ std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   }
   UtilityFactors factors;
   factors.surface = unknown_cells();
-  factors.distance =
-      nearness([&](const Pose& pose) { return platform.distance_m(situation().current(), pose); });
-  const std::vector<ScoredView> scored =
-      score_views(situation().caster(), drawn, situation().rays(), map.region() ? *map.region() : map.bounds().grown(1),
-                  factors, static_cast<std::size_t>(situation().setup().threads));
+  factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(situation().current(), pose); });
+  const std::vector<ScoredView> scored = score_views(situation().caster(), drawn, situation().rays(),
+                                                     map.region() ? *map.region() : map.bounds().grown(1), factors,
+                                                     static_cast<std::size_t>(situation().setup().threads));
   plan.statistics.views_scored += scored.size();
   std::vector<std::size_t> order(scored.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -29,8 +29,9 @@ std::vector<double> numbers_in(const std::string& text) {
 template <class Options, class Survey>
 SettingTable<Options> with_survey(std::string_view owner, Survey survey) {
   SettingTable<Options> table(owner);
-  table.number("patience", "places", "from which a cell is looked at in vain before it is given up", within(1, 100),
-               [survey](Options& o) -> auto& { return survey(o).patience; });
+  table.number(
+      "patience", "places", "from which a cell is looked at in vain before it is given up",
+      within(1, 100), [survey](Options & o) -> auto& { return survey(o).patience; });
   return table;
 }
 
@@ -65,11 +66,14 @@ const SettingTable<FrontierGainOptions>& frontier_gain_settings() {
   using O = FrontierGainOptions;
   static const auto table =
       with_survey<O>("FrontierGainOptions", [](O& o) -> FrontierSurveyOptions& { return o.survey; })
-          .number("hypotheses", "poses", "tried per plan", at_least(1), [](O& o) -> auto& { return o.hypotheses; })
-          .number("aimed_share", "", "share of the hypotheses that look at some frontier", within(0, 1),
-                  [](O& o) -> auto& { return o.aimed_share; })
-          .number("cost_per_m", "cells/m", "what a metre costs, in frontier cells", at_least(0),
-                  [](O& o) -> auto& { return o.cost_per_m; });
+          .number(
+              "hypotheses", "poses", "tried per plan", at_least(1), [](O & o) -> auto& { return o.hypotheses; })
+          .number(
+              "aimed_share", "", "share of the hypotheses that look at some frontier", within(0, 1),
+              [](O & o) -> auto& { return o.aimed_share; })
+          .number(
+              "cost_per_m", "cells/m", "what a metre costs, in frontier cells", at_least(0),
+              [](O & o) -> auto& { return o.cost_per_m; });
   return table;
 }
 
@@ -82,16 +86,21 @@ const SettingTable<FrontierVoidOptions>& frontier_void_settings() {
                                        {"faithful", FrontierVoidStrategy::faithful()},
                                        {"travelling", FrontierVoidStrategy::travelling()},
                                        {"searching", FrontierVoidStrategy::searching()}});
-    made.number("views", "views", "valid views evaluated per plan (N)", at_least(1),
-                [](O& o) -> auto& { return o.views; })
-        .number("min_score", "", "least fit of a cluster's ellipsoid", more_than(0),
-                [](O& o) -> auto& { return o.clusters.min_score; })
-        .number("cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0),
-                [](O& o) -> auto& { return o.strategy.cost_per_m; })
-        .number("least_view_m3", "m^3", "a view that is expected to learn less of the voids is none", at_least(0),
-                [](O& o) -> auto& { return o.strategy.least_view_m3; })
-        .flag("beyond_voids", "goes on to frontiers that border no void",
-              [](O& o) -> auto& { return o.strategy.beyond_voids; });
+    made.number(
+            "views", "views", "valid views evaluated per plan (N)", at_least(1),
+            [](O & o) -> auto& { return o.views; })
+        .number(
+            "min_score", "", "least fit of a cluster's ellipsoid", more_than(0),
+            [](O & o) -> auto& { return o.clusters.min_score; })
+        .number(
+            "cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0),
+            [](O & o) -> auto& { return o.strategy.cost_per_m; })
+        .number(
+            "least_view_m3", "m^3", "a view that is expected to learn less of the voids is none", at_least(0),
+            [](O & o) -> auto& { return o.strategy.least_view_m3; })
+        .flag(
+            "beyond_voids", "goes on to frontiers that border no void",
+            [](O & o) -> auto& { return o.strategy.beyond_voids; });
     return made;
   }();
   return table;
@@ -103,30 +112,40 @@ const SettingTable<HarmonicOptions>& harmonic_settings() {
     auto made = with_survey<O>("HarmonicOptions", [](O& o) -> FrontierSurveyOptions& { return o.survey; });
     add_mode<O, HarmonicStrategy>(made, "what to make of the field; later settings refine it",
                                   {{"default", {}}, {"faithful", HarmonicStrategy::faithful()}});
-    made.choice("solver", "how the field is solved",
-                std::vector<std::pair<std::string_view, FieldSolver>>{{"multigrid", FieldSolver::Multigrid},
-                                                                      {"gauss-seidel", FieldSolver::GaussSeidel}},
-                [](O& o) -> auto& { return o.solver; })
-        .choice("neumann", "what a closed face contributes",
-                std::vector<std::pair<std::string_view, NeumannScheme>>{{"finite-volume", NeumannScheme::FiniteVolume},
-                                                                        {"mirror", NeumannScheme::Mirror}},
-                [](O& o) -> auto& { return o.neumann; })
-        .number("tolerance", "", "gauss-seidel: largest relative change of the last sweep", more_than(0),
-                [](O& o) -> auto& { return o.tolerance; })
-        .number("max_sweeps", "sweeps", "gauss-seidel: no field takes more", at_least(1),
-                [](O& o) -> auto& { return o.max_sweeps; })
-        .number("uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
-                at_least(0), [](O& o) -> auto& { return o.uniform_source; })
-        .number("detour_m", "m", "boundaries further than the nearest by more than this wait", at_least(0),
-                [](O& o) -> auto& { return o.strategy.detour_m; })
-        .flag("look_early", "looks from the first place on the way that sees the boundary",
-              [](O& o) -> auto& { return o.strategy.look_early; })
-        .number("look_spacing_m", "m", "after so much of the way any boundary in sight is looked at", at_least(0),
-                [](O& o) -> auto& { return o.strategy.look_spacing_m; })
-        .number("look_again_m3", "m^3", "looks again from where it is while a view teaches that much", at_least(0),
-                [](O& o) -> auto& { return o.strategy.look_again_m3; })
-        .flag("shortest_way", "takes the shortest way, not the streamline",
-              [](O& o) -> auto& { return o.strategy.shortest_way; });
+    made.choice(
+            "solver", "how the field is solved",
+            std::vector<std::pair<std::string_view, FieldSolver>>{{"multigrid", FieldSolver::Multigrid},
+                                                                  {"gauss-seidel", FieldSolver::GaussSeidel}},
+            [](O & o) -> auto& { return o.solver; })
+        .choice(
+            "neumann", "what a closed face contributes",
+            std::vector<std::pair<std::string_view, NeumannScheme>>{{"finite-volume", NeumannScheme::FiniteVolume},
+                                                                    {"mirror", NeumannScheme::Mirror}},
+            [](O & o) -> auto& { return o.neumann; })
+        .number(
+            "tolerance", "", "gauss-seidel: largest relative change of the last sweep", more_than(0),
+            [](O & o) -> auto& { return o.tolerance; })
+        .number(
+            "max_sweeps", "sweeps", "gauss-seidel: no field takes more", at_least(1),
+            [](O & o) -> auto& { return o.max_sweeps; })
+        .number(
+            "uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
+            at_least(0), [](O & o) -> auto& { return o.uniform_source; })
+        .number(
+            "detour_m", "m", "boundaries further than the nearest by more than this wait", at_least(0),
+            [](O & o) -> auto& { return o.strategy.detour_m; })
+        .flag(
+            "look_early", "looks from the first place on the way that sees the boundary",
+            [](O & o) -> auto& { return o.strategy.look_early; })
+        .number(
+            "look_spacing_m", "m", "after so much of the way any boundary in sight is looked at", at_least(0),
+            [](O & o) -> auto& { return o.strategy.look_spacing_m; })
+        .number(
+            "look_again_m3", "m^3", "looks again from where it is while a view teaches that much", at_least(0),
+            [](O & o) -> auto& { return o.strategy.look_again_m3; })
+        .flag(
+            "shortest_way", "takes the shortest way, not the streamline",
+            [](O & o) -> auto& { return o.strategy.shortest_way; });
     return made;
   }();
   return table;
@@ -163,47 +182,64 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
                 options.cells.radii_m = numbers_in(text);
                 return !options.cells.radii_m.empty();
               })
-        .number("subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6),
-                [](O& o) -> auto& { return o.cells.subdivisions; })
-        .number("random_candidates", "views", "drawn besides, anywhere", at_least(0),
-                [](O& o) -> auto& { return o.cells.random_candidates; })
-        .number("aimed_candidates", "views", "drawn besides, at unknown cells of the object", at_least(0),
-                [](O& o) -> auto& { return o.cells.aimed.count; })
-        .number("aimed_min_distance_m", "m", "of these from what they are aimed at, at least", at_least(0),
-                [](O& o) -> auto& { return o.cells.aimed.min_distance_m; })
-        .number("aimed_max_distance_m", "m", "and at most", more_than(0),
-                [](O& o) -> auto& { return o.cells.aimed.max_distance_m; })
-        .number("min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
-                [](O& o) -> auto& { return o.cells.min_overlap_cells; })
-        .text("failed_within_deg", "deg", "a cell that a view failed to resolve is not sought from so near directions",
-              "a number", angle([](O& o) -> double& { return o.cells.failed_within_rad; }))
-        .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
-                [](O& o) -> auto& { return o.cells.min_unknown_cells; })
-        .choice("gain", "what new surface is worth", gains, [](O& o) -> auto& { return o.cells.gain; })
+        .number(
+            "subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6),
+            [](O & o) -> auto& { return o.cells.subdivisions; })
+        .number(
+            "random_candidates", "views", "drawn besides, anywhere", at_least(0),
+            [](O & o) -> auto& { return o.cells.random_candidates; })
+        .number(
+            "aimed_candidates", "views", "drawn besides, at unknown cells of the object", at_least(0),
+            [](O & o) -> auto& { return o.cells.aimed.count; })
+        .number(
+            "aimed_min_distance_m", "m", "of these from what they are aimed at, at least", at_least(0),
+            [](O & o) -> auto& { return o.cells.aimed.min_distance_m; })
+        .number(
+            "aimed_max_distance_m", "m", "and at most", more_than(0),
+            [](O & o) -> auto& { return o.cells.aimed.max_distance_m; })
+        .number(
+            "min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
+            [](O & o) -> auto& { return o.cells.min_overlap_cells; })
+        .text("failed_within_deg", "deg",
+              "a cell that a view failed to resolve is not sought from so near directions", "a number",
+              angle([](O& o) -> double& { return o.cells.failed_within_rad; }))
+        .number(
+            "min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
+            [](O & o) -> auto& { return o.cells.min_unknown_cells; })
+        .choice(
+            "gain", "what new surface is worth", gains, [](O & o) -> auto& { return o.cells.gain; })
         .text("vision_angle_deg", "deg", "largest incidence that the sensor measures", "a number",
               angle([](O& o) -> double& { return o.cells.sensing.max_incidence_rad; }))
-        .number("min_depth_m", "m", "nearest that the sensor measures", at_least(0),
-                [](O& o) -> auto& { return o.cells.sensing.min_depth_m; })
-        .number("max_depth_m", "m", "furthest that the sensor measures", more_than(0),
-                [](O& o) -> auto& { return o.cells.sensing.max_depth_m; })
-        .choice("choice", "which view is taken",
-                std::vector<std::pair<std::string_view, ViewChoice>>{{"cover", ViewChoice::Cover},
-                                                                     {"greedy", ViewChoice::Greedy}},
-                [](O& o) -> auto& { return o.cells.choice; })
-        .choice("method", "how views are evaluated",
-                std::vector<std::pair<std::string_view, VisibilityMethod>>{
-                    {"default", VisibilityMethod::Exact},
-                    {"uniform", VisibilityMethod::Uniform},
-                    {"hierarchical", VisibilityMethod::Hierarchical}},
-                [](O& o) -> auto& { return o.cells.method; })
-        .number("hierarchical_levels", "", "levels of the hierarchical method", within(1, 16),
-                [](O& o) -> auto& { return o.cells.hierarchical_levels; })
-        .number("min_new_share", "", "a view must be expected to show this share of the surface seen so far",
-                within(0, 1), [](O& o) -> auto& { return o.surface.min_new_share; })
-        .number("near_share", "", "of views expected to show this share of the best, the nearest is taken", within(0, 1),
-                [](O& o) -> auto& { return o.surface.near_share; })
-        .number("hypotheses", "views", "without an object: weighed per plan", at_least(1),
-                [](O& o) -> auto& { return o.cells.hypotheses; });
+        .number(
+            "min_depth_m", "m", "nearest that the sensor measures", at_least(0),
+            [](O & o) -> auto& { return o.cells.sensing.min_depth_m; })
+        .number(
+            "max_depth_m", "m", "furthest that the sensor measures", more_than(0),
+            [](O & o) -> auto& { return o.cells.sensing.max_depth_m; })
+        .choice(
+            "choice", "which view is taken",
+            std::vector<std::pair<std::string_view, ViewChoice>>{{"cover", ViewChoice::Cover},
+                                                                 {"greedy", ViewChoice::Greedy}},
+            [](O & o) -> auto& { return o.cells.choice; })
+        .choice(
+            "method", "how views are evaluated",
+            std::vector<std::pair<std::string_view, VisibilityMethod>>{
+                {"default", VisibilityMethod::Exact},
+                {"uniform", VisibilityMethod::Uniform},
+                {"hierarchical", VisibilityMethod::Hierarchical}},
+            [](O & o) -> auto& { return o.cells.method; })
+        .number(
+            "hierarchical_levels", "", "levels of the hierarchical method", within(1, 16),
+            [](O & o) -> auto& { return o.cells.hierarchical_levels; })
+        .number(
+            "min_new_share", "", "a view must be expected to show this share of the surface seen so far",
+            within(0, 1), [](O & o) -> auto& { return o.surface.min_new_share; })
+        .number(
+            "near_share", "", "of views expected to show this share of the best, the nearest is taken", within(0, 1),
+            [](O & o) -> auto& { return o.surface.near_share; })
+        .number(
+            "hypotheses", "views", "without an object: weighed per plan", at_least(1),
+            [](O & o) -> auto& { return o.cells.hypotheses; });
     return made;
   }();
   return table;

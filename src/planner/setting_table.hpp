@@ -101,9 +101,10 @@ class SettingTable {
   /// Anything else: `parse(options, text)` says whether it took the text, `rule` what it takes.
   SettingTable& text(std::string_view name, std::string_view unit, std::string_view meaning, std::string rule,
                      std::function<bool(Options&, const std::string&)> parse) {
-    rows_.push_back(
-        {{std::string(name), "", std::string(unit), std::string(meaning)}, std::move(rule), std::move(parse),
-         [](const Options&) {}});
+    rows_.push_back({{std::string(name), "", std::string(unit), std::string(meaning)},
+                     std::move(rule),
+                     std::move(parse),
+                     [](const Options&) {}});
     return *this;
   }
 

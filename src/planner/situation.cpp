@@ -27,8 +27,9 @@ double way_of(const std::vector<Pose>& path) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     way += (path[i].translation() - path[i - 1].translation()).norm();
   }
-  return path.empty() ? way
-                      : way + std::acos(std::clamp(optical_axis(path.front()).dot(optical_axis(path.back())), -1.0, 1.0));
+  return path.empty()
+             ? way
+             : way + std::acos(std::clamp(optical_axis(path.front()).dot(optical_axis(path.back())), -1.0, 1.0));
 }
 
 std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
@@ -73,7 +74,8 @@ void Situation::sync(const OccupancyMap& map, const Pose& current) {
   sync_ms_ = watch.lap_ms();
 }
 
-// What is unknown in plain sight of the sensor after a scan, and near enough to be resolved, this scan was to resolve.
+// What is unknown in plain sight of the sensor after a scan, and near enough to be resolved, this scan was to
+// resolve.
 void Situation::note_what_was_in_vain() {
   const VoxelIndex here = map_->frame().cell_of(current_.translation());
   const double furthest_m = std::min(sensor().max_range_m, sensor().resolving_range_m(map_->resolution_m()));
@@ -116,7 +118,8 @@ std::optional<Plan> Situation::end() {
   if (survey_.frontier_cells > 0) {
     if (!survey_.reachable.start()) {
       plan.reason =
-          "the platform does not admit the place where it is, and there is no free place beside it: move it into known "
+          "the platform does not admit the place where it is, and there is no free place beside it: move it into "
+          "known "
           "free space, or declare the space around it free (assume_free)";
       return plan;
     }
@@ -124,8 +127,9 @@ std::optional<Plan> Situation::end() {
       return turn;
     }
     if (hardly_moves()) {
-      plan.reason = "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
-                    reason_of(survey_);
+      plan.reason =
+          "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
+          reason_of(survey_);
       return plan;
     }
     if (const std::size_t places = tried_.places_given_up(); places > 0) {

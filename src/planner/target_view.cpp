@@ -66,7 +66,8 @@ TargetView view_of_target(const Situation& situation, const FrontierTarget& want
   const Eigen::Vector3d position = situation.reachable().position_in(wanted.viewpoint);
   const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
   const double furthest_m = std::max(counted_range_m(map, sensor), line.norm());
-  const std::vector<Sighting> sightings = sightings_from(map, sensor, situation.survey(), position, furthest_m, operations);
+  const std::vector<Sighting> sightings =
+      sightings_from(map, sensor, situation.survey(), position, furthest_m, operations);
   TargetView best = keep_in_view(sensor, platform.facing(position, line), sightings);
   // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the
   // wanted.

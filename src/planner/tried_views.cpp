@@ -203,7 +203,8 @@ bool TriedViews::was_in_view(const OccupancyMap& map, const Pose& pose, const Vo
              .all_from_the_end([&](const VoxelIndex& cell) { return touch(cell, unknown) || map.is_clear(cell); });
 }
 
-// A robot that is no nearer to a goal than this will not be next time either: a goal that is asked for once more fails.
+// A robot that is no nearer to a goal than this will not be next time either: a goal that is asked for once more
+// fails.
 void TriedViews::settle(const VoxelIndex& goal, double off_m) {
   Place& place = place_of(goal);
   if (off_m < 0.5 * cell_m_) {

@@ -126,8 +126,8 @@ void read_end(const std::string& text, RunRecord& run) {
   const json object = parsed_chunk(text);
   std::string outcome;
   take(object, "outcome", outcome);
-  for (const RunOutcome each : {RunOutcome::Explored, RunOutcome::Unreachable, RunOutcome::Blocked, RunOutcome::Budget,
-                                RunOutcome::Interrupted}) {
+  for (const RunOutcome each : {RunOutcome::Explored, RunOutcome::Unreachable, RunOutcome::Blocked,
+                                RunOutcome::Budget, RunOutcome::Interrupted}) {
     run.outcome = outcome == to_string(each) ? each : run.outcome;
   }
   take(object, "reason", run.reason);

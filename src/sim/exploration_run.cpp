@@ -263,8 +263,7 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
     const Pose& to = plan.path[next];
     const double length_m = (to.translation() - from.translation()).norm();
     double done_m = 0.0;
-    while (options_.scan_spacing_m > 0.0 &&
-           done_m + options_.scan_spacing_m - progress.since_scan_m < length_m) {
+    while (options_.scan_spacing_m > 0.0 && done_m + options_.scan_spacing_m - progress.since_scan_m < length_m) {
       done_m += options_.scan_spacing_m - progress.since_scan_m;
       move(progress, between(from, to, done_m / length_m));
       scan(progress);

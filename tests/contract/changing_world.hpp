@@ -15,11 +15,11 @@
 namespace vantage::testing {
 
 enum class Building : std::uint8_t {
-  Rooms,    // walls of one cell, doors that stand open
-  Sheets,   // the same with walls without thickness, between two cells
-  Grille,   // a wall of bars, seen through and never passed
-  Doors,    // doors close and open
-  Walker,   // somebody walks to and fro
+  Rooms,   // walls of one cell, doors that stand open
+  Sheets,  // the same with walls without thickness, between two cells
+  Grille,  // a wall of bars, seen through and never passed
+  Doors,   // doors close and open
+  Walker,  // somebody walks to and fro
 };
 inline constexpr std::size_t kBuildings = 5;
 
@@ -146,7 +146,8 @@ struct ChangingWorld {
   return world;
 }
 
-/// What the sensor measures: along each ray, a return just inside the first solid cell or just behind the first sheet.
+/// What the sensor measures: along each ray, a return just inside the first solid cell or just behind the first
+/// sheet.
 [[nodiscard]] inline Scan scan_of(const ChangingWorld& world, const RangeSensor& sensor, const Pose& pose) {
   Scan scan;
   scan.world_from_sensor = pose;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What a robot can rely on, held over every planner with its default settings: buildings in which things may move, hosts
-// that do not do quite what they are told, sensors, sizes of cells, space and plane. VANTAGE_CONTRACT_SEEDS says how many
-// worlds every planner meets with every host (a nightly run: hundreds); VANTAGE_CONTRACT_FIRST_SEED where they begin.
+// What a robot can rely on, held over every planner with its default settings: buildings in which things may move,
+// hosts that do not do quite what they are told, sensors, sizes of cells, space and plane. VANTAGE_CONTRACT_SEEDS
+// says how many worlds every planner meets with every host (a nightly run: hundreds); VANTAGE_CONTRACT_FIRST_SEED
+// where they begin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,22 +40,22 @@ constexpr double kBodyCells = 0.7;  // radius
 
 enum class Host : std::uint8_t {
   Perfect,
-  StopsShort,       // by up to 0.3 m and 15 degrees
-  AbortsSilently,   // one goal in three, half way
+  StopsShort,      // by up to 0.3 m and 15 degrees
+  AbortsSilently,  // one goal in three, half way
   AbortsAndReports,
-  MovedByHand,      // every fifth time
-  Inexact,          // is 1 cm and half a degree from where it believes to be
+  MovedByHand,  // every fifth time
+  Inexact,      // is 1 cm and half a degree from where it believes to be
   OffCentre,
   InACorner,
-  PlansFromACopy,   // of the map, a new one each time
-  Stuck,            // never moves, and does not say so
+  PlansFromACopy,  // of the map, a new one each time
+  Stuck,           // never moves, and does not say so
 };
 constexpr std::uint32_t kHosts = 10;
 
 std::string name_of(Host host) {
-  static const std::vector<std::string> names{"perfect",       "stops_short", "aborts_silently", "aborts_and_reports",
-                                              "moved_by_hand", "inexact",     "off_centre",      "in_a_corner",
-                                              "plans_from_a_copy", "stuck"};
+  static const std::vector<std::string> names{
+      "perfect", "stops_short", "aborts_silently", "aborts_and_reports", "moved_by_hand",
+      "inexact", "off_centre",  "in_a_corner",     "plans_from_a_copy",  "stuck"};
   return names[static_cast<std::size_t>(host)];
 }
 
@@ -77,11 +78,10 @@ struct Scene {
     constexpr double kPi = std::numbers::pi;
     const double tall = flat ? 0.001 : 1.0;
     const auto rows = [&](std::size_t count) { return flat ? std::size_t{1} : count; };
-    RangeSensor sensor = sensor_kind == 0
-                             ? RangeSensor::spherical(180, rows(90), 2 * kPi, tall * kPi, 0.0, 15.0 * cell_m)
-                         : sensor_kind == 1
-                             ? RangeSensor::pinhole(96, rows(72), 70.0 * kPi / 180.0, tall * 0.95, 0.0, 25.0 * cell_m)
-                             : RangeSensor::spherical(240, rows(16), 2 * kPi, tall * 0.52, 0.0, 25.0 * cell_m);
+    RangeSensor sensor =
+        sensor_kind == 0   ? RangeSensor::spherical(180, rows(90), 2 * kPi, tall * kPi, 0.0, 15.0 * cell_m)
+        : sensor_kind == 1 ? RangeSensor::pinhole(96, rows(72), 70.0 * kPi / 180.0, tall * 0.95, 0.0, 25.0 * cell_m)
+                           : RangeSensor::spherical(240, rows(16), 2 * kPi, tall * 0.52, 0.0, 25.0 * cell_m);
     sensor.reports_no_return = true;
     return sensor;
   }
@@ -96,7 +96,8 @@ struct Scene {
 
 std::ostream& operator<<(std::ostream& out, const Scene& scene) {
   return out << "scene " << scene.seed << " (building " << static_cast<int>(scene.building) << ", sensor "
-             << scene.sensor_kind << ", cells of " << scene.cell_m << " m, " << (scene.flat ? "plane" : "space") << ")";
+             << scene.sensor_kind << ", cells of " << scene.cell_m << " m, " << (scene.flat ? "plane" : "space")
+             << ")";
 }
 
 double turn_rad(const Pose& a, const Pose& b) {
@@ -225,8 +226,8 @@ class DrivenRobot {
     }
     const Eigen::Vector3d off(draw(-1, 1), draw(-1, 1), scene_.flat ? 0.0 : draw(-1, 1));
     Pose pose = pose_;
-    pose.linear() = Eigen::AngleAxisd(draw(-0.5, 0.5) * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()) *
-                    pose_.linear();
+    pose.linear() =
+        Eigen::AngleAxisd(draw(-0.5, 0.5) * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ()) * pose_.linear();
     pose.translation() += 0.01 * off.normalized();
     return pose;
   }
@@ -371,8 +372,8 @@ TEST_P(ExplorationContract, Holds) {
     const Scene scene = Scene::numbered(first + i * kHosts + static_cast<std::uint32_t>(host));
     const DrivenRobot run(planner, host, scene);
     const std::string what = ::testing::PrintToString(scene) + ", " + planner + ", " + name_of(host) + ", " +
-                             std::to_string(run.plans) + " plans, " + std::string(to_string(run.last.outcome)) + ": " +
-                             run.last.reason;
+                             std::to_string(run.plans) + " plans, " + std::string(to_string(run.last.outcome)) +
+                             ": " + run.last.reason;
     SCOPED_TRACE(what);
     ++cases;
     EXPECT_LT(run.plans, kMostPlans) << "it does not end by itself";
@@ -388,8 +389,8 @@ TEST_P(ExplorationContract, Holds) {
     }
     // Where walls lie between cells, the map decides which cells are free; a robot that is put down behind bars, or
     // sees walls where there are none, may be cut off and says so.
-    const bool may_be_cut_off = (host == Host::MovedByHand || host == Host::Inexact) &&
-                                run.last.outcome == Outcome::Unreachable;
+    const bool may_be_cut_off =
+        (host == Host::MovedByHand || host == Host::Inexact) && run.last.outcome == Outcome::Unreachable;
     if (!scene.world().is_static() || scene.building == Building::Sheets || host == Host::Stuck || may_be_cut_off ||
         run.last.outcome == Outcome::Move) {
       continue;

@@ -260,8 +260,8 @@ TEST_P(PlannerContract, RefusesAPoseThatIsNone) {
   EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
 }
 
-// A few centimetres beyond the region or the wall, far away, a rotation written with four digits: all of it happens to
-// robots, and none of it may stop one.
+// A few centimetres beyond the region or the wall, far away, a rotation written with four digits: all of it happens
+// to robots, and none of it may stop one.
 TEST_P(PlannerContract, AnyPoseThatARobotMayHaveGivesAPlan) {
   const Robot robot(GetParam(), Furniture::Boxes, 1);
   std::size_t plans = 0;
@@ -327,8 +327,9 @@ TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "0"}}), "FrontierGainOptions::hypotheses is 0, must be >= 1");
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "30"}, {"cost_per_m", "2.5"}}), "");
   EXPECT_EQ(message("frontier-void", {{"mode", "travelling"}, {"views", "5"}}), "");
-  EXPECT_NE(message("frontier-void", {{"mode", "hasty"}}).find("must be one of default, faithful, travelling, searching"),
-            std::string::npos);
+  EXPECT_NE(
+      message("frontier-void", {{"mode", "hasty"}}).find("must be one of default, faithful, travelling, searching"),
+      std::string::npos);
   EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), nullptr, 1, 1}), std::invalid_argument);
   EXPECT_THROW((void)make_planner("frontier-gain", {all_round(), std::make_shared<FreeFlyer>(), 1, 0}),
                std::invalid_argument);

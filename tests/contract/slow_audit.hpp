@@ -95,7 +95,8 @@ struct LookedAt {
   std::set<VoxelIndex> unknown;
   for_each_cell(map.bounds(), [&](const VoxelIndex& cell) {
     for (const VoxelIndex& step : kFaceNeighbours) {
-      if (map.at(cell) == Occupancy::Free && map.in_region(cell + step) && map.at(cell + step) == Occupancy::Unknown) {
+      if (map.at(cell) == Occupancy::Free && map.in_region(cell + step) &&
+          map.at(cell + step) == Occupancy::Unknown) {
         unknown.insert(cell + step);
       }
     }

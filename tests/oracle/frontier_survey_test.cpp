@@ -199,7 +199,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       if (const auto target = target_of(world, survey.reachable, cell)) {
         expected.push_back(*target);
       } else {
-        ++(was_given_up(world, cell)                         ? leftover.in_vain
+        ++(was_given_up(world, cell)                        ? leftover.in_vain
            : body_comes_near(world, survey.reachable, cell) ? leftover.unobservable
                                                             : leftover.unreachable);
       }

@@ -26,10 +26,10 @@ struct OccupancyMapOptions {
   double log_odds_min = -2.0;                ///< lower clamp, < 0
   double log_odds_max = 3.5;                 ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
   std::optional<Box> region = std::nullopt;  ///< only cells whose centre lies in it are ever known; none: no limit
-  /// Whether a scan leaves occupied cells alone that its rays pass beside a surface it sees: those that touch a cell in
-  /// which one of its rays ends, and the unbroken run of occupied cells that ends with a ray. A surface fills a part of
-  /// its cells only, and rays at a small angle pass the free part: if they count (false, as in OctoMap), many of them
-  /// wear the surface away, and false frontiers open behind it.
+  /// Whether a scan leaves occupied cells alone that its rays pass beside a surface it sees: those that touch a cell
+  /// in which one of its rays ends, and the unbroken run of occupied cells that ends with a ray. A surface fills a
+  /// part of its cells only, and rays at a small angle pass the free part: if they count (false, as in OctoMap), many
+  /// of them wear the surface away, and false frontiers open behind it.
   bool keep_grazed_cells = true;
   /// The most that the map may hold, in bytes as `memory_bytes` counts them; 0: no limit. What would need a new brick
   /// beyond it is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and stays unknown;

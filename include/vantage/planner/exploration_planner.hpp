@@ -16,7 +16,8 @@ namespace VANTAGE_EXPORT vantage {
 enum class Outcome : std::uint8_t {
   Move,         ///< there is a view to take: follow the path
   Explored,     ///< nothing that this sensor on this platform could observe is left
-  Unreachable,  ///< all that can be reached is seen, but known free space with more to see is cut off: ask again later
+  Unreachable,  ///< all that can be reached is seen, but known free space with more to see is cut off: ask again
+                ///< later
   Blocked,      ///< the platform cannot start or move; `reason` holds the remedy
 };
 
@@ -84,7 +85,7 @@ struct Plan {
   /// The views that were weighed against the goal, itself included, with their utilities; for whoever wants to look.
   /// Empty for planners that weigh none.
   std::vector<View> candidates;
-  Leftover leftover;  ///< what no view is planned for
+  Leftover leftover;                             ///< what no view is planned for
   std::string reason = "plan() was not called";  ///< one sentence, for a person
   PlanStatistics statistics;                     ///< what it took
 };
@@ -93,19 +94,19 @@ struct Plan {
 /// follow the path, repeat.
 ///
 /// Every planner keeps this contract, and one test suite holds all of them to it: the path starts at `current`, ends
-/// at `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored only when nothing is
-/// left that the sensor could observe and has not looked at in vain; the same map, pose and seed give the same plan
-/// for any number of threads; planning twice without a new scan changes nothing; a goal that the robot does not come
-/// nearer to is not asked for again and again; and but for the memory of views that were tried, which belongs to one
-/// map, a planner holds nothing that the map cannot rebuild.
+/// at `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored only when nothing
+/// is left that the sensor could observe and has not looked at in vain; the same map, pose and seed give the same
+/// plan for any number of threads; planning twice without a new scan changes nothing; a goal that the robot does not
+/// come nearer to is not asked for again and again; and but for the memory of views that were tried, which belongs to
+/// one map, a planner holds nothing that the map cannot rebuild.
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;
   /// The NAME that `make_planner` knows it by.
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// `current` is the sensor's pose at the last scan; a rotation that is off by up to 1e-3 is made orthonormal. A pose
-  /// that the platform does not admit, or outside of the region, gives a plan as well. Throws std::invalid_argument if
-  /// a number of the pose is not finite or it is no rigid transform.
+  /// `current` is the sensor's pose at the last scan; a rotation that is off by up to 1e-3 is made orthonormal. A
+  /// pose that the platform does not admit, or outside of the region, gives a plan as well. Throws
+  /// std::invalid_argument if a number of the pose is not finite or it is no rigid transform.
   [[nodiscard]] virtual Plan plan(const OccupancyMap& map, const Pose& current) = 0;
   /// Tells how following the last plan ended. Optional: without it a goal counts as reached when `current` of the
   /// next plan is within PlannerSetup's tolerances of it, and as failed when the robot came no nearer to it while the

@@ -19,8 +19,8 @@ struct ChosenView {
   std::vector<Pose> path = {};
 };
 
-/// A planner that goes for frontiers: all but the choice. It brings the situation up to date, ends the run where there
-/// is nothing to choose from, and turns a chosen view into a plan.
+/// A planner that goes for frontiers: all but the choice. It brings the situation up to date, ends the run where
+/// there is nothing to choose from, and turns a chosen view into a plan.
 ///
 ///     class MyPlanner final : public FrontierPlanner {
 ///       std::optional<ChosenView> choose(Plan& plan) override { ... situation().survey().targets ... }

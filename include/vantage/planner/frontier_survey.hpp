@@ -25,7 +25,7 @@ struct FrontierTarget {
 
 /// How thoroughly a survey looks, for every planner alike.
 struct FrontierSurveyOptions {
-  int patience = 2;                    ///< places that differ from which a cell is looked at in vain (TriedViews), >= 1
+  int patience = 2;  ///< places that differ from which a cell is looked at in vain (TriedViews), >= 1
   std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
 };
 
@@ -45,7 +45,7 @@ struct FrontierSurvey {
   /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};
   std::size_t frontier_cells = 0;  ///< all of them, inside the region
-  bool exhausted = true;  ///< false: there were too many pairs of an unknown and a reachable cell to try every one
+  bool exhausted = true;   ///< false: there were too many pairs of an unknown and a reachable cell to try every one
   Leftover leftover = {};  ///< frontier cells that are no targets, by cause
   std::uint64_t ray_operations = 0;  ///< cells visited while looking for lines of sight
 };

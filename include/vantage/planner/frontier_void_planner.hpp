@@ -69,8 +69,8 @@ struct FrontierVoidStrategy {
   [[nodiscard]] static FrontierVoidStrategy travelling() {
     return {.cost_per_m = 100.0, .along_way = true, .near_views = 20};
   }
-  /// For a camera on an arm, whose reach is short and whose views are dear: many views are weighed, metres do not count,
-  /// and the search ends where no view sees a void.
+  /// For a camera on an arm, whose reach is short and whose views are dear: many views are weighed, metres do not
+  /// count, and the search ends where no view sees a void.
   [[nodiscard]] static FrontierVoidStrategy searching() {
     return {.orientations_per_place = 8,
             .place_spacing_m = 0.1,

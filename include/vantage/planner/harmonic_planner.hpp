@@ -17,7 +17,7 @@ namespace VANTAGE_EXPORT vantage {
 
 /// How the harmonic field is found.
 enum class FieldSolver : std::uint8_t {
-  Multigrid,     ///< to a small residual, with a certificate that the way down from every cell ends at a sink
+  Multigrid,    ///< to a small residual, with a certificate that the way down from every cell ends at a sink
   GaussSeidel,  ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
 };
 

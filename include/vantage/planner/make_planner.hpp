@@ -28,8 +28,8 @@ struct PlannerSetting {
 [[nodiscard]] std::unique_ptr<ExplorationPlanner> make_planner(std::string_view name, const PlannerSetup& setup,
                                                                const PlannerSettings& settings = {});
 
-/// The settings of a planner, in the order in which they take effect. Throws std::invalid_argument if there is no such
-/// planner.
+/// The settings of a planner, in the order in which they take effect. Throws std::invalid_argument if there is no
+/// such planner.
 [[nodiscard]] std::vector<PlannerSetting> planner_settings(std::string_view name);
 
 /// The names `make_planner` knows.

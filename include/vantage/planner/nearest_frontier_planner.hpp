@@ -6,8 +6,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Goes to the nearest place from which some frontier is seen (Yamauchi 1997, "A Frontier-Based Approach for Autonomous
-/// Exploration"), and looks at as much of the frontier from there as comes into view.
+/// Goes to the nearest place from which some frontier is seen (Yamauchi 1997, "A Frontier-Based Approach for
+/// Autonomous Exploration"), and looks at as much of the frontier from there as comes into view.
 class NearestFrontierPlanner final : public FrontierPlanner {
  public:
   using FrontierPlanner::FrontierPlanner;

@@ -13,8 +13,8 @@ struct NextBestViewExplorerOptions {
   FrontierSurveyOptions survey = {};  ///< how thoroughly it looks for frontiers
 };
 
-/// Next best views without an object: of views drawn at random, half of them aimed at frontiers, the one that sees most
-/// unknown cells for its distance (Vasquez-Gomez et al. 2013, eq. 2 and 6, over the whole map).
+/// Next best views without an object: of views drawn at random, half of them aimed at frontiers, the one that sees
+/// most unknown cells for its distance (Vasquez-Gomez et al. 2013, eq. 2 and 6, over the whole map).
 class NextBestViewExplorer final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument naming the option or the part of the setup at fault.

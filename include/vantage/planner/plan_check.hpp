@@ -21,7 +21,7 @@ enum class PlanCheck : std::uint8_t {
 /// Checks a plan against the map as it is now, with the sensor at `current`: what a host asks after every scan on the
 /// way, and plans again unless all is Good. `off_path_m` is how far from the path the sensor may be, metres. A plan
 /// that is no Move is Good.
-[[nodiscard]] PlanCheck check(const Plan& plan, const OccupancyMap& map, const Platform& platform, const Pose& current,
-                              double off_path_m = 0.5);
+[[nodiscard]] PlanCheck check(const Plan& plan, const OccupancyMap& map, const Platform& platform,
+                              const Pose& current, double off_path_m = 0.5);
 
 }  // namespace vantage

@@ -35,8 +35,8 @@ class Situation {
   /// The plan that ends the run or turns the sensor where it stands, if there is nothing to choose from: no target is
   /// left. Its leftover and its counts are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
-  /// Leaves out, for this plan, the targets of a view to which there is no way, and those seen from its place. Returns
-  /// whether there were any.
+  /// Leaves out, for this plan, the targets of a view to which there is no way, and those seen from its place.
+  /// Returns whether there were any.
   bool drop(const TargetView& view);
   /// Remembers that this plan was made.
   void remember(const Plan& plan, std::vector<VoxelIndex> hoped);

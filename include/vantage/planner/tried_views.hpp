@@ -39,8 +39,8 @@ struct TriedViewsOptions {
 /// known only grows, so a cell gets at most six further chances.
 ///
 /// **Places that could not be reached.** A goal that the robot failed to reach (GoalResult::Failed, or it came no
-/// nearer while the map has grown twice) rests, with the places within the goal tolerance of it, for 8 plans, twice as
-/// long after every further failure. When nothing else is left to go for, it is tried again, three times in all.
+/// nearer while the map has grown twice) rests, with the places within the goal tolerance of it, for 8 plans, twice
+/// as long after every further failure. When nothing else is left to go for, it is tried again, three times in all.
 ///
 /// All of it belongs to one map, and is bounded: the oldest evidence is dropped first.
 class TriedViews {
@@ -49,16 +49,16 @@ class TriedViews {
   explicit TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options = {});
 
   // --- what the planner tells
-  /// A view from `goal` was asked for, at the end of a way of `way` (length in metres plus the turn in radians). It is
-  /// to resolve the cells `sought`, and may resolve some of `hoped`: these are looked at in vain, too, if it resolves
-  /// none of them.
+  /// A view from `goal` was asked for, at the end of a way of `way` (length in metres plus the turn in radians). It
+  /// is to resolve the cells `sought`, and may resolve some of `hoped`: these are looked at in vain, too, if it
+  /// resolves none of them.
   void expect(const OccupancyMap& map, const Pose& goal, double way, std::vector<VoxelIndex> sought,
               std::vector<VoxelIndex> hoped = {});
   /// How following the plan ended, if the host tells.
   void report(GoalResult result) { reported_ = result; }
   /// Looks at the map now, with the sensor at `current`, and at what became of the view that was asked for last.
-  /// Returns whether a scan was taken since the last call, so that what is in sight of `current` is evidence. A second
-  /// call without a change of the map does nothing.
+  /// Returns whether a scan was taken since the last call, so that what is in sight of `current` is evidence. A
+  /// second call without a change of the map does nothing.
   bool review(const OccupancyMap& map, const Pose& current);
   /// This cell was in plain sight of `place`, near enough to be resolved, and is unknown after the scan.
   void in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place);

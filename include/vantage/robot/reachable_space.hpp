@@ -19,10 +19,10 @@ class ReachableSpace {
  public:
   /// Nothing.
   ReachableSpace() = default;
-  /// Floods from the cell of `current`. If the platform does not admit that cell's centre (the body stands off centre,
-  /// or a new scan finds a place too tight), the flood starts from the nearest admitted cell that it may still move to,
-  /// at most half a body and a cell away per axis; if there is none, but the platform admits the pose itself, that cell
-  /// is all there is: the sensor may turn there.
+  /// Floods from the cell of `current`. If the platform does not admit that cell's centre (the body stands off
+  /// centre, or a new scan finds a place too tight), the flood starts from the nearest admitted cell that it may
+  /// still move to, at most half a body and a cell away per axis; if there is none, but the platform admits the pose
+  /// itself, that cell is all there is: the sensor may turn there.
   ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current);
   /// These cells, at least one, as if the platform stood in the first; for asking what could be done from there.
   ReachableSpace(const VoxelFrame& frame, const std::vector<VoxelIndex>& cells);
@@ -34,8 +34,8 @@ class ReachableSpace {
   [[nodiscard]] const std::optional<VoxelIndex>& start() const { return start_; }
   /// Whether the platform can only turn where it stands.
   [[nodiscard]] bool only_turns() const { return stands_at_m_.has_value(); }
-  /// Where the sensor is when it is in a reachable cell: the cell's centre, but where it can only turn the place where
-  /// it stands.
+  /// Where the sensor is when it is in a reachable cell: the cell's centre, but where it can only turn the place
+  /// where it stands.
   [[nodiscard]] Eigen::Vector3d position_in(const VoxelIndex& cell) const {
     return stands_at_m_ ? *stands_at_m_ : frame_.centre_of(cell);
   }

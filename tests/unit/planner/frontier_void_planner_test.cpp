@@ -271,8 +271,7 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
             "FrontierVoidStrategy::opaque_beside_surface is 2, must be in (0, 1]");
   EXPECT_EQ(message({.strategy = {.sought_chance = 2.0}}),
             "FrontierVoidStrategy::sought_chance is 2, must be in [0, 1]");
-  EXPECT_EQ(message({.strategy = {.least_view_m3 = -1.0}}),
-            "FrontierVoidOptions::least_view_m3 is -1, must be >= 0");
+  EXPECT_EQ(message({.strategy = {.least_view_m3 = -1.0}}), "FrontierVoidOptions::least_view_m3 is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.finalists = 0}}), "FrontierVoidStrategy::finalists is 0, must be >= 1");
 }
 

@@ -12,9 +12,8 @@ struct Walk {
   Walk() {
     for_each_cell({{0, 0, 0}, {12, 12, 5}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
     plan.outcome = Outcome::Move;
-    for (const Eigen::Vector3d& at :
-         {Eigen::Vector3d(0.3, 0.5, 0.5), Eigen::Vector3d(1.1, 0.5, 0.5), Eigen::Vector3d(1.9, 0.5, 0.5),
-          Eigen::Vector3d(1.9, 1.9, 0.5)}) {
+    for (const Eigen::Vector3d& at : {Eigen::Vector3d(0.3, 0.5, 0.5), Eigen::Vector3d(1.1, 0.5, 0.5),
+                                      Eigen::Vector3d(1.9, 0.5, 0.5), Eigen::Vector3d(1.9, 1.9, 0.5)}) {
       plan.path.push_back(pose_looking(at, 0.0));
     }
     plan.goal.pose = plan.path.back();

@@ -103,9 +103,13 @@ struct Two {
 
 detail::SettingTable<Two> table_of_two() {
   detail::SettingTable<Two> table("Two");
-  table.number("whole", "cells", "a whole number", detail::within(1, 9), [](Two& two) -> auto& { return two.whole; })
-      .number("real", "m", "a real number", detail::more_than(0), [](Two& two) -> auto& { return two.real; })
-      .flag("flag", "a choice", [](Two& two) -> auto& { return two.flag; });
+  table
+      .number(
+          "whole", "cells", "a whole number", detail::within(1, 9), [](Two & two) -> auto& { return two.whole; })
+      .number(
+          "real", "m", "a real number", detail::more_than(0), [](Two & two) -> auto& { return two.real; })
+      .flag(
+          "flag", "a choice", [](Two & two) -> auto& { return two.flag; });
   return table;
 }
 
@@ -138,11 +142,17 @@ TEST(SettingTable, ReadsAndRefuses) {
     }
     return "";
   };
-  EXPECT_EQ(message([&] { (void)read({{"hole", "7"}}); }),
+  EXPECT_EQ(message([&] {
+              (void)read({{"hole", "7"}});
+            }),
             "planner 'twins' has no setting 'hole'; it has: whole, real, flag");
-  EXPECT_EQ(message([&] { (void)read({{"whole", "7.5"}}); }),
+  EXPECT_EQ(message([&] {
+              (void)read({{"whole", "7.5"}});
+            }),
             "planner 'twins': setting 'whole' is '7.5', must be a whole number");
-  EXPECT_EQ(message([&] { (void)read({{"flag", "yes"}}); }),
+  EXPECT_EQ(message([&] {
+              (void)read({{"flag", "yes"}});
+            }),
             "planner 'twins': setting 'flag' is 'yes', must be one of true, false");
   const auto validate = [&](const Two& options) { return message([&] { table_of_two().validate(options); }); };
   EXPECT_EQ(validate({}), "");

@@ -56,7 +56,8 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
                 "path_length_m",    "seen_coverage", "seen_observable", "coverage",       "observable_cells",
                 "surface_coverage", "leftover",      "collisions",      "ray_operations", "time_ms",
                 "peak_memory_mb",   "cycles"}));
-  EXPECT_EQ(keys_of(report["leftover"]), (std::vector<std::string>{"unreachable", "unobservable", "in_vain", "too_small"}));
+  EXPECT_EQ(keys_of(report["leftover"]),
+            (std::vector<std::string>{"unreachable", "unobservable", "in_vain", "too_small"}));
   EXPECT_EQ(keys_of(report["ray_operations"]), (std::vector<std::string>{"integration", "planning"}));
   EXPECT_EQ(keys_of(report["time_ms"]), (std::vector<std::string>{"insert", "plan"}));
   EXPECT_EQ(keys_of(report["time_ms"]["plan"]), (std::vector<std::string>{"median", "max"}));
