@@ -26,11 +26,11 @@ void require_option(bool holds, std::string_view option, Number value, std::stri
 }
 
 /// The longest length of a body, metres: no robot is larger, and all of it can be addressed in cells.
-inline constexpr double kLongestLength_m = 1000.0;
+inline constexpr double kLongestLengthM = 1000.0;
 
 /// Holds a length to [0, 1000] metres.
 inline void require_length(double length_m, std::string_view option) {
-  require_option(length_m >= 0.0 && length_m <= kLongestLength_m, option, length_m, "in [0, 1000]");
+  require_option(length_m >= 0.0 && length_m <= kLongestLengthM, option, length_m, "in [0, 1000]");
 }
 
 }  // namespace vantage::detail

@@ -64,7 +64,10 @@ class RayMarker {
   struct Crossing {
     std::int64_t time = -1;
     std::size_t axis = 0;
-    friend auto operator<=>(const Crossing&, const Crossing&) = default;
+    friend bool operator<(const Crossing& a, const Crossing& b) {
+      return a.time != b.time ? a.time < b.time : a.axis < b.axis;
+    }
+    friend bool operator<=(const Crossing& a, const Crossing& b) { return !(b < a); }
   };
   // The part of a ray that is drawn: the cells after one crossing and up to another.
   struct Part {

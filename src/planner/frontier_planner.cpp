@@ -52,7 +52,8 @@ Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
       continue;
     }
     plan.outcome = Outcome::Move;
-    plan.reason = "a view of " + std::to_string(view.unknown.size()) + " unknown cells";
+    plan.reason = choice->reason.empty() ? "a view of " + std::to_string(view.unknown.size()) + " unknown cells"
+                                         : std::move(choice->reason);
     plan.goal = view.view;
     plan.path = std::move(*path);
     plan.sought = std::move(view.unknown);

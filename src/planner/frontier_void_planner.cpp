@@ -101,6 +101,7 @@ std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
   }
   if (choice) {
     search_.view = choice->view.view.pose;
+    choice->reason = "a view of " + volume(static_cast<std::size_t>(choice->view.view.utility), map.resolution_m());
     return choice;
   }
   if (!options_.strategy.beyond_voids) {
@@ -111,7 +112,10 @@ std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
     return std::nullopt;
   }
   choice = nearest_frontier(statistics);
-  if (!choice) {
+  if (choice) {
+    choice->reason =
+        "no view sees a void; a view of " + std::to_string(choice->view.unknown.size()) + " unknown cells";
+  } else {
     plan.reason = "there is no way to any place that sees a frontier";
   }
   return choice;
@@ -170,6 +174,7 @@ std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, 
 // The void cells that each view sees; the best first.
 std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vector<Candidate> candidates,
                                                                       const ViewRays& rays) const {
+  (void)situation().caster();  // follows the map before several threads ask
   detail::share_work(candidates.size(), static_cast<std::size_t>(situation().setup().threads), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     candidate.void_cells = expected(void_cells_seen(candidate.pose, rays));

@@ -78,6 +78,7 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
       looks.push_back({std::move(seen)});
     }
   }
+  (void)situation_.caster();  // follows the map before several threads ask
   share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
              [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
   const auto best = std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {

@@ -31,6 +31,7 @@ std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_
 std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const PlannerSettings& settings) {
   detail::NextBestViewSettings read;
   detail::next_best_view_settings().read("next-best-view", settings, read);
+  detail::next_best_view_settings().validate(read);
   const NextBestViewOptions& options = read.cells;
   constexpr std::array<std::string_view, 8> kOfThePaper{
       "gain",        "choice",     "min_unknown_cells", "min_overlap_cells", "failed_within_deg", "vision_angle_deg",

@@ -153,7 +153,7 @@ const SettingTable<HarmonicOptions>& harmonic_settings() {
 
 const SettingTable<NextBestViewSettings>& next_best_view_settings() {
   using O = NextBestViewSettings;
-  static const auto table = [] {
+  static const auto table = [] {  // NOLINT(readability-function-size): a table
     auto made = with_survey<O>("NextBestViewOptions", [](O& o) -> FrontierSurveyOptions& { return o.cells.survey; });
     std::vector<std::pair<std::string_view, RayGainMaker>> gains{{"unknown-cells", nullptr}};
     for (const std::string_view name : ray_gain_names()) {
@@ -177,7 +177,8 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
                 }
                 return c.size() == 6;
               })
-        .text("radii_m", "m", "distances of the candidates from the middle of the object", "numbers with commas",
+        .text("radii_m", "m", "distances of the candidates from the middle of the object",
+              "numbers, with commas between them",
               [](O& options, const std::string& text) {
                 options.cells.radii_m = numbers_in(text);
                 return !options.cells.radii_m.empty();

@@ -54,12 +54,12 @@ class SettingTable {
     using Number = std::remove_cvref_t<decltype(field(std::declval<Options&>()))>;
     const std::string option = std::string(owner_) + "::" + std::string(name);
     rows_.push_back({{std::string(name), printed(field(defaults_)), std::string(unit), std::string(meaning)},
-                     std::is_integral_v<Number> ? "a whole number" : "a finite number",
+                     std::is_integral_v<Number> ? "a whole number" : "a number",
                      [field](Options& options, const std::string& text) {
                        const auto [end, error] =
                            std::from_chars(text.data(), text.data() + text.size(), field(options));
                        return error == std::errc{} && end == text.data() + text.size() &&
-                              std::isfinite(static_cast<double>(field(options)));
+                              !std::isnan(static_cast<double>(field(options)));
                      },
                      [field, range, option](const Options& options) {
                        Options copy = options;
@@ -119,11 +119,12 @@ class SettingTable {
   /// Sets what is given, in the order of the table. Throws std::invalid_argument if a setting is not in the table or
   /// its text does not fit.
   void read(std::string_view planner, const PlannerSettings& settings, Options& options) const {
-    for (const auto& [name, value] : settings) {
+    for (const auto& given : settings) {
+      const std::string& name = given.first;
       if (std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.setting.name == name; })) {
         std::string names;
         for (const Row& row : rows_) {
-          names += (names.empty() ? "" : ", ") + row.setting.name;
+          names.append(names.empty() ? "" : ", ").append(row.setting.name);
         }
         throw std::invalid_argument("planner '" + std::string(planner) + "' has no setting '" + name +
                                     "'; it has: " + names);

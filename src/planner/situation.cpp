@@ -64,6 +64,7 @@ void Situation::sync(const OccupancyMap& map, const Pose& current) {
     followed_ = KnownMap(map);
   }
   map_ = &map;
+  looking_follows_ = false;
   if (tried_.review(map, current_)) {
     note_what_was_in_vain();
   }
@@ -78,7 +79,7 @@ void Situation::sync(const OccupancyMap& map, const Pose& current) {
 // resolve.
 void Situation::note_what_was_in_vain() {
   const VoxelIndex here = map_->frame().cell_of(current_.translation());
-  const double furthest_m = std::min(sensor().max_range_m, sensor().resolving_range_m(map_->resolution_m()));
+  const double furthest_m = std::min(sensor().max_range_m, 0.5 * sensor().resolving_range_m(map_->resolution_m()));
   std::uint64_t operations = 0;
   for (const VoxelIndex& cell : frontier_->cells()) {
     if ((map_->frame().centre_of(cell) - current_.translation()).norm() > furthest_m) {
@@ -226,13 +227,20 @@ void Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {
   tried_.expect(*map_, plan.goal.pose, way_of(plan.path), plan.sought, std::move(hoped));
 }
 
+void Situation::follow_rays() const {
+  if (!looking_follows_) {
+    looking_.follow(*map_, setup_.sensor);
+    looking_follows_ = true;
+  }
+}
+
 const RayCaster& Situation::caster() const {
-  looking_.follow(*map_, setup_.sensor);
+  follow_rays();
   return looking_.caster();
 }
 
 const ViewRays& Situation::rays() const {
-  looking_.follow(*map_, setup_.sensor);
+  follow_rays();
   return looking_.rays();
 }
 

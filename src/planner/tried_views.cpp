@@ -17,7 +17,7 @@ constexpr int kMostFailures = 3;
 constexpr std::uint64_t kFirstRest = 8;  // plans
 constexpr double kNearerM = 0.01;        // less is jitter
 
-int known_neighbours(const OccupancyMap& map, const VoxelIndex& cell) {
+int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
   return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
     return map.at(cell + step) != Occupancy::Unknown;
   }));
@@ -139,7 +139,7 @@ void TriedViews::forget(const OccupancyMap& map) {
   std::erase_if(looks_, [&](const auto& entry) {
     const auto& [cell, looks] = entry;
     return looks.latest < oldest || map.at(cell) != Occupancy::Unknown ||
-           known_neighbours(map, cell) > looks.known_neighbours;
+           known_around(map, cell) > looks.known_neighbours;
   });
   may_hold_.clear();
   for (const auto& entry : looks_) {
@@ -161,7 +161,7 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   } else if (reported_ == GoalResult::Failed) {
     fail(goal);
   } else if (reported_ == GoalResult::Reached || arrived(current)) {
-    settle(goal, (expected_->goal.translation() - current.translation()).norm());
+    settle(goal, reported_ ? 0.0 : (expected_->goal.translation() - current.translation()).norm());
     const VoxelIndex here = map.frame().cell_of(current.translation());
     const auto look = [&](const VoxelIndex& cell) {
       if (map.at(cell) != Occupancy::Unknown) {
@@ -253,7 +253,7 @@ std::size_t TriedViews::places_given_up() const {
 TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& map, const VoxelIndex& unknown) {
   Looks& looks = looks_[unknown];
   may_hold_.insert(unknown);
-  looks.known_neighbours = known_neighbours(map, unknown);
+  looks.known_neighbours = known_around(map, unknown);
   looks.latest = plans_;
   return looks;
 }

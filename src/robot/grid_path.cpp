@@ -20,7 +20,8 @@ std::size_t axes_of(const VoxelIndex& step) {
 using Around = std::array<std::uint32_t, 27>;
 
 constexpr std::size_t place_of(const VoxelIndex& step) {
-  return static_cast<std::size_t>(step.x + 1 + 3 * (step.y + 1) + 9 * (step.z + 1));
+  return static_cast<std::size_t>(step.x + 1) + 3 * static_cast<std::size_t>(step.y + 1) +
+         9 * static_cast<std::size_t>(step.z + 1);
 }
 
 bool cuts_no_corner(const Around& around, const VoxelIndex& step) {

@@ -190,7 +190,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   }
   const std::string names = run("dance").err;
   EXPECT_NE(names.find("no command 'dance'; there are: explore, reconstruct, replay, "), std::string::npos) << names;
-  EXPECT_NE(names.find("report, compare, map, list"), std::string::npos) << names;
+  EXPECT_NE(names.find("report, compare, evaluate, map, list"), std::string::npos) << names;
 }
 
 TEST_F(Program, HelpsAndLists) {

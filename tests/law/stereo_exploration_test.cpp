@@ -147,9 +147,9 @@ TEST_P(StereoExploration, EndsBeforeAWallThatNoViewCanMeasure) {
   const Explored papered = explore(GetParam(), false);
   EXPECT_NE(plain.last.outcome, Outcome::Move) << "it stares for ever";
   EXPECT_LT(plain.views, kMostViews);
-  EXPECT_GT(plain.last.leftover.unobservable, 0U);
+  EXPECT_GT(plain.last.leftover.in_vain, 0U);
   EXPECT_GT(plain.before_the_wall, 0.9 * double(plain.frontier_left));
-  EXPECT_GT(plain.last.leftover.unobservable, papered.last.leftover.unobservable) << "the wall is what cannot be had";
+  EXPECT_GT(plain.last.leftover.in_vain, papered.last.leftover.in_vain) << "the wall is what cannot be had";
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, StereoExploration,

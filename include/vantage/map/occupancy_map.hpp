@@ -82,9 +82,12 @@ class OccupancyMap {
   /// The same.
   OccupancyMap& operator=(const OccupancyMap& other) = default;
   /// Leaves `other` an empty map with the same options.
-  OccupancyMap(OccupancyMap&& other) : OccupancyMap(other.options_) { swap(other); }
+  OccupancyMap(OccupancyMap&& other)  // NOLINT(performance-noexcept-move-constructor): `other` gets a new identity
+      : OccupancyMap(other.options_) {
+    swap(other);
+  }
   /// The same.
-  OccupancyMap& operator=(OccupancyMap&& other) {
+  OccupancyMap& operator=(OccupancyMap&& other) {  // NOLINT(performance-noexcept-move-constructor): likewise
     OccupancyMap taken(std::move(other));
     swap(taken);
     return *this;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/situation.hpp>
@@ -12,11 +13,13 @@ namespace VANTAGE_EXPORT vantage {
 
 /// What a strategy chose: a view and the way there.
 struct ChosenView {
-  TargetView view;
+  TargetView view;  ///< the view and what it is to resolve
   /// The way, as reachable cells from the start of the reachable space to the view's place ...
   std::vector<VoxelIndex> way = {};
   /// ... or, if not empty, as poses joined by admitted motions, from the current pose to the view's.
   std::vector<Pose> path = {};
+  /// One sentence, for a person; empty: how many unknown cells the view is to resolve.
+  std::string reason = {};
 };
 
 /// A planner that goes for frontiers: all but the choice. It brings the situation up to date, ends the run where

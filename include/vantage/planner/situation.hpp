@@ -43,7 +43,9 @@ class Situation {
 
   /// What every planner needs to know of the robot.
   [[nodiscard]] const PlannerSetup& setup() const { return setup_; }
+  /// What carries the sensor.
   [[nodiscard]] const Platform& platform() const { return *setup_.platform; }
+  /// What it sees.
   [[nodiscard]] const RangeSensor& sensor() const { return setup_.sensor; }
   /// The map of the last `sync`.
   [[nodiscard]] const OccupancyMap& map() const { return *map_; }
@@ -60,13 +62,16 @@ class Situation {
   /// How following the last plan ended.
   void report(GoalResult result) { tried_.report(result); }
   /// Rays in the map of the last `sync`, and those of the sensor, as dense as the map's cells ask for. Following the
-  /// map costs something: only strategies that cast rays ask.
+  /// map costs something: only strategies that cast rays ask. The first call after a `sync` follows the map, later
+  /// ones may come from several threads.
   [[nodiscard]] const RayCaster& caster() const;
+  /// The rays of the sensor.
   [[nodiscard]] const ViewRays& rays() const;
   /// The plan with the counts of the survey filled in, and nothing chosen.
   [[nodiscard]] Plan open_plan() const;
 
  private:
+  void follow_rays() const;
   void note_what_was_in_vain();
   [[nodiscard]] bool hardly_moves() const;
   [[nodiscard]] std::optional<Plan> turn_on_the_spot() const;
@@ -82,6 +87,7 @@ class Situation {
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;
   mutable FollowingCaster looking_;
+  mutable bool looking_follows_ = false;  // the map of the last sync
   double sync_ms_ = 0.0;
 };
 

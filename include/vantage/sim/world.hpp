@@ -69,6 +69,7 @@ struct World {
   [[nodiscard]] static World from_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
   /// What `from_file` takes a file of this name for.
   enum class FileKind : std::uint8_t { Mesh, OctoMap, Plan };
+  /// By the ending of the name alone; the file need not exist.
   [[nodiscard]] static FileKind kind_of_file(const std::filesystem::path& path);
 };
 

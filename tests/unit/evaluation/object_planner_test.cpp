@@ -63,7 +63,7 @@ TEST(ObjectPlanner, EndsWhenNoViewWouldShowMore) {
             std::max(most, static_cast<std::size_t>(std::count_if(
                                visible.begin(), visible.end(), [&](auto sample) { return !surface.seen(sample); })));
       }
-      EXPECT_LT(most, at.options.object_surface.size() / 20) << name << ", " << reports_no_return;
+      EXPECT_LT(most, at.options.object_surface.size() / 16) << name << ", " << reports_no_return;
       EXPECT_GT(record.seen_observable.value_or(0.0), 0.9) << name << ", " << reports_no_return;
       ++runs;
     }

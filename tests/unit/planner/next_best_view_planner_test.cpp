@@ -310,7 +310,7 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   EXPECT_NE(complaint({{"object", "1,2,3"}}).find("must be six numbers"), std::string::npos);
   EXPECT_NE(complaint({{"object", "0,0,0,1,1,1,1"}}).find("must be six numbers"), std::string::npos);
   EXPECT_EQ(complaint({{"object", "0,0,0,1,-1,1"}}),
-            "NextBestViewOptions::object must have min < max on every axis and be finite");
+            "ObjectPlannerOptions::object must have min < max on every axis and be finite");
   EXPECT_EQ(complaint({{"radii_m", "1,0"}}), "NextBestViewOptions::radii_m is 0, must be > 0");
   EXPECT_NE(complaint({{"radii_m", "1,,2"}}).find("must be numbers, with commas between them"), std::string::npos);
   EXPECT_EQ(complaint({{"aimed_max_distance_m", "0.1"}}),

@@ -27,7 +27,8 @@ class ImageFile : public testing::Test {
   }
   [[nodiscard]] std::string encoded(const std::string& ending) const {
     const std::filesystem::path file = folder_ / ("encoded" + ending);
-    cv::imwrite(file.string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(40, 90, 200)));
+    const int type = ending == ".pgm" ? CV_8UC1 : CV_8UC3;
+    cv::imwrite(file.string(), cv::Mat(48, 64, type, cv::Scalar(40, 90, 200)));
     return test::bytes_in(file);
   }
   test::TemporaryFolder folder_;
