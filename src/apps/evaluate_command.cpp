@@ -261,6 +261,7 @@ void evaluate_objects(EvaluateRequest& request) {
 
 void add_evaluate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("evaluate", "Print tables of planners beside their peers");
+  command->footer("Example:\n  vantage evaluate objects");
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
   request->run.max_views = 20;

@@ -172,6 +172,14 @@ VoxelBox OccupancyMap::bounds() const {
   return bounds.empty() ? VoxelBox{} : bounds;
 }
 
+OccupancyMap::OccupancyMap(OccupancyMap&& other) : OccupancyMap(other.options_) { swap(other); }
+
+OccupancyMap& OccupancyMap::operator=(OccupancyMap&& other) {
+  OccupancyMap taken(std::move(other));
+  swap(taken);
+  return *this;
+}
+
 void OccupancyMap::swap(OccupancyMap& other) {
   std::swap(identity_, other.identity_);
   std::swap(options_, other.options_);

@@ -249,10 +249,9 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
 
 std::optional<ChosenView> FrontierVoidPlanner::nearest_frontier(PlanStatistics& statistics) const {
   const std::vector<FrontierTarget>& targets = situation().survey().targets;
-  std::vector<VoxelIndex> viewpoints;
-  for (const FrontierTarget& target : targets) {
-    viewpoints.push_back(target.viewpoint);
-  }
+  std::vector<VoxelIndex> viewpoints(targets.size());
+  std::transform(targets.begin(), targets.end(), viewpoints.begin(),
+                 [](const FrontierTarget& target) { return target.viewpoint; });
   const GridPaths ways(situation().reachable());
   for (const double detour_m : {0.0, std::numeric_limits<double>::max()}) {
     for (const VoxelIndex& viewpoint : ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m())) {

@@ -151,9 +151,10 @@ const SettingTable<HarmonicOptions>& harmonic_settings() {
   return table;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 const SettingTable<NextBestViewSettings>& next_best_view_settings() {
   using O = NextBestViewSettings;
-  static const auto table = [] {  // NOLINT(readability-function-size): a table
+  static const auto table = [] {
     auto made = with_survey<O>("NextBestViewOptions", [](O& o) -> FrontierSurveyOptions& { return o.cells.survey; });
     std::vector<std::pair<std::string_view, RayGainMaker>> gains{{"unknown-cells", nullptr}};
     for (const std::string_view name : ray_gain_names()) {
@@ -202,14 +203,14 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
             "min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
             [](O & o) -> auto& { return o.cells.min_overlap_cells; })
         .text("failed_within_deg", "deg",
-              "a cell that a view failed to resolve is not sought from so near directions", "a number",
+              "a cell that a view failed to resolve is not sought from so near directions", "a finite number",
               angle([](O& o) -> double& { return o.cells.failed_within_rad; }))
         .number(
             "min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
             [](O & o) -> auto& { return o.cells.min_unknown_cells; })
         .choice(
             "gain", "what new surface is worth", gains, [](O & o) -> auto& { return o.cells.gain; })
-        .text("vision_angle_deg", "deg", "largest incidence that the sensor measures", "a number",
+        .text("vision_angle_deg", "deg", "largest incidence that the sensor measures", "a finite number",
               angle([](O& o) -> double& { return o.cells.sensing.max_incidence_rad; }))
         .number(
             "min_depth_m", "m", "nearest that the sensor measures", at_least(0),

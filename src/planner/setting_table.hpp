@@ -126,8 +126,12 @@ class SettingTable {
         for (const Row& row : rows_) {
           names.append(names.empty() ? "" : ", ").append(row.setting.name);
         }
-        throw std::invalid_argument("planner '" + std::string(planner) + "' has no setting '" + name +
-                                    "'; it has: " + names);
+        throw std::invalid_argument(std::string("planner '")
+                                        .append(planner)
+                                        .append("' has no setting '")
+                                        .append(name)
+                                        .append("'; it has: ")
+                                        .append(names));
       }
     }
     for (const Row& row : rows_) {

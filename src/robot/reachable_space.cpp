@@ -79,8 +79,8 @@ ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform
 }
 
 // Breadth first over the faces of cells, the neighbours in the order of kFaceNeighbours.
-void ReachableSpace::flood(
-    const AdmittedCells& admitted) {             // NOLINT(readability-function-size): one loop and its table
+// NOLINTNEXTLINE(readability-function-size): one loop and its table
+void ReachableSpace::flood(const AdmittedCells& admitted) {
   constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;  // a brick beside another that no step has led to
   constexpr std::uint32_t kNone = kUnmet - 1;    // a brick without an admitted cell
   struct Flooded {

@@ -270,7 +270,7 @@ def main(program):
             "frontier-void,harmonic", "--out", replay)
         voids = os.path.join(folder, "voids")
         run(program, "explore", "--world", "table", "--planner", "frontier-void", "--sensor", "kinect", "--resolution",
-            0.1, "--max-views", 6, "--out", voids)
+            0.1, "--max-views", 6, "--seed", 2, "--out", voids)
         for one in (rooms, table, replay):
             with Browser() as browser:
                 look_at_one_run(browser, one)

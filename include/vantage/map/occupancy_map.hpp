@@ -82,21 +82,12 @@ class OccupancyMap {
   /// The same.
   OccupancyMap& operator=(const OccupancyMap& other) = default;
   /// Leaves `other` an empty map with the same options.
-  OccupancyMap(OccupancyMap&& other)  // NOLINT(performance-noexcept-move-constructor): `other` gets a new identity
-      : OccupancyMap(other.options_) {
-    swap(other);
-  }
-  /// The same.
-  OccupancyMap& operator=(OccupancyMap&& other) {  // NOLINT(performance-noexcept-move-constructor): likewise
-    OccupancyMap taken(std::move(other));
-    swap(taken);
-    return *this;
-  }
+  OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it gets an identity
+  OccupancyMap& operator=(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor)
   /// Each becomes what the other was; whatever follows one follows it to its new place.
   void swap(OccupancyMap& other);
 
   // --- reading
-  // -------------------------------------------------------------------------------------------------------
   /// The options it was made with.
   [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
   /// Where cells lie in the world.
@@ -201,7 +192,6 @@ class OccupancyMap {
   [[nodiscard]] const MapIdentity& identity() const { return identity_; }
 
   // --- what changed
-  // --------------------------------------------------------------------------------------------------
   /// Grows by one with every call that writes to the map, a scan that confirms what is known included; 0 for a new
   /// map.
   [[nodiscard]] Revision revision() const { return revision_; }
@@ -236,7 +226,6 @@ class OccupancyMap {
   }
 
   // --- writing
-  // -------------------------------------------------------------------------------------------------------
   /// Integrates one scan: each cell gets at most one update, a hit beats a miss (the semantics of
   /// octomap::OcTree::insertPointCloud). The sensor's own cell counts as passed. Throws std::invalid_argument if the
   /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted. What of a

