@@ -172,7 +172,7 @@ class UrdfReader {
     for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {
       (void)checked(value, -kMostM, kMostM, "the origin of " + what);
     }
-    const Pose result = from_urdf_pose(pose);
+    Pose result = from_urdf_pose(pose);
     if (!result.linear().allFinite()) {
       refuse("the origin of " + what + " has angles that are not finite");
     }

@@ -172,8 +172,11 @@ VoxelBox OccupancyMap::bounds() const {
   return bounds.empty() ? VoxelBox{} : bounds;
 }
 
+// What is moved from gets an identity, which takes memory.
+// NOLINTNEXTLINE(performance-noexcept-move-constructor)
 OccupancyMap::OccupancyMap(OccupancyMap&& other) : OccupancyMap(other.options_) { swap(other); }
 
+// NOLINTNEXTLINE(performance-noexcept-move-constructor)
 OccupancyMap& OccupancyMap::operator=(OccupancyMap&& other) {
   OccupancyMap taken(std::move(other));
   swap(taken);
