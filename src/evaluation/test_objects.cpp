@@ -220,9 +220,9 @@ TriangleMesh blob(Dice& dice) {
     double height;
     double phase;
   };
-  std::vector<Wave> waves;
-  for (int i = 0; i < 8; ++i) {
-    waves.push_back({(2.0 + 3.0 * dice.share()) * dice.direction(), 0.05 + 0.1 * dice.share(), kTurn * dice.share()});
+  std::vector<Wave> waves(8);
+  for (Wave& wave : waves) {
+    wave = {(2.0 + 3.0 * dice.share()) * dice.direction(), 0.05 + 0.1 * dice.share(), kTurn * dice.share()};
   }
   const double size = 0.12 + 0.1 * dice.share();
   add_patch(

@@ -28,9 +28,9 @@ SolidCells hall(const VoxelIndex& extent) {
 }
 
 // Not std::uniform_int_distribution, whose numbers differ between standard libraries.
-class Dice {
+class WorldDice {
  public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+  explicit WorldDice(std::uint64_t seed) : engine_(seed) {}
   // In [lo, hi].
   std::int32_t between(std::int32_t lo, std::int32_t hi) {
     const auto sides = static_cast<std::uint64_t>(std::max(hi - lo, 0)) + 1;
@@ -49,7 +49,7 @@ constexpr std::int32_t kDoorHeight = 10;  // 2 m above the floor
 constexpr std::int32_t kDoorWidth = 6;    // 1.2 m
 
 // Cells along x from `x0` to `x1`: rooms between the walls at both ends, each at least 3 m wide where there is space.
-std::vector<std::pair<std::int32_t, std::int32_t>> split_rooms(Dice& dice, std::int32_t x0, std::int32_t x1) {
+std::vector<std::pair<std::int32_t, std::int32_t>> split_rooms(WorldDice& dice, std::int32_t x0, std::int32_t x1) {
   std::vector<std::pair<std::int32_t, std::int32_t>> rooms;
   while (x1 - x0 > 40) {
     const std::int32_t wall = x0 + dice.between(16, 26);
@@ -61,7 +61,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> split_rooms(Dice& dice, std::
 }
 
 // Tables and cupboards: boxes against the floor that leave the way from the door free.
-void furnish(SolidCells& solid, Dice& dice, const VoxelIndex& lo, const VoxelIndex& hi) {
+void furnish(SolidCells& solid, WorldDice& dice, const VoxelIndex& lo, const VoxelIndex& hi) {
   for (std::int32_t piece = dice.between(1, 3); piece > 0; --piece) {
     const VoxelIndex size{dice.between(3, 8), dice.between(2, 4), dice.between(2, 9)};
     if (hi.x - lo.x <= size.x + 8 || hi.y - lo.y <= size.y) {
@@ -79,7 +79,7 @@ struct RoomRow {
   std::int32_t hi;
 };
 
-void add_room_row(SolidCells& solid, Dice& dice, const RoomRow& row, std::int32_t length, std::int32_t height) {
+void add_room_row(SolidCells& solid, WorldDice& dice, const RoomRow& row, std::int32_t length, std::int32_t height) {
   fill(solid, {1, row.near, 1}, {length - 1, row.near + 1, height - 1});
   for (const auto& [x0, x1] : split_rooms(dice, 1, length - 1)) {
     if (x1 < length - 1) {
@@ -126,7 +126,7 @@ SolidCells office_cells(const WorldOptions& options) {
   const std::int32_t width = cells_of(options.width_m, 14.0);
   constexpr std::int32_t kHeight = 15;
   constexpr std::int32_t kCorridor = 9;
-  Dice dice(options.seed);
+  WorldDice dice(options.seed);
   SolidCells solid = hall({length, width, kHeight});
   const std::int32_t corridor = std::max(2, (width - kCorridor) / 2 + dice.between(-2, 2));
   const std::int32_t end = corridor + kCorridor;
@@ -145,7 +145,7 @@ SolidCells maze_cells(const WorldOptions& options) {
   constexpr std::int32_t kHeight = 12;
   const std::int32_t columns = (cells_of(options.length_m, 13.0) - 1) / kPitch;
   const std::int32_t rows = (cells_of(options.width_m, 10.0) - 1) / kPitch;
-  Dice dice(options.seed);
+  WorldDice dice(options.seed);
   SolidCells solid({{0, 0, 0}, {columns * kPitch + 1, rows * kPitch + 1, kHeight}}, 1);
   const auto hollow = [&](std::int32_t x, std::int32_t y) {
     carve(solid, {x * kPitch + 1, y * kPitch + 1, 1}, {(x + 1) * kPitch, (y + 1) * kPitch, kHeight - 1});

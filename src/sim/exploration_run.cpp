@@ -304,6 +304,7 @@ void ExplorationRun::measure_observable(Progress& progress, const Pose& start) c
       observable == 0 ? 1.0 : static_cast<double>(progress.seen.seen_count()) / static_cast<double>(observable);
 }
 
+// NOLINTNEXTLINE(readability-function-size): one cycle after the other
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
   map_ = OccupancyMap(options_.map);

@@ -123,7 +123,7 @@ class FlatYamlReader {
   }
 
   std::string scalar(const std::string& text) const {
-    const std::string word = trimmed(text);
+    std::string word = trimmed(text);
     if (word.empty() || (word.front() != '\'' && word.front() != '"')) {
       if (!word.empty() && std::string("{}[]&*!|>").find(word.front()) != std::string::npos) {
         refuse("'" + word + "' is more than a word or a number");

@@ -37,7 +37,7 @@ class MapKeys {
       const char* end = word.data() + word.size();
       const auto [stopped, error] = std::from_chars(word.data() + (word.starts_with('+') ? 1 : 0), end, number);
       if (error != std::errc{} || stopped != end || !std::isfinite(number)) {
-        refuse("'" + key + "' holds '" + word + "', which is not a number");
+        refuse(std::string("'").append(key).append("' holds '").append(word).append("', which is not a number"));
       }
       numbers.push_back(number);
     }
