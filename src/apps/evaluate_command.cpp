@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -157,7 +158,7 @@ double quantile(std::vector<double> values, double share) {
     return 0.0;
   }
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
 // After so many views, or as many as there are.
@@ -170,6 +171,7 @@ void print_row(const std::string& object, const std::string& planner, const std:
   std::printf("| %s | %s |", object.c_str(), planner.c_str());
   const auto over = [&](const auto& value) {
     std::vector<double> values;
+    values.reserve(results.size());
     for (const json* result : results) {
       values.push_back(value(*result));
     }

@@ -125,6 +125,7 @@ void tell_doubts(const ExploreRequest& request, const Box& bounds) {
   }
 }
 
+// NOLINTNEXTLINE(readability-function-size): a run from its options to its files
 int explore(const ExploreRequest& request) {
   Interruption interruption;
   check_numbers(request);

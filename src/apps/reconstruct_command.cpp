@@ -132,6 +132,7 @@ bool is_peer(const std::string& planner) {
   return std::find(names.begin(), names.end(), planner) != names.end();
 }
 
+// NOLINTNEXTLINE(readability-function-size): a run from its options to its files
 int reconstruct(const ReconstructRequest& request) {
   Interruption interruption;
   const ExploreRequest& shared = request.run;

@@ -170,6 +170,7 @@ ExplorationRunOptions options_of(const ExploreRequest& shared, const World& worl
   return options;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a run from its options to its files
 int search(const SearchRequest& request) {
   Interruption interruption;
   const ExploreRequest& shared = request.run;
