@@ -67,7 +67,7 @@ const SettingTable<FrontierGainOptions>& frontier_gain_settings() {
   static const auto table =
       with_survey<O>("FrontierGainOptions", [](O& o) -> FrontierSurveyOptions& { return o.survey; })
           .number(
-              "hypotheses", "poses", "tried per plan", at_least(1), [](O & o) -> auto& { return o.hypotheses; })
+              "hypotheses", "poses", "tried per plan", within(1, 1e6), [](O & o) -> auto& { return o.hypotheses; })
           .number(
               "aimed_share", "", "share of the hypotheses that look at some frontier", within(0, 1),
               [](O & o) -> auto& { return o.aimed_share; })
@@ -87,7 +87,7 @@ const SettingTable<FrontierVoidOptions>& frontier_void_settings() {
                                        {"travelling", FrontierVoidStrategy::travelling()},
                                        {"searching", FrontierVoidStrategy::searching()}});
     made.number(
-            "views", "views", "valid views evaluated per plan (N)", at_least(1),
+            "views", "views", "valid views evaluated per plan (N)", within(1, 1e6),
             [](O & o) -> auto& { return o.views; })
         .number(
             "min_score", "", "least fit of a cluster's ellipsoid", more_than(0),
@@ -123,10 +123,10 @@ const SettingTable<HarmonicOptions>& harmonic_settings() {
                                                                     {"mirror", NeumannScheme::Mirror}},
             [](O & o) -> auto& { return o.neumann; })
         .number(
-            "tolerance", "", "gauss-seidel: largest relative change of the last sweep", more_than(0),
+            "tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),
             [](O & o) -> auto& { return o.tolerance; })
         .number(
-            "max_sweeps", "sweeps", "gauss-seidel: no field takes more", at_least(1),
+            "max_sweeps", "sweeps", "gauss-seidel: no field takes more", within(1, 1e7),
             [](O & o) -> auto& { return o.max_sweeps; })
         .number(
             "uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
@@ -188,10 +188,10 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
             "subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6),
             [](O & o) -> auto& { return o.cells.subdivisions; })
         .number(
-            "random_candidates", "views", "drawn besides, anywhere", at_least(0),
+            "random_candidates", "views", "drawn besides, anywhere", within(0, 1e6),
             [](O & o) -> auto& { return o.cells.random_candidates; })
         .number(
-            "aimed_candidates", "views", "drawn besides, at unknown cells of the object", at_least(0),
+            "aimed_candidates", "views", "drawn besides, at unknown cells of the object", within(0, 1e6),
             [](O & o) -> auto& { return o.cells.aimed.count; })
         .number(
             "aimed_min_distance_m", "m", "of these from what they are aimed at, at least", at_least(0),
@@ -240,7 +240,7 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
             "near_share", "", "of views expected to show this share of the best, the nearest is taken", within(0, 1),
             [](O & o) -> auto& { return o.surface.near_share; })
         .number(
-            "hypotheses", "views", "without an object: weighed per plan", at_least(1),
+            "hypotheses", "views", "without an object: weighed per plan", within(1, 1e6),
             [](O & o) -> auto& { return o.cells.hypotheses; });
     return made;
   }();

@@ -17,7 +17,7 @@
 
 namespace vantage::detail {
 
-/// What a number may be: finite or infinite, and in this range.
+/// The range of a number. Options may be infinite where it is open; texts are finite.
 struct SettingRange {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -54,12 +54,12 @@ class SettingTable {
     using Number = std::remove_cvref_t<decltype(field(std::declval<Options&>()))>;
     const std::string option = std::string(owner_) + "::" + std::string(name);
     rows_.push_back({{std::string(name), printed(field(defaults_)), std::string(unit), std::string(meaning)},
-                     std::is_integral_v<Number> ? "a whole number" : "a number",
+                     std::is_integral_v<Number> ? "a whole number" : "a finite number",
                      [field](Options& options, const std::string& text) {
                        const auto [end, error] =
                            std::from_chars(text.data(), text.data() + text.size(), field(options));
                        return error == std::errc{} && end == text.data() + text.size() &&
-                              !std::isnan(static_cast<double>(field(options)));
+                              std::isfinite(static_cast<double>(field(options)));
                      },
                      [field, range, option](const Options& options) {
                        Options copy = options;
