@@ -67,8 +67,8 @@ class RayCaster {
   std::size_t update();
 
   /// Assumes the content of unknown cells. Inside the box of `stopping`, only occupied cells and the cells of
-  /// `stopping` stop rays; the latter must be unknown. The assumption about a cell holds until `update` finds a
-  /// change of the map there, or until the next call for the same box. Throws std::length_error as the constructor.
+  /// `stopping` stop rays; the latter must be unknown. The assumption about a cell holds until `update` reads a
+  /// change of its brick, or until the next call for the same box. Throws std::length_error as the constructor.
   void suppose(const CellSet& stopping);
 
   /// The frame of the caster's cells, which have the size of its level.
