@@ -28,8 +28,8 @@ struct OccupancyMapOptions {
   /// only cells whose centre lies inside can become known; nullopt: no limit
   std::optional<Box> region = std::nullopt;
   /// Whether a scan must not erase surfaces that it sees at a grazing angle. If true, rays do not clear an occupied
-  /// cell that touches an end cell of the scan, nor the unbroken run of occupied cells at the end of a ray. Reason: a
-  /// surface fills only a part of its cells, and rays at a grazing angle pass the free part. If all of them count
+  /// cell that touches the end cell of a return, nor the unbroken run of occupied cells at the end of a ray. Reason:
+  /// a surface fills only a part of its cells, and rays at a grazing angle pass the free part. If all of them count
   /// (false, as in OctoMap), they erase the surface and open false frontiers behind it.
   bool keep_grazed_cells = true;
   /// Memory limit in bytes, as counted by `memory_bytes`; 0: no limit. An update that would need a new brick beyond
