@@ -63,8 +63,7 @@ enum class CoarseningPolicy : std::uint8_t { Max, Mean };
 /// bounding box. Cells are aligned as in OctoMap, so conversion is exact both ways (octomap_bridge.hpp).
 ///
 /// Every call that writes creates one new revision. `changed_since` reports the bricks in which the *state* of a cell
-/// has changed since a revision, so any number of readers can follow the map. Concurrent reads are safe while nobody
-/// writes.
+/// has changed since a revision, so any number of readers can follow the map. Concurrent reads are safe.
 class OccupancyMap {
  public:
   /// A counter of the states of the map.
@@ -84,7 +83,8 @@ class OccupancyMap {
   /// Copies the cells and the change log. This map gets a new identity.
   OccupancyMap& operator=(const OccupancyMap& other) = default;
   /// Takes over the map. `other` becomes an empty map with the same options.
-  OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it gets an identity
+  OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it allocates
+  /// Takes over the map. `other` becomes an empty map with the same options.
   OccupancyMap& operator=(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor)
   /// Exchanges two maps, identities included.
   void swap(OccupancyMap& other);
