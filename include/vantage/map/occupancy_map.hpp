@@ -63,7 +63,7 @@ enum class CoarseningPolicy : std::uint8_t { Max, Mean };
 /// bounding box. Cells are aligned as in OctoMap, so conversion is exact both ways (octomap_bridge.hpp).
 ///
 /// Every call that writes creates one new revision. `changed_since` reports the bricks in which the *state* of a cell
-/// has changed since a revision, so any number of readers can follow the map. Concurrent reads are safe.
+/// has changed since a revision, so any number of readers can follow the map. Reads may be concurrent, writes not.
 class OccupancyMap {
  public:
   /// A counter of the states of the map.
