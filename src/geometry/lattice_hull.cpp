@@ -59,7 +59,7 @@ struct LatticeHull::Outside {
   std::vector<Number> next;   // per point: next point of the same facet
   std::vector<Number> first;  // per facet: its first point
   std::vector<Number> seen;   // per facet: the last point for which it was visited
-  std::vector<Number> open;   // facets with points
+  std::vector<Number> open;   // facets that have points
 
   Outside(std::span<const VoxelIndex> all, std::size_t facets)
       : points(all), next(all.size(), kNone), first(facets, kNone), seen(facets, kNone) {}

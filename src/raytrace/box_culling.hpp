@@ -35,7 +35,7 @@ class BoxCulling {
   Box box_;
   double furthest_m_ = 0.0;
   bool inside_sphere_ = false;
-  std::size_t edges_ = 0;  // of the outline
+  std::size_t edges_ = 0;  // number of edges of the outline
   // outward normals of the planes through the origin and an edge, in the sensor frame
   std::array<Eigen::Vector3d, 6> outwards_;
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  // from the sensor to the centre of the box, in the sensor frame

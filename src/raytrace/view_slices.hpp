@@ -12,7 +12,8 @@
 namespace vantage {
 
 /// The cells that stop the rays of one class of a view, slice by slice, inside the beam that leads to the box. All
-/// tiles of the class cut their windows out of it. A layer (four slices of words) is read when it is first needed.
+/// tiles of the class cut their windows out of it. A layer (the four slices of a sheet of words) is read when it is
+/// first needed.
 class ViewSlices {
  public:
   /// The grid must outlive the object.

@@ -66,8 +66,8 @@ struct RangeSensor {
   /// Full vertical field of view, radians.
   [[nodiscard]] double vertical_angle_rad() const;
   /// The distance, metres, up to which neighbouring rays of a row or a column are at most `cell_m` apart. Up to this
-  /// distance, rays hit nearly every cell of that size; they may miss one only diagonally between pixels. Not limited
-  /// by the maximum range.
+  /// distance, rays rarely miss a cell of that size; they may miss one that is rotated against the pixel rows. Not
+  /// limited by the maximum range.
   [[nodiscard]] double resolving_range_m(double cell_m) const;
   /// The same sensor with fewer columns and rows: just enough that neighbouring rays are at most `cell_m` apart at
   /// the maximum range, and never more than it has. Throws std::invalid_argument unless `cell_m` is finite and > 0.
