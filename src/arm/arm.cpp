@@ -37,7 +37,7 @@ Joints between(const Joints& from, const Joints& to, double share) {
   return joints;
 }
 
-// So many steps of at most `step_rad` in each joint.
+// The number of steps such that no joint moves more than `step_rad` per step.
 int steps_of(const Joints& from, const Joints& to, double step_rad) {
   double most = 0.0;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -46,7 +46,7 @@ int steps_of(const Joints& from, const Joints& to, double step_rad) {
   return std::max(1, static_cast<int>(std::ceil(most / step_rad)));
 }
 
-// What is left of a way when every corner goes that a straight motion makes needless, the furthest tried first.
+// Shortcuts a path: skips every corner that a straight motion can bypass, trying the furthest corner first.
 template <class AdmitsMotion>
 std::vector<Joints> shortcut(const std::vector<Joints>& way, AdmitsMotion&& admits_motion) {
   std::vector<Joints> kept{way.front()};
@@ -75,12 +75,11 @@ Pose Arm::sensor_pose(std::span<const double> joints) const {
   return options_.world_from_base * chain_.sensor_pose(joints);
 }
 
-// --- where the body is
-// ------------------------------------------------------------------------------------------------
+// --- the body
 
-// A cell that the body touches and must not, given that it does not touch itself.
+// A cell that the body touches although it is not clear. Assumes that the body does not touch itself.
 std::optional<VoxelIndex> Arm::obstacle(const detail::ClearSpace& space, std::span<const Capsule> body) const {
-  // From the sensor inwards: what is furthest out collides most.
+  // From the sensor inwards, because the outer parts collide most often.
   for (auto capsule = body.rbegin(); capsule != body.rend(); ++capsule) {
     if (chain_.joints_before(capsule->link) == 0) {
       continue;
@@ -115,7 +114,6 @@ bool Arm::admits_joints(const OccupancyMap& map, std::span<const double> joints)
 }
 
 // --- poses
-// ------------------------------------------------------------------------------------------------------------
 
 std::optional<Joints> Arm::configuration(const Pose& world_from_sensor) const {
   if (!is_rigid(world_from_sensor) || world_from_sensor.translation().norm() > 1e6) {
@@ -181,8 +179,7 @@ Box Arm::body_box(const Pose& pose) const {
   return {pose.translation() - reach, pose.translation() + reach};
 }
 
-// --- ways
-// -------------------------------------------------------------------------------------------------------------
+// --- paths
 
 bool Arm::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
   const std::optional<Joints> first = configuration(from);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// Which cells an arm may touch, and in which its sensor can be.
+// Which cells an arm may touch, and where its sensor can be.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -15,7 +14,7 @@
 
 namespace vantage {
 
-// Those that are clear or declared so, of all that the arm can touch.
+// The cells within reach that are clear or declared clear.
 VoxelGrid<std::uint8_t> Arm::passable_cells(const OccupancyMap& map) const {
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(chain_.reach_m() + options_.margin_m + 2.0 * frame.size_m);
@@ -41,7 +40,8 @@ std::shared_ptr<const detail::ClearSpace> Arm::clear_space(const OccupancyMap& m
   return memory_->clear_space(map, [&] { return detail::ClearSpace(map.frame(), passable_cells(map)); });
 }
 
-// The same with what the body touches at these joints, so that it may leave a place found too tight.
+// The same, plus all cells that the body touches at these joint values. So the arm can leave a position where it
+// already touches something.
 std::shared_ptr<const detail::ClearSpace> Arm::clear_space_from(const OccupancyMap& map, const Joints& first) const {
   std::shared_ptr<const detail::ClearSpace> space = clear_space(map);
   std::vector<VoxelIndex> touched;

@@ -17,16 +17,16 @@
 
 namespace vantage {
 
-// What an arm has found out before and need not find out again. Answers are the same without; any number of threads
-// may ask.
+// A cache of results of an arm. It never changes a result, and concurrent use is safe.
 class Arm::Memory {
  public:
-  // Of the map as it is now: the last one that `make()` has made, if it was asked of the same.
+  // The clear space of the current state of a map. Calls `make()` if the map or its revision differs from the last
+  // call.
   template <class Make>
   [[nodiscard]] std::shared_ptr<const detail::ClearSpace> clear_space(const OccupancyMap& map, Make&& make) {
     const std::lock_guard lock(mutex_);
     if (space_ == nullptr || !map_.is(map) || revision_ != map.revision()) {
-      space_ = nullptr;  // nothing, if what follows throws
+      space_ = nullptr;  // stays null if one of the next lines throws
       map_ = KnownMap(map);
       revision_ = map.revision();
       space_ = std::make_shared<const detail::ClearSpace>(make());
@@ -34,7 +34,7 @@ class Arm::Memory {
     return space_;
   }
 
-  // Answers many questions in a row, while nobody else asks any.
+  // Holds the lock for a series of queries.
   class Asking {
    public:
     Asking(Memory& memory, const detail::ClearSpace& space, std::size_t postures)
@@ -46,8 +46,9 @@ class Arm::Memory {
         memory.box_ = box;
       }
     }
-    // Whether any of these postures touches clear cells only. `obstacle(posture)` finds a cell that is in its way and
-    // is asked again only when that cell, which the posture touches in every map, has become clear.
+    // Whether any of these postures is free of collisions. `obstacle(posture)` returns a cell that the posture must
+    // not touch. It is called again only after that cell has become clear, because a posture touches the same cells
+    // in every map.
     template <class Obstacle>
     [[nodiscard]] bool any_admitted(std::span<const std::uint32_t> postures, Obstacle&& obstacle) {
       return std::any_of(postures.begin(), postures.end(), [&](std::uint32_t posture) {
@@ -74,9 +75,9 @@ class Arm::Memory {
   KnownMap map_;
   OccupancyMap::Revision revision_ = 0;
   std::shared_ptr<const detail::ClearSpace> space_;
-  double cell_m_ = 0.0;  // what follows speaks of a grid of such cells
+  double cell_m_ = 0.0;  // grid for which the following cells are valid
   VoxelBox box_;
-  std::vector<std::size_t> refuting_;  // for every posture, the cell that was last found in its way
+  std::vector<std::size_t> refuting_;  // per posture: the obstacle found last
 };
 
 }  // namespace vantage

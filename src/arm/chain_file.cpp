@@ -25,7 +25,7 @@
 namespace vantage {
 namespace {
 
-// While it lives, what the parser has to say is kept instead of printed.
+// During its lifetime, messages of the URDF parser are stored instead of printed.
 class ParserMessages final : public console_bridge::OutputHandler {
  public:
   ParserMessages() : lock_(one_at_a_time()) { console_bridge::useOutputHandler(this); }
@@ -51,8 +51,8 @@ class ParserMessages final : public console_bridge::OutputHandler {
   std::string first_;
 };
 
-constexpr double kMostM = 1000.0;  // of any length or slide
-constexpr double kLeastM = 1e-6;   // of a shape
+constexpr double kMostM = 1000.0;  // largest length or slide
+constexpr double kLeastM = 1e-6;   // smallest size of a shape
 constexpr double kMostTurnRad = 1000.0;
 constexpr double kLeastAxis = 1e-6;
 
@@ -65,7 +65,8 @@ Pose from_urdf_pose(const urdf::Pose& pose) {
   return result;
 }
 
-// A capsule about a solid whose middle is at `link_from_shape`: half its length along `axis`, and its radius.
+// A capsule around a solid with its centre at `link_from_shape`: half the segment length along `axis`, and the
+// radius.
 Capsule capsule_about(std::size_t link, const Pose& link_from_shape, Eigen::Index axis, double half_m,
                       double radius_m) {
   const Eigen::Vector3d end = half_m * Eigen::Vector3d::Unit(axis);
@@ -74,14 +75,15 @@ Capsule capsule_about(std::size_t link, const Pose& link_from_shape, Eigen::Inde
 
 }  // namespace
 
-// One URDF on its way to a chain.
+// Converts a URDF to a chain.
 class UrdfReader {
  public:
   UrdfReader(const std::string& text, std::string name) : name_(std::move(name)) {
     const ParserMessages messages;
     check_text(text);
     model_ = urdf::parseURDF(text);
-    // The parser leaves out a shape that it cannot read, says so and goes on: whatever it says is an error.
+    // The parser skips shapes that it cannot read and only logs a message. So every logged error is treated as a
+    // failure.
     if (!model_ || !messages.first().empty()) {
       refuse(messages.first().empty() ? "is no URDF" : std::string("is no URDF: ").append(messages.first()));
     }
@@ -91,7 +93,7 @@ class UrdfReader {
   KinematicChain chain(const std::string& base, const std::string& sensor) {
     const auto parts = std::make_shared<KinematicChain::Parts>();
     const urdf::LinkConstSharedPtr first = link(base);
-    std::vector<urdf::LinkConstSharedPtr> links;  // from the sensor to the one after the base
+    std::vector<urdf::LinkConstSharedPtr> links;  // from the sensor to the link after the base
     for (urdf::LinkConstSharedPtr at = link(sensor); at != first; at = at->getParent()) {
       if (!at->parent_joint) {
         refuse(std::string("has no chain from link '").append(base).append("' to link '").append(sensor).append("'"));
@@ -113,7 +115,7 @@ class UrdfReader {
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
 
-  // The parser's functions call themselves for every element within another, and take a chain of links apart so.
+  // The parser recurses into nested elements and into chains of links. These limits protect its stack.
   void check_text(std::string_view text) const {
     constexpr std::size_t kMostBytes = std::size_t{1} << 24U;
     constexpr std::size_t kMostLinks = 1000;
@@ -130,9 +132,9 @@ class UrdfReader {
     }
   }
 
-  // Every link has at most one parent, and no link is its own ancestor.
+  // Checks that every link has at most one parent and that no link is its own ancestor.
   void check_tree() {
-    std::map<std::string, const urdf::Joint*> joint_to;  // by the child
+    std::map<std::string, const urdf::Joint*> joint_to;  // key: child link
     for (const auto& [name, joint] : model_->joints_) {
       const auto [found, is_new] = joint_to.try_emplace(joint->child_link_name, joint.get());
       if (!is_new) {
@@ -152,7 +154,7 @@ class UrdfReader {
     }
   }
 
-  // Links own their children: in a circle none would ever be given back.
+  // Removes the ownership of children. In a cycle of links the memory would otherwise never be freed.
   void untie() {
     for (const auto& [name, link] : model_->links_) {
       link->child_links.clear();
@@ -201,7 +203,7 @@ class UrdfReader {
     }
     const Eigen::Vector3d given_axis(joint.axis.x, joint.axis.y, joint.axis.z);
     (void)checked(given_axis.norm(), kLeastAxis, 1.0 / kLeastAxis, "the length of the axis of " + named);
-    const Eigen::Vector3d axis = parent_from_link.linear() * given_axis;  // of any length
+    const Eigen::Vector3d axis = parent_from_link.linear() * given_axis;  // any length
     const Eigen::Vector3d origin = parent_from_link.translation();
     parts.add(
         KDL::Segment(link.name,
@@ -220,7 +222,7 @@ class UrdfReader {
     }
   }
 
-  // The shapes of a link and of all that is fixed to it but `next`, which is the chain's own.
+  // Adds the shapes of a link and of all links fixed to it, except `next`, the next link of the chain.
   void add_capsules(KinematicChain::Parts& parts, const urdf::Link& link, std::size_t number,
                     const urdf::Link* next) const {
     std::vector<std::pair<const urdf::Link*, Pose>> waiting{{&link, Pose::Identity()}};

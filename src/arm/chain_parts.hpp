@@ -12,14 +12,15 @@
 namespace vantage {
 
 struct KinematicChain::Parts {
-  KDL::Chain chain;  // a segment for every link but the base, whose frame is that link's
+  KDL::Chain chain;  // one segment per link except the base; its frame is that of the link
   std::vector<JointRange> ranges;
   std::vector<std::string> names;
   std::vector<Capsule> capsules;
-  std::vector<std::size_t> joints_before{0};  // for every link
+  std::vector<std::size_t> joints_before{0};  // per link
   double reach_m = 0.0;
   JointFrames frames;
-  std::vector<std::pair<std::size_t, std::size_t>> may_touch;  // capsules that two or more joints move apart
+  // pairs of capsules with at least two joints between them
+  std::vector<std::pair<std::size_t, std::size_t>> may_touch;
 
   void add(const KDL::Segment& segment) {
     chain.addSegment(segment);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kMostRings = 6;
 
-// Leaves those cells whose neighbours along one axis are left, too; `step` leads from one to the next, of which there
-// are `length`, and beyond the ends nothing is left.
+// Erosion along one axis: keeps the cells whose two neighbours are set. `step` is the stride between neighbours, and
+// `length` their number along the axis. Cells at both ends are cleared.
 void wear_down(const std::vector<std::uint8_t>& cells, std::size_t step, std::size_t length,
                std::vector<std::uint8_t>& left) {
   const std::size_t slab = step * length;
@@ -49,7 +49,7 @@ ClearSpace::ClearSpace(const VoxelFrame& frame, VoxelGrid<std::uint8_t> clear)
   }
 }
 
-// With n rings about the cell of a point, nothing nearer to it than n - 1 cells is other than clear.
+// If a cell has n rings, all cells closer than n - 1 cells to any point in it are clear.
 ClearSpace::Walk ClearSpace::walk(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double touching_m) const {
   const double length_m = (to - from).norm();
   const double least_step_m = 0.25 * frame_.size_m;
@@ -62,7 +62,8 @@ ClearSpace::Walk ClearSpace::walk(const Eigen::Vector3d& from, const Eigen::Vect
       walk.obstacle = cell;
       return walk;
     }
-    const double settled_m = (rings - 1) * frame_.size_m * (1.0 - 1e-9) - touching_m;  // to either side
+    // free distance along the segment in both directions
+    const double settled_m = (rings - 1) * frame_.size_m * (1.0 - 1e-9) - touching_m;
     walk.far_from_any = walk.far_from_any && settled_m >= std::min(least_step_m, length_m);
     if (way_m >= length_m) {
       return walk;
@@ -77,7 +78,7 @@ std::optional<VoxelIndex> ClearSpace::obstacle(const Eigen::Vector3d& from, cons
   if (walked.obstacle || walked.far_from_any) {
     return walked.obstacle;
   }
-  // The cell that ends the sweep is the last that was asked for and is not clear.
+  // The sweep stops at the first cell that is not clear, which is the last one stored here.
   VoxelIndex last{};
   const bool clear = swept_sphere_is_clear(frame_, from, to, radius_m, [&](const VoxelIndex& cell) {
     const bool is_clear = this->is_clear(cell);

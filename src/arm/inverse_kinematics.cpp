@@ -16,12 +16,12 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-// A radian counts as much as half a metre: about what it moves at the end of an arm.
+// Weight of a rotation: one radian counts like half a metre, about the movement that it causes at the end of an arm.
 constexpr double kMetresPerRadian = 0.5;
 
-// The turn that takes the optical axis of one frame to that of the other, in the first one's coordinates.
+// The rotation vector that turns the z axis of a frame to `wanted_axis`, in the coordinates of that frame.
 Eigen::Vector3d turn_of_axis(const Eigen::Vector3d& wanted_axis) {
-  const Eigen::Vector3d across(-wanted_axis.y(), wanted_axis.x(), 0.0);  // z x wanted
+  const Eigen::Vector3d across(-wanted_axis.y(), wanted_axis.x(), 0.0);  // cross product of z and wanted_axis
   const double sine = across.norm();
   if (sine < 1e-12) {
     return wanted_axis.z() > 0.0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(std::numbers::pi, 0.0, 0.0);
@@ -29,7 +29,7 @@ Eigen::Vector3d turn_of_axis(const Eigen::Vector3d& wanted_axis) {
   return across / sine * std::atan2(sine, wanted_axis.z());
 }
 
-// Damped least squares over so many joints, known to the compiler or not (Eigen::Dynamic).
+// Damped least squares. The number of joints is a compile-time constant, or Eigen::Dynamic.
 template <int kCount>
 class Search {
  public:
@@ -76,12 +76,12 @@ class Search {
   using Square = Eigen::Matrix<double, kCount, kCount>;
   using Places = Eigen::Matrix<double, 3, kCount>;
   using Columns = Eigen::Matrix<double, 6, kCount>;
-  // All there is to know of some values of the joints.
+  // The state of the chain for one set of joint values.
   struct Station {
-    Places axes;  // of the joints, in the base's frame
+    Places axes;  // joint axes in the frame of the base
     Places origins;
     JointFrames::Frame sensor;
-    Vector6 error;  // what is missing to the target, in the sensor's frame, rotations in metres
+    Vector6 error;  // difference to the target in the sensor frame; rotations scaled to metres
   };
 
   void clamp(Values& joints) const {
@@ -116,7 +116,7 @@ class Search {
     }
     return station;
   }
-  // How the sensor moves with each joint, in its own frame.
+  // Jacobian of the sensor motion with respect to the joints, in the sensor frame.
   [[nodiscard]] Columns jacobian(const Station& station) const {
     const Eigen::Matrix3d sensor_from_base = station.sensor.turn.transpose();
     Columns local(6, station.axes.cols());
@@ -163,7 +163,7 @@ std::optional<Joints> KinematicChain::inverse(const Pose& base_from_sensor, std:
   const auto search = [&](auto count) {
     return Search<decltype(count)::value>(parts_->frames, parts_->ranges, base_from_sensor, options).from(guess);
   };
-  // Those that most arms have: their matrices need no memory from the heap.
+  // Most arms have five to seven joints. With fixed sizes their matrices need no heap memory.
   switch (guess.size()) {
     case 5:
       return search(std::integral_constant<int, 5>{});

@@ -35,7 +35,7 @@ bool is_sliding(const KDL::Joint& joint) {
 
 JointFrames::JointFrames(const KDL::Chain& chain, std::span<const Capsule> capsules,
                          std::span<const std::size_t> joints_before) {
-  std::vector<Frame> links{{}};  // each in the frame of the last joint that moves it
+  std::vector<Frame> links{{}};  // pose of each link in the frame of the last joint that moves it
   for (const KDL::Segment& segment : chain.segments) {
     const KDL::Joint& joint = segment.getJoint();
     const Frame segment_at_0 = joint_frame_of(segment.pose(0.0));

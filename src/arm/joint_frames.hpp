@@ -11,11 +11,11 @@
 
 namespace vantage {
 
-// A chain with all that is fixed between two joints that move multiplied out once: each has a frame of its own, whose
-// z axis it turns about or slides along. Says the same as KDL, in a fraction of the time.
+// A kinematic chain in which all fixed transforms between movable joints are multiplied once. Each joint has a frame,
+// and it rotates about or slides along its z axis. The results equal those of KDL and need a fraction of the time.
 class JointFrames {
  public:
-  // Of something, in the frame it is fixed to or in the base's.
+  // A rigid transform to the parent frame or to the base.
   struct Frame {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -29,7 +29,8 @@ class JointFrames {
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] bool slides(std::size_t joint) const { return joints_[joint].slides; }
-  // Calls `visit(i, frame)` for the base, i = 0, and then for every joint from the base outwards, moved so far.
+  // Calls `visit(0, frame)` for the base and then `visit(i + 1, frame)` for each joint i from the base outwards, with
+  // its moved frame in the frame of the base.
   template <class Visit>
   void follow(std::span<const double> joints, Visit&& visit) const {
     Frame frame;
@@ -49,21 +50,21 @@ class JointFrames {
       visit(i + 1, frame);
     }
   }
-  // Where the sensor is, by the frame of the last joint.
+  // The pose of the sensor, given the frame of the last joint.
   [[nodiscard]] Frame sensor(const Frame& last) const { return last * from_sensor_; }
-  // The body at these joints, in the base's frame.
+  // The capsules in the frame of the base.
   [[nodiscard]] std::vector<Capsule> body_at(std::span<const double> joints) const;
 
  private:
   struct Joint {
-    Frame from_last;  // its frame while it is at 0, in that of the joint before
+    Frame from_last;  // frame of the joint at value 0, in the frame of the previous joint
     bool slides = false;
   };
   std::vector<Joint> joints_;
   Frame from_sensor_;
-  std::vector<Capsule> pieces_;                 // in the frame of the joint that moves them, innermost first
-  std::vector<std::size_t> place_in_capsules_;  // of each
-  std::vector<std::size_t> pieces_up_to_;       // how many of them the base and the joints so far move
+  std::vector<Capsule> pieces_;  // in the frame of the joint that moves them, sorted from the base outwards
+  std::vector<std::size_t> place_in_capsules_;  // original index of each piece
+  std::vector<std::size_t> pieces_up_to_;       // number of pieces moved by the base and the joints up to each one
 };
 
 }  // namespace vantage

@@ -27,8 +27,7 @@ KDL::JntArray array_of(std::span<const double> joints, std::size_t count) {
   return array;
 }
 
-// How far a point that is fixed to the frame behind the segment can get from the frame before it, less its own
-// distance.
+// How much a segment adds to the largest possible distance from the base.
 double length_of(const KDL::Segment& segment, const JointRange* range) {
   const double slide_m =
       segment.getJoint().getType() == KDL::Joint::TransAxis || segment.getJoint().getType() == KDL::Joint::TransZ
@@ -39,13 +38,13 @@ double length_of(const KDL::Segment& segment, const JointRange* range) {
 
 }  // namespace
 
-// What is derived from the rest.
+// Computes all derived data.
 void KinematicChain::finish(Parts& parts) {
   for (const JointRange& range : parts.ranges) {
     detail::require_option(std::isfinite(range.min) && std::isfinite(range.max) && range.min <= range.max,
                            "JointRange::min", range.min, "finite and <= max");
   }
-  std::vector<double> furthest_m{0.0};  // of every link's frame
+  std::vector<double> furthest_m{0.0};  // largest distance of each link frame from the base
   std::size_t joint = 0;
   for (const KDL::Segment& segment : parts.chain.segments) {
     const bool moves = segment.getJoint().getType() != KDL::Joint::None;

@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// While it lives, OMPL prints nothing.
+/// Suppresses the output of OMPL during its lifetime.
 class OmplQuiet {
  public:
   OmplQuiet() : lock_(one_at_a_time()), before_(ompl::msg::getOutputHandler()) { ompl::msg::noOutputHandler(); }
@@ -28,7 +28,7 @@ class OmplQuiet {
   ompl::msg::OutputHandler* before_;
 };
 
-/// Draws from our own seed; OMPL's generators take theirs from the clock.
+/// A sampler with a fixed seed. OMPL's own generators are seeded by the clock.
 class SeededSampler final : public ompl::base::RealVectorStateSampler {
  public:
   SeededSampler(const ompl::base::StateSpace* space, std::uint64_t seed) : RealVectorStateSampler(space) {

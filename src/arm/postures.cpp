@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-// What a radian of turn counts beside a metre, among guesses to start from.
+// Weight of a rotation when start configurations are compared: one radian counts like this many metres.
 constexpr float kGuessMetresPerRadian = 0.3F;
 
 }  // namespace
@@ -19,7 +19,7 @@ Arm::Postures::Postures(const KinematicChain& chain, const CapabilityMapOptions&
   sort_by_cell();
 }
 
-// The configurations are kept as single floats, and the map is made of what is kept.
+// Configurations are rounded to single precision first, so that the map matches what is stored.
 CapabilityMap Arm::Postures::draw(const KinematicChain& chain, const CapabilityMapOptions& options, Postures& into) {
   const auto forward = [&](std::span<const double> drawn) -> std::optional<Pose> {
     Joints joints;
@@ -48,7 +48,7 @@ void Arm::Postures::sort_by_cell() {
   first_in_cell_.assign(cells.size() + 1, 0);
   for (std::uint32_t posture = 0; posture < size(); ++posture) {
     const VoxelIndex cell = capability_.frame().cell_of(positions_[posture].cast<double>());
-    // Rounding to a float may put it beside the box.
+    // Rounding to single precision may move it out of the box.
     const VoxelIndex last = cells.box().hi - VoxelIndex{1, 1, 1};
     cell_of[posture] =
         cells.offset_of({std::clamp(cell.x, cells.box().lo.x, last.x), std::clamp(cell.y, cells.box().lo.y, last.y),

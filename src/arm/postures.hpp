@@ -12,7 +12,8 @@
 
 namespace vantage {
 
-// Configurations drawn once, found by where they put the sensor. Everything is in the base's frame.
+// Configurations that are sampled once and indexed by the position of the sensor. Everything is in the frame of the
+// base.
 class Arm::Postures {
  public:
   Postures(const KinematicChain& chain, const CapabilityMapOptions& options);
@@ -22,10 +23,10 @@ class Arm::Postures {
   [[nodiscard]] Joints joints(std::uint32_t posture) const;
   [[nodiscard]] Pose pose(std::uint32_t posture) const;
 
-  // Those with the sensor in this cell of the capability map.
+  // The postures with the sensor in this cell of the capability map.
   [[nodiscard]] std::span<const std::uint32_t> in_cell(const VoxelIndex& cell) const;
-  // At most `count` with the sensor in the cell of the pose or one beside it, those first that have least to change;
-  // where `free_roll`, the turn about the optical axis does not count.
+  // Up to `count` postures with the sensor in the cell of the pose or next to it, most similar first. With
+  // `free_roll`, the rotation about the optical axis is ignored.
   [[nodiscard]] std::vector<std::uint32_t> near(const Pose& base_from_sensor, std::size_t count,
                                                 bool free_roll) const;
 
@@ -35,11 +36,12 @@ class Arm::Postures {
   void sort_by_cell();
 
   std::size_t joint_count_;
-  std::vector<float> joints_;  // joint_count_ for each posture
+  std::vector<float> joints_;  // joint_count_ values per posture
   std::vector<Eigen::Vector3f> positions_;
   std::vector<Eigen::Quaternionf> turns_;
   CapabilityMap capability_;
-  std::vector<std::uint32_t> first_in_cell_;  // of `sorted_`, for each cell of the capability map and their end
+  // start of each capability cell's range in `sorted_`, and the end of the last
+  std::vector<std::uint32_t> first_in_cell_;
   std::vector<std::uint32_t> sorted_;
 };
 

@@ -79,7 +79,7 @@ std::optional<std::vector<Joints>> rrt_connect(const JointSpace& space, const Jo
   planner.setProblemDefinition(problem);
   constexpr double kStepRad = 0.5;
   planner.setRange(kStepRad);
-  // The trees stay small; and OMPL's default structure draws numbers of its own.
+  // The trees are small, and OMPL's default structure uses an unseeded random generator.
   planner.setNearestNeighbors<ompl::NearestNeighborsLinear>();
   std::size_t asked = 0;
   const ompl::base::PlannerTerminationCondition spent([&asked, iterations] { return asked++ >= iterations; });

@@ -25,7 +25,7 @@ Eigen::Vector3d position_of(const ompl::base::State* state) {
   return Eigen::Vector3d(state->as<PositionState>()->values);
 }
 
-// OMPL's tree, but for the generator that decides when to draw the goal.
+// OMPL's RRT with a fixed seed for the generator that decides when to sample the goal.
 class SeededRrt final : public ompl::geometric::RRT {
  public:
   SeededRrt(const ompl::base::SpaceInformationPtr& information, std::uint64_t seed) : RRT(information) {
@@ -33,7 +33,7 @@ class SeededRrt final : public ompl::geometric::RRT {
   }
 };
 
-// Where a platform can be, in whatever orientation, and how it can go.
+// Collision tests of positions and straight motions of a platform. The orientation follows the motion.
 class Positions final : public ompl::base::MotionValidator {
  public:
   Positions(ompl::base::SpaceInformation* information, const OccupancyMap& map, const Platform& platform)
@@ -69,14 +69,14 @@ ompl::base::SpaceInformationPtr positions_in(const OccupancyMap& map, const Plat
   states->setStateSamplerAllocator(
       [seed](const ompl::base::StateSpace* of) { return std::make_shared<SeededSampler>(of, seed); });
   auto information = std::make_shared<ompl::base::SpaceInformation>(states);
-  // Whether a position is admitted is asked with the motion that leads there.
+  // The motion test also checks the position where the motion ends.
   information->setStateValidityChecker([](const ompl::base::State* /*state*/) { return true; });
   information->setMotionValidator(std::make_shared<Positions>(information.get(), map, platform));
   information->setup();
   return information;
 }
 
-// The corners of a way from one position to the other, both included; empty if the tree did not get there.
+// The corners of a path between two positions, both included; empty if none is found.
 std::vector<Eigen::Vector3d> corners_of_way(const OccupancyMap& map, const Platform& platform,
                                             const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                             const RrtOptions& options) {
@@ -94,7 +94,8 @@ std::vector<Eigen::Vector3d> corners_of_way(const OccupancyMap& map, const Platf
   planner.setProblemDefinition(problem);
   planner.setGoalBias(options.goal_bias);
   planner.setRange(options.step_m);
-  planner.setNearestNeighbors<ompl::NearestNeighborsLinear>();  // OMPL's default structure draws numbers of its own
+  // OMPL's default structure uses an unseeded random generator
+  planner.setNearestNeighbors<ompl::NearestNeighborsLinear>();
   std::size_t asked = 0;
   const ompl::base::PlannerTerminationCondition spent([&] { return asked++ >= options.iterations; });
   std::vector<Eigen::Vector3d> corners;

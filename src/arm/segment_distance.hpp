@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// Least distance between two segments, either of which may be a point. On each segment the other's nearest point is
-/// linear in the parameter until it meets an end, so clamping twice settles it.
+/// Distance between two segments, each of which may be a single point. On each segment, the point nearest to the
+/// other one is a linear function of the other's parameter, clamped to the ends; so two clamping steps suffice.
 [[nodiscard]] inline double segment_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
                                              const Eigen::Vector3d& b0, const Eigen::Vector3d& b1) {
   const Eigen::Vector3d a = a1 - a0;

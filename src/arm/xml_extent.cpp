@@ -6,7 +6,7 @@
 namespace vantage::detail {
 namespace {
 
-// Where the tag that begins at `at` ends: at its '>' outside of quotes, or with the text.
+// End of the tag that starts at `at`: the position of its '>' outside quotes, or the end of the text.
 std::size_t end_of_tag(std::string_view text, std::size_t at) {
   char quote = 0;
   for (; at < text.size(); ++at) {
@@ -26,7 +26,8 @@ bool starts(std::string_view text, std::size_t at, std::string_view with) {
   return text.substr(at, with.size()) == with;
 }
 
-// Past what begins at `at` and is no element; `at` itself where it is one.
+// The position after a comment, CDATA section or declaration that starts at `at`; `at` itself if an element starts
+// there.
 std::size_t past_other(std::string_view text, std::size_t at) {
   const auto past = [&](std::string_view end) {
     const std::size_t found = text.find(end, at);

@@ -6,14 +6,13 @@
 
 namespace vantage::detail {
 
-/// How much a parser of an XML text has to take.
+/// Size measures of an XML text that limit the work of a parser.
 struct XmlExtent {
-  std::size_t depth = 0;  ///< of the elements within one another
-  std::size_t named = 0;  ///< elements of the name asked for
+  std::size_t depth = 0;  ///< largest nesting depth of elements
+  std::size_t named = 0;  ///< number of elements with the given name
 };
 
-/// Counts tags without building anything. Comments and quoted attributes are passed over; what is not well-formed
-/// is left to the parser.
+/// Counts tags without building a tree. Skips comments and quoted attributes. Malformed text is left to the parser.
 [[nodiscard]] XmlExtent xml_extent(std::string_view text, std::string_view name);
 
 }  // namespace vantage::detail

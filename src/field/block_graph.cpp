@@ -9,7 +9,8 @@
 namespace vantage::detail {
 namespace {
 
-// Eight blocks, bit 0 of their number for x, 1 for y, 2 for z; where the first lies in its brick.
+// A cube of 2 x 2 x 2 blocks. Bits 0, 1, 2 of a block's number stand for x, y, z. Also stores the position of the
+// first block in its brick.
 struct Octet {
   std::size_t first;
   VoxelIndex in_brick;
@@ -23,7 +24,7 @@ struct Octet {
   }
 };
 
-// The blocks of an octet joined to its block `seed`.
+// The blocks of an octet that are connected to its block `seed`.
 std::uint32_t piece_of(const std::uint32_t* packed, const Octet& octet, std::size_t seed) {
   std::uint32_t piece = 1U << seed;
   std::uint32_t todo = piece;
@@ -31,7 +32,8 @@ std::uint32_t piece_of(const std::uint32_t* packed, const Octet& octet, std::siz
     const auto i = static_cast<std::size_t>(std::countr_zero(todo));
     todo &= todo - 1;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t side = 2 * axis + ((i >> axis & 1U) == 0 ? 1U : 0U);  // the face towards the other one
+      // the face towards the neighbour in the octet
+      const std::uint32_t side = 2 * axis + ((i >> axis & 1U) == 0 ? 1U : 0U);
       const std::uint32_t other = 1U << (i ^ (1U << axis));
       if ((packed[octet.block(i)] >> (3U * side) & 7U) != 0 && (piece & other) == 0) {
         piece |= other;
@@ -44,7 +46,7 @@ std::uint32_t piece_of(const std::uint32_t* packed, const Octet& octet, std::siz
 
 // The pieces found in the bricks of a share, by parity.
 using BrickPieces = std::array<std::vector<VoxelIndex>, 2>;
-constexpr std::uint32_t kOdd = 0x80000000U;  // set in the number of an odd piece, among those of its share
+constexpr std::uint32_t kOdd = 0x80000000U;  // flag in the number of a piece with odd parity, within its share
 
 void find_brick_pieces(const FineLevel& fine, std::size_t brick, std::uint32_t* node, BrickPieces& pieces) {
   const std::uint32_t* packed = fine.blocks.data() + brick * kBrickBlocks;
@@ -66,7 +68,7 @@ void find_brick_pieces(const FineLevel& fine, std::size_t brick, std::uint32_t* 
   }
 }
 
-// The block beside `block` at a side, in all bricks.
+// Global index of the block adjacent to `block` on a side.
 std::size_t block_beside(const FineLevel& fine, std::size_t brick, std::size_t block, std::size_t side) {
   static constexpr std::array<std::size_t, 3> kStep{1, 8, 32};
   static constexpr std::array<std::size_t, 3> kCount{8, 4, 4};
@@ -81,7 +83,7 @@ std::size_t block_beside(const FineLevel& fine, std::size_t brick, std::size_t b
                       : fine.links[brick][side] * kBrickBlocks + block - last * step;
 }
 
-// The edges of the nodes of a brick.
+// Writes the edges of the nodes of a brick.
 void write_brick_edges(const FineLevel& fine, const AlignedVector<std::uint32_t>& node, std::size_t brick,
                        EdgeWriter& writer) {
   for (std::size_t number = 0; number < 16; ++number) {
@@ -100,7 +102,7 @@ void write_brick_edges(const FineLevel& fine, const AlignedVector<std::uint32_t>
         }
         todo &= ~(left & (0U - left));
         const std::uint32_t packed = fine.blocks[brick * kBrickBlocks + block];
-        std::uint32_t to_sinks = packed >> 18U;  // twice
+        std::uint32_t to_sinks = packed >> 18U;  // twice the conductance to sinks
         for (std::uint32_t side = 0; side < 6; ++side) {
           const std::uint32_t faces = packed >> (3U * side) & 7U;
           to_sinks -= faces;

@@ -6,8 +6,8 @@
 
 namespace vantage::detail {
 
-/// The level after the blocks: a node for each piece of 2 x 2 x 2 blocks that hangs together, so that what lies on
-/// two sides of a thin wall is never one unknown. Sets `blocks.node`.
+/// Builds the level after the blocks. Each connected piece of 2 x 2 x 2 blocks becomes one node, so the two sides of
+/// a thin wall never share an unknown. Sets `blocks.node`.
 [[nodiscard]] GraphLevel graph_of_blocks(const FineLevel& fine, BlockLevel& blocks);
 
 }  // namespace vantage::detail

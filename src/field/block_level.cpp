@@ -9,15 +9,15 @@
 namespace vantage::detail {
 namespace {
 
-// Rows couple along x within themselves, which is relaxed with the old values (Jacobi): by a little less than fully,
-// so that it still smooths where a corridor leaves nothing but that.
+// Blocks of one row depend on each other along x and are relaxed with old values (Jacobi). A weight below 1 keeps
+// this smoothing even in a corridor along x, where only these couplings exist.
 constexpr float kBlockWeight = 0.95F;
 
 VANTAGE_INLINE Lanes<float> as_floats(const Lanes<std::uint32_t>& counts) {
   return __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(counts), Lanes<float>);
 }
 
-// Sum of all conductances.
+// The sum of all conductances.
 VANTAGE_INLINE Lanes<float> diagonal_of(const Lanes<std::uint32_t>& packed) {
   return 0.5F * as_floats(packed >> 18U);
 }
@@ -61,7 +61,7 @@ struct BlocksAround {
   }
 };
 
-// The same as below where x is 0 everywhere, and whatever is there instead.
+// The same as Smooth below for x = 0 everywhere. It overwrites x without reading it.
 template <std::size_t parity>
 struct SmoothFromZero {
   const std::uint32_t* packed;
@@ -83,7 +83,7 @@ struct SmoothFromZero {
   }
 };
 
-// Relaxes the lines whose y + z is of one parity.
+// Relaxes the rows whose y + z has the given parity.
 template <std::size_t parity>
 struct Smooth {
   BlocksAround around;
@@ -129,7 +129,8 @@ BlockLevel::BlockLevel(const FineLevel& fine) {
 
 namespace {
 
-// The parity of rows changes from brick to brick along x, or rows relaxed together would meet there.
+// Parities alternate between adjacent bricks along x. Otherwise rows that are relaxed together would be adjacent
+// across the bricks' border.
 bool is_flipped(const FineLevel& fine, std::size_t brick) { return (fine.address[brick].x & 1) != 0; }
 
 }  // namespace
@@ -159,7 +160,7 @@ void BlockLevel::restrict_brick(const FineLevel& fine, std::size_t brick, Aligne
   const std::size_t nodes = sums.size() - 1;
   for (std::size_t i = 0; i < kBrickBlocks; ++i) {
     if (const std::uint32_t to = node[brick * kBrickBlocks + i]; to < nodes) {
-      sums[to] += residual[i];  // all its blocks are in this brick
+      sums[to] += residual[i];  // safe with threads: all blocks of a node are in this brick
     }
   }
 }

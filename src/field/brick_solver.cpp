@@ -8,7 +8,7 @@
 namespace vantage::detail {
 namespace {
 
-// Relaxation of the black cells goes a little too far: their Schur complement has its spectrum in (0, 1].
+// Over-relaxation of the black cells. Their Schur complement, scaled, has its spectrum in (0, 1].
 constexpr float kBlackWeight = 1.15F;
 
 template <class Field>
@@ -23,13 +23,14 @@ BrickSolver::BrickSolver(FineLevel fine) : fine_(std::move(fine)), coarse_(fine_
     make_room(fine_, *field, kHalfBrick);
   }
   for (HalfField<float>* field : {&x_, &p_}) {
-    clear(fine_, *field, kHalfBrick);  // they are read before they are written
+    clear(fine_, *field, kHalfBrick);  // read before they are written
   }
 }
 
 double BrickSolver::total() const { return std::accumulate(sums_.begin(), sums_.end(), 0.0); }
 
-// `first` for every brick, which leaves z relaxed once, and its residual to the blocks. Returns r * r.
+// Runs `first` on every brick, which must leave z relaxed once, and restricts the residual of z to the blocks.
+// Returns r * r.
 template <class First>
 double BrickSolver::way_down(const First& first) {
   in_waves(
@@ -44,14 +45,14 @@ double BrickSolver::way_down(const First& first) {
   return total();
 }
 
-// x = 0, and the way down.
+// x = 0, then the downward part.
 double BrickSolver::begin() {
   return way_down([&](std::size_t b) {
     run(Begin{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(x_, b), at(z_, b), kBlackWeight, &sums_[b]});
   });
 }
 
-// x += step p, r -= step q, and the way down.
+// x += step p, r -= step q, then the downward part.
 double BrickSolver::advance(float step) {
   return way_down([&](std::size_t b) {
     run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b),
@@ -59,7 +60,7 @@ double BrickSolver::advance(float step) {
   });
 }
 
-// The correction of the coarser levels and the last relaxation. Returns r * z.
+// The coarse correction and the last relaxation. Returns r * z.
 double BrickSolver::correct() {
   coarse_.solve(fine_);
   in_waves(
@@ -102,7 +103,7 @@ std::size_t BrickSolver::solve(double reduction, std::size_t most) {
     const double along = correct();
     const double curvature = turn(previous > 0.0 ? static_cast<float>(along / previous) : 0.0F);
     if (!(along > 0.0 && curvature > 0.0)) {
-      break;  // solved to the last bit, or float has no more to give
+      break;  // solved exactly, or at the limit of single precision
     }
     previous = along;
     ++iterations;

@@ -9,25 +9,25 @@
 
 namespace vantage::detail {
 
-/// Conjugate gradients in float on the black cells, the red ones solved for (Schur complement), with one multigrid
-/// cycle as preconditioner: a relaxation of the black cells before the correction of the coarser levels and one after
-/// it.
+/// Conjugate gradients in single precision on the black cells; the red cells are eliminated (Schur complement). The
+/// preconditioner is one multigrid cycle with one relaxation of the black cells before and one after the coarse
+/// correction.
 class BrickSolver {
  public:
   explicit BrickSolver(FineLevel fine);
 
   [[nodiscard]] const FineLevel& fine() const { return fine_; }
   [[nodiscard]] std::size_t level_count() const { return 1 + coarse_.level_count(); }
-  /// The right hand side, to be written before `solve`; overwritten by the residual.
+  /// The right hand side: write it before `solve`, which overwrites it with the residual.
   [[nodiscard]] HalfField<float>& right() { return r_; }
-  /// Starts from zero, until the residual has fallen by `reduction` or `most` iterations are done; returns their
-  /// number.
+  /// Solves from zero until the residual has decreased by the factor `reduction`, or after `most` iterations. Returns
+  /// the number of iterations.
   std::size_t solve(double reduction, std::size_t most);
-  /// What `solve` found.
+  /// The solution of the last `solve`.
   [[nodiscard]] const HalfField<float>& solution() const { return x_; }
-  /// `out = one preconditioning of right()`: symmetric and positive definite.
+  /// Applies the preconditioner once to right(). It is symmetric and positive definite.
   void precondition(HalfField<float>& out);
-  /// `out = S in`, the operator of the black cells.
+  /// out = S in, where S is the operator of the black cells.
   void apply(const HalfField<float>& in, HalfField<float>& out);
 
   [[nodiscard]] std::size_t memory_bytes() const;
@@ -43,9 +43,9 @@ class BrickSolver {
 
   FineLevel fine_;
   CoarseCorrection coarse_;
-  HalfField<float> x_, r_, z_, p_, q_;  // black
+  HalfField<float> x_, r_, z_, p_, q_;  // fields of the black cells
   HalfField<float> red_;
-  std::vector<double> sums_;  // one per brick, added in their order
+  std::vector<double> sums_;  // one per brick, always added in the same order
 };
 
 }  // namespace vantage::detail

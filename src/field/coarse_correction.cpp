@@ -11,8 +11,8 @@
 namespace vantage::detail {
 namespace {
 
-constexpr std::size_t kDirect = 100;  // unknowns that are solved outright
-constexpr int kSweepsOfMany = 20;     // on the last level where it is larger than that
+constexpr std::size_t kDirect = 100;  // the largest number of unknowns that are solved directly
+constexpr int kSweepsOfMany = 20;     // on the last level, if it is larger than that
 
 }  // namespace
 
@@ -21,7 +21,7 @@ CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
   while (graphs_.back().size > kDirect) {
     GraphLevel next = coarsen(*fine.team, graphs_.back());
     if (next.size == graphs_.back().size) {
-      break;  // regions that only touch at sinks: each is one node already
+      break;  // regions that touch only at sinks: each is one node already
     }
     graphs_.push_back(std::move(next));
   }
@@ -42,7 +42,7 @@ CoarseCorrection::CoarseCorrection(const FineLevel& fine) : blocks_(fine) {
   coarsest_ = matrix.llt().solve(Eigen::MatrixXd::Identity(size, size)).cast<float>();
 }
 
-// Exactly if there is the inverse; else by relaxation of what `x` holds.
+// Solves the last level: exactly if its inverse exists, otherwise by relaxation from zero.
 void CoarseCorrection::solve_coarsest(ThreadTeam& team) {
   GraphLevel& last = graphs_.back();
   if (coarsest_.size() == 0) {
@@ -57,7 +57,7 @@ void CoarseCorrection::solve_coarsest(ThreadTeam& team) {
       coarsest_ * Eigen::Map<const Eigen::VectorXf>(last.right.data(), size);
 }
 
-// Two visits: W. The last level is solved at once.
+// Two visits of the next level make a W-cycle. The last level is solved once.
 void CoarseCorrection::visit(ThreadTeam& team, std::size_t level) {
   if (level + 1 == graphs_.size()) {
     solve_coarsest(team);

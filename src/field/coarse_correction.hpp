@@ -10,22 +10,30 @@
 
 namespace vantage::detail {
 
-/// All levels above the cells, and the cycle over them: W-cycles, for plain aggregation with V-cycles needs ever more
-/// iterations as levels are added (Notay 2010).
+/// All levels above the cells, and the multigrid cycle over them.
 ///
-/// The correction is a symmetric, positive definite function of the right hand side, as conjugate gradients demand.
+///     cells       red and black, in bricks       (FineLevel, solved by BrickSolver)
+///       v
+///     blocks      2 x 2 x 2 cells each           (BlockLevel, still in bricks)
+///       v
+///     nodes       connected pieces of 2 x 2 x 2 blocks, then of 2 x 2 x 2 such cubes, ... (GraphLevel)
+///       v
+///     last graph  at most 100 nodes: solved directly
+///
+/// W-cycles are used: with plain aggregation, V-cycles would need more iterations for every added level (Notay 2010).
+/// The correction is a symmetric, positive definite function of the right hand side, as conjugate gradients require.
 class CoarseCorrection {
  public:
   explicit CoarseCorrection(const FineLevel& fine);
 
-  /// Right hand side of the blocks of a brick, to be written before `solve`.
+  /// The right hand side of the blocks of a brick, to be written before `solve`.
   [[nodiscard]] float* right(std::size_t brick) { return blocks_.right.data() + brick * kBrickBlocks; }
-  /// Approximately solves for the blocks.
+  /// Solves approximately for the blocks.
   void solve(const FineLevel& fine);
   /// The correction of the blocks of a brick.
   [[nodiscard]] const float* correction(std::size_t brick) const { return blocks_.x.data() + brick * kBrickBlocks; }
 
-  /// Levels above the cells.
+  /// Number of levels above the cells.
   [[nodiscard]] std::size_t level_count() const { return 1 + graphs_.size(); }
   [[nodiscard]] std::size_t memory_bytes() const;
 

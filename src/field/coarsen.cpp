@@ -8,12 +8,13 @@
 namespace vantage::detail {
 namespace {
 
-// Fewer nodes are sorted before a second thread has begun.
+// Below this, sorting is done before a second thread has started.
 constexpr std::size_t kFewestNodes = 4000;
 
 VoxelIndex cube_of(const VoxelIndex& at) { return {at.x >> 1, at.y >> 1, at.z >> 1}; }
 
-// A node and the cube of 2 x 2 x 2 it lies in: even cubes first, each in raster order.
+// A node with a sort key: the cube of 2 x 2 x 2 that contains it. Even cubes come first, in raster order within a
+// parity.
 struct Placed {
   std::uint64_t parity_and_z;
   std::uint64_t y_and_x;
@@ -59,14 +60,14 @@ AlignedVector<Placed> by_cube(ThreadTeam& team, const GraphLevel& level) {
   return order;
 }
 
-// The pieces of some cubes, numbered from 0.
+// The connected pieces of some cubes, numbered from 0.
 struct Pieces {
   std::vector<VoxelIndex> at;
-  std::vector<std::uint32_t> children;  // of one after the other
-  std::vector<std::uint32_t> ends;      // of each, in `children`
+  std::vector<std::uint32_t> children;  // the nodes of all pieces, piece by piece
+  std::vector<std::uint32_t> ends;      // end of each piece in `children`
   std::size_t even = 0;
 
-  // The piece of `seed`, all of whose nodes are in the cube `cube`.
+  // Adds the connected piece of `seed` inside `cube`.
   void add(GraphLevel& finer, const VoxelIndex& cube, std::uint32_t seed) {
     const auto number = static_cast<std::uint32_t>(at.size());
     std::size_t next = children.size();
@@ -86,7 +87,7 @@ struct Pieces {
   }
 };
 
-// Pieces of the cubes of `order`, in as many parts as there are threads, none of which ends within a cube.
+// Finds the pieces of all cubes, in one part per thread. No cube is split between parts.
 std::vector<Pieces> find_pieces(ThreadTeam& team, GraphLevel& finer) {
   const AlignedVector<Placed> order = by_cube(team, finer);
   const auto start = [&](std::size_t part) {
@@ -111,13 +112,13 @@ std::vector<Pieces> find_pieces(ThreadTeam& team, GraphLevel& finer) {
   return parts;
 }
 
-// Where the nodes and children of each part begin.
+// First node and first child of a part.
 struct PartBegin {
   std::size_t node = 0;
   std::size_t child = 0;
 };
 
-// Writes the addresses of a part's nodes, and what the finer level knows of them.
+// Writes the nodes of a part, and their links in the finer level.
 void number_part(GraphLevel& finer, GraphLevel& coarser, const Pieces& pieces, const PartBegin& begin) {
   std::size_t c = 0;
   for (std::size_t n = 0; n < pieces.at.size(); ++n) {

@@ -10,14 +10,14 @@ namespace vantage::detail {
 namespace {
 
 using Plane = std::array<std::uint16_t, kBrickRows>;
-// The eight rows of a layer of a brick, a bit per cell; or eight numbers of four bits for each.
+// The eight rows of one layer (z) of a brick: one bit per cell, or eight 4-bit numbers per row.
 using Layer = Lanes<std::uint32_t>;
 
 VANTAGE_INLINE Layer layer_of(const Plane& plane, std::size_t z) {
   return __builtin_convertvector(load<std::uint16_t>(plane.data() + z * 8), Layer);
 }
 
-// Every other bit of a row, from bit 0, as a number of four bits.
+// Spreads the even bits of a row to eight 4-bit numbers.
 VANTAGE_INLINE Layer every_other(const Layer& rows) {
   Layer bits = rows & 0x5555U;
   bits = (bits | bits << 8U) & 0x00550055U;
@@ -25,10 +25,10 @@ VANTAGE_INLINE Layer every_other(const Layer& rows) {
   return (bits | bits << 2U) & 0x11111111U;
 }
 
-// For each block how many of its two cells in the row have their bit set.
+// For each block, the number of its two cells in the row whose bit is set.
 VANTAGE_INLINE Layer pairs(const Layer& rows) { return every_other(rows) + every_other(rows >> 1U); }
 
-// One plane of bits in a brick and its neighbours.
+// One bit plane of a brick and of its neighbours.
 struct PlaneAround {
   const Plane* own;
   std::array<const Plane*, 6> side;
@@ -41,7 +41,7 @@ struct PlaneAround {
       side[face] = links[face] == LaplaceDomain::kNone ? &kNothing : &(bricks[links[face]].*plane);
     }
   }
-  // Bit x of a row is set if the neighbour of its cell x on that side is in the plane.
+  // Bit x of a row is set if the neighbour of cell x on that side is in the plane.
   [[nodiscard]] VANTAGE_INLINE std::array<Layer, 6> neighbours(std::size_t z) const {
     const Layer here = layer_of(*own, z);
     return {(here << 1U | layer_of(*side[0], z) >> 15U) & 0xFFFFU,
@@ -53,8 +53,8 @@ struct PlaneAround {
   }
 };
 
-// What the cells of two layers contribute to their blocks, by row: faces open between two unknowns of different
-// blocks, per side, and, for each of the layers, faces to sinks.
+// What the cells of two layers contribute to their blocks, by row: the open faces between unknowns of different
+// blocks per side, and the faces to sinks per layer.
 struct BlockFaces {
   std::array<Layer, 6> open{};
   std::array<Layer, 2> sinks{};
@@ -83,7 +83,7 @@ struct FillBrick {
     std::memcpy(words.data(), plane.data() + z * 8, sizeof words);
     return (words[0] | words[1]) == 0;
   }
-  // Returns whether there may be a cell.
+  // Returns false if the layer has no cells.
   VANTAGE_INLINE bool fill_layer(std::size_t z, BlockFaces& sums) const {
     if (is_empty(*cells.own, z)) {
       return false;
@@ -104,7 +104,7 @@ struct FillBrick {
     sums.open[4 + z % 2] += pairs(unknown[4 + z % 2]);
     return true;
   }
-  // By adding six numbers of one bit per cell.
+  // Counts the open faces by adding six one-bit numbers per cell.
   VANTAGE_INLINE void write_faces(std::size_t z, const Layer& interior, const std::array<Layer, 6>& open,
                                   const std::array<Layer, 6>& sink) const {
     std::array<Layer, 3> digit{};
@@ -118,7 +118,7 @@ struct FillBrick {
     }
     const Layer row{0, 1, 2, 3, 4, 5, 6, 7};
     for (const std::size_t colour : {kRed, kBlack}) {
-      const Layer first = (row ^ static_cast<std::uint32_t>(z ^ colour)) & 1U;  // x of the first cell of the colour
+      const Layer first = (row ^ static_cast<std::uint32_t>(z ^ colour)) & 1U;  // x of the first cell of this colour
       const auto half = [&](const Layer& bits)
                             VANTAGE_INLINE_LAMBDA { return every_other((bits & interior) >> first); };
       store<std::uint32_t>(faces[colour] + z * 8,
@@ -140,7 +140,8 @@ struct FillBrick {
       Layer packed{};
       Layer twice{};
       for (std::uint32_t side = 0; side < 6; ++side) {
-        // The rows at the sides in y; else both of them, which together have no more than four faces.
+        // Along y, only the row at that side of the block has such faces. Along x and z both rows have them, at most
+        // four together.
         const std::uint32_t numbers = side == 2   ? by_row[2][y]
                                       : side == 3 ? by_row[3][y + 1]
                                                   : by_row[side][y] + by_row[side][y + 1];

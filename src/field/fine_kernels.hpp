@@ -12,7 +12,7 @@
 
 namespace vantage::detail {
 
-/// One number per cell of a colour, in all bricks.
+/// One number per cell of one colour, in all bricks.
 template <class T>
 using HalfField = AlignedVector<T>;
 
@@ -39,8 +39,8 @@ struct SixNeighbours {
   [[nodiscard]] VANTAGE_INLINE Lanes<T> sum() const { return ((at[0] + at[1]) + (at[2] + at[3])) + (at[4] + at[5]); }
 };
 
-/// Neighbours of the cells of `colour` in a row. They are of the other colour: along y and z they have the same place
-/// in their rows, along x one of the two has and the other lies one further up or down.
+/// The neighbours of the cells of `colour` in a row; all of them have the other colour. Along y and z they have the
+/// same place in their rows. Along x, one has the same place and the other is one place higher or lower.
 template <std::size_t colour, class T>
 VANTAGE_INLINE SixNeighbours<T> neighbours(const Around<T>& other, std::size_t row) {
   const std::size_t y = row % 8;
@@ -55,14 +55,14 @@ VANTAGE_INLINE SixNeighbours<T> neighbours(const Around<T>& other, std::size_t r
   return {{level, beside, load(below_y), load(above_y), load(below_z), load(above_z)}};
 }
 
-/// Two layers of rows of a brick, and what lies around them: with the position of a row in them known to the
-/// compiler, all addresses are.
+/// Two layers of rows of a brick and their surroundings. If the position of a row in them is a compile-time constant,
+/// so are all offsets.
 template <class T>
 struct TwoLayers {
   const T* rows;                 // 16 rows
-  const T* below;                // the layer before them, 8 rows
-  const T* above;                // the layer after them
-  std::array<const T*, 4> side;  // 16 rows at the sides in x and y
+  const T* below;                // the layer below, 8 rows
+  const T* above;                // the layer above, 8 rows
+  std::array<const T*, 4> side;  // 16 rows of each neighbour brick in x and y
 
   VANTAGE_INLINE TwoLayers(const Around<T>& around, std::size_t pair)
       : rows(around.own + pair * 128),
@@ -72,7 +72,7 @@ struct TwoLayers {
              around.side[3] + pair * 128} {}
 };
 
-/// Neighbours of the cells of `colour` in row `i` of two layers, as above.
+/// The neighbours of the cells of `colour` in row `i` of two layers, as above.
 template <std::size_t colour, std::size_t i, class T>
 VANTAGE_INLINE SixNeighbours<T> neighbours(const TwoLayers<T>& other) {
   constexpr std::size_t kY = i % 8;
@@ -87,17 +87,17 @@ VANTAGE_INLINE SixNeighbours<T> neighbours(const TwoLayers<T>& other) {
            load(kLower ? other.rows + (i + 8) * 8 : other.above + (i - 8) * 8)}};
 }
 
-/// Rows of two layers, and the lines of blocks over them.
+/// Rows of two layers, and rows of blocks in them.
 using EachRow = std::make_index_sequence<16>;
 using EachLine = std::make_index_sequence<4>;
 
-/// 1 / degree, 0 where there is no unknown.
+/// 1 / degree, or 0 where there is no unknown.
 template <class T>
 VANTAGE_INLINE Lanes<T> inverse_of(const Lanes<T>& degree) {
   return degree > T{0} ? T{1} / degree : Lanes<T>{};
 }
 
-/// `red = (sum of the black neighbours) / degree`: solves the red equations with nothing on the right.
+/// red = (sum of the black neighbours) / degree: solves the red equations for a zero right hand side.
 struct RedSolve {
   const std::uint32_t* faces;
   Around<float> black;
@@ -117,7 +117,7 @@ struct RedSolve {
   }
 };
 
-/// `out = S black`, the Schur complement with the red cells solved for; adds up black * out.
+/// out = S black, the Schur complement after elimination of the red cells. Also sums up black * out.
 struct BlackApply {
   const std::uint32_t* faces;
   const float* black;
@@ -145,7 +145,7 @@ struct BlackApply {
   }
 };
 
-/// The residual `right - S black`, summed over the cells of each block.
+/// The residual right - S black, summed over the cells of each block.
 struct BlackRestrict {
   const std::uint32_t* faces;
   const float* right;
@@ -177,7 +177,7 @@ struct BlackRestrict {
   }
 };
 
-/// `black += correction of its block`.
+/// black += correction of its block.
 struct BlackProlong {
   const std::uint32_t* faces;
   const float* blocks;
@@ -192,7 +192,7 @@ struct BlackProlong {
   }
 };
 
-/// Relaxes the black cells once, by `weight`; adds up right * black after it.
+/// Relaxes the black cells once with `weight`. Sums up right * black afterwards.
 struct BlackSmooth {
   const std::uint32_t* faces;
   const float* right;
@@ -222,7 +222,7 @@ struct BlackSmooth {
   }
 };
 
-/// Where conjugate gradients begin: `x = 0`, and the first relaxation, `z = weight r / degree`; adds up r * r.
+/// Start of conjugate gradients: x = 0 and the first relaxation z = weight r / degree. Sums up r * r.
 struct Begin {
   const std::uint32_t* faces;
   const float* r;
@@ -243,8 +243,8 @@ struct Begin {
   }
 };
 
-/// The step of conjugate gradients, and the first relaxation of the new residual: `x += step p`, `r -= step q`,
-/// `z = weight r / degree`; adds up r * r.
+/// One step of conjugate gradients and the first relaxation of the new residual: x += step p, r -= step q, z = weight
+/// r / degree. Sums up r * r.
 struct Advance {
   const std::uint32_t* faces;
   const float* p;
@@ -270,7 +270,7 @@ struct Advance {
   }
 };
 
-/// `p = z + share p`.
+/// p = z + share p.
 struct Turn {
   const float* z;
   float* p;

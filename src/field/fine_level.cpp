@@ -8,10 +8,10 @@
 namespace vantage::detail {
 namespace {
 
-// A thread with fewer of them waits for the others most of the time.
+// With fewer bricks, a thread would mostly wait for the others.
 constexpr std::size_t kFewestBricks = 96;
 
-// Equal parts for all threads; needs the links.
+// Divides the bricks equally among the threads. Requires the links.
 void share_bricks(FineLevel& level) {
   level.shares.resize(level.team->size());
   level.passes.assign(level.brick_count, 3);

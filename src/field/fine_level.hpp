@@ -14,60 +14,61 @@
 
 namespace vantage::detail {
 
-/// Cells of one colour in a brick: red are those of even x + y + z, black the others.
+/// Cells of one colour in a brick. Red cells have even x + y + z, black cells odd.
 inline constexpr std::size_t kHalfBrick = 512;
 /// Rows of a brick along x; each holds eight cells of either colour.
 inline constexpr std::size_t kBrickRows = 64;
 /// Blocks of 2 x 2 x 2 cells in a brick: 8 along x, 4 along y and z.
 inline constexpr std::size_t kBrickBlocks = 128;
-/// Colours of cells.
+/// The colours of cells.
 inline constexpr std::size_t kRed = 0;
 inline constexpr std::size_t kBlack = 1;
-/// What four bits say of a cell.
+/// Masks for the four bits of a cell: number of open faces, and whether a neighbour is a sink.
 inline constexpr std::uint32_t kDegree = 7;
 inline constexpr std::uint32_t kBesideSink = 8;
 
-/// Position of a cell among those of its colour in a brick, by its row and its place in the row.
+/// Position of a cell among the cells of its colour in a brick, given its row and x.
 [[nodiscard]] inline std::size_t half_offset(std::size_t row, std::size_t x) { return row * 8 + x / 2; }
 [[nodiscard]] inline std::size_t colour_of(std::size_t row, std::size_t x) { return (row ^ row >> 3U ^ x) & 1U; }
 
-/// The bricks of one thread: in three passes over them, those at the border to another thread's bricks come late.
+/// The bricks of one thread. In the second and third of three passes, the bricks near another thread's bricks are
+/// handled late, after all threads have finished the others.
 struct BrickShare {
   std::size_t begin = 0;
   std::size_t end = 0;
-  std::vector<std::uint32_t> late_second;  ///< with a neighbour in another share
-  std::vector<std::uint32_t> late_third;   ///< beside a brick that is late for the second pass, or late itself
+  std::vector<std::uint32_t> late_second;  ///< bricks with a neighbour in another share
+  std::vector<std::uint32_t> late_third;   ///< bricks adjacent to a brick of `late_second`, or in it
 };
 
-/// The 7-point operator over the cells of a domain, sinks held at 0: A u = degree * u - the sum of the neighbours,
-/// where degree is the number of open faces and u is stored as 0 wherever there is no unknown.
+/// The 7-point operator over the cells of a domain, with 0 at the sinks: A u = degree * u - sum of the neighbours.
+/// The degree is the number of open faces; u is stored as 0 where there is no unknown.
 ///
-/// Cells of a brick are stored by colour, x, then y, then z within one. Bricks are numbered from 1; brick 0 is empty
-/// and stands in for those that are not there.
+/// Cells of a brick are stored by colour, then by z, y and x. Bricks are numbered from 1. Brick 0 is empty and stands
+/// for missing neighbours.
 struct FineLevel {
-  std::size_t brick_count = 0;                      ///< the empty one included
-  std::vector<VoxelIndex> address;                  ///< of each brick, in units of bricks
-  std::vector<std::array<std::uint32_t, 6>> links;  ///< numbers of the neighbouring bricks
-  std::vector<std::uint32_t> ready;                 ///< the highest among a brick's own number and its neighbours'
-  /// For each row by colour, four bits per cell: the number of open faces, 0 where there is no unknown, and
-  /// kBesideSink.
+  std::size_t brick_count = 0;                      ///< includes the empty brick 0
+  std::vector<VoxelIndex> address;                  ///< address of each brick, in units of bricks
+  std::vector<std::array<std::uint32_t, 6>> links;  ///< numbers of the neighbour bricks
+  std::vector<std::uint32_t> ready;                 ///< the largest of a brick's own number and its neighbours'
+  /// Per colour and row, four bits per cell: the number of open faces (0 if there is no unknown) and kBesideSink.
   std::array<AlignedVector<std::uint32_t>, 2> faces;
-  AlignedVector<std::uint32_t> blocks;  ///< the operator of the blocks, see BlockLevel
+  AlignedVector<std::uint32_t> blocks;  ///< operator of the blocks, see BlockLevel
   std::unique_ptr<ThreadTeam> team;
-  std::vector<BrickShare> shares;    ///< one for each of the team
-  std::vector<std::uint8_t> passes;  ///< that a brick takes part in without being late, of three
+  std::vector<BrickShare> shares;    ///< one per thread
+  std::vector<std::uint8_t> passes;  ///< how many of the three passes a brick takes part in without being late
 
-  /// Open faces of a cell.
+  /// Number of open faces of a cell.
   [[nodiscard]] std::uint32_t degree(std::size_t colour, std::size_t brick, std::size_t offset) const {
     return faces[colour][brick * kBrickRows + offset / 8] >> (4 * (offset % 8)) & kDegree;
   }
   [[nodiscard]] std::size_t memory_bytes() const;
 };
 
-/// Cells of a domain without isolated ones; its bricks keep their order. `threads` at most, in all passes over it.
+/// Builds the operator of a domain that has no isolated cells. The bricks keep their order. Uses at most `threads`
+/// threads for this and all later passes.
 [[nodiscard]] FineLevel make_fine_level(const LaplaceDomain& domain, std::size_t threads = 1);
 
-/// Calls `each` for every brick, in order within a share.
+/// Calls `each` for every brick; in order within a share.
 template <class Each>
 void for_bricks(const FineLevel& fine, const Each& each) {
   fine.team->run([&](std::size_t i) {
@@ -77,22 +78,23 @@ void for_bricks(const FineLevel& fine, const Each& each) {
   });
 }
 
-/// Room for so many numbers of each brick, which are 0 in the empty one only.
+/// Allocates `per_brick` numbers per brick. They are zero in the empty brick 0 and uninitialised elsewhere.
 template <class T>
 void make_room(const FineLevel& fine, AlignedVector<T>& values, std::size_t per_brick) {
   values.resize(fine.brick_count * per_brick);
   std::fill_n(values.data(), per_brick, T{});
 }
 
-/// So many zeros for each brick.
+/// Sets `per_brick` numbers per brick to zero.
 template <class T>
 void clear(const FineLevel& fine, AlignedVector<T>& values, std::size_t per_brick) {
   make_room(fine, values, per_brick);
   for_bricks(fine, [&](std::size_t brick) { std::fill_n(values.data() + brick * per_brick, per_brick, T{}); });
 }
 
-/// Calls `first` for every brick, `second` for each when `first` has passed it and its neighbours, and `third`
-/// likewise after `second`; as soon as that, for what one has written is still in the cache when the next reads it.
+/// Runs three passes over the bricks in one sweep. `second` runs on a brick as soon as `first` has run on it and on
+/// its neighbours; `third` follows `second` in the same way. So the data of one pass are still in the cache for the
+/// next.
 template <class First, class Second, class Third>
 void in_waves(const FineLevel& fine, const First& first, const Second& second, const Third& third) {
   fine.team->run([&](std::size_t i) {

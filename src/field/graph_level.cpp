@@ -9,9 +9,9 @@
 namespace vantage::detail {
 namespace {
 
-// Relaxation goes a little too far (SOR), which smooths better than Gauss-Seidel in three dimensions.
+// Over-relaxation (SOR) smooths better than Gauss-Seidel in three dimensions.
 constexpr float kNodeWeight = 1.15F;
-// Fewer nodes per thread are done before a second thread has begun.
+// With fewer nodes per thread, the work is done before a second thread has started.
 constexpr std::size_t kGrain = 400;
 
 }  // namespace

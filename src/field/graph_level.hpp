@@ -12,35 +12,35 @@
 
 namespace vantage::detail {
 
-inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFU;  ///< the number of no node
+inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFU;  ///< stands for no node
 
-/// A coarse level without structure: nodes joined by conductances, each at the address of a cube of cells of which it
-/// is one connected piece. Nodes of even x + y + z come first, and only nodes of different parity are ever joined.
+/// An unstructured coarse level: nodes connected by conductances. A node is a connected piece of a cube of cells and
+/// has the address of that cube. Nodes with even x + y + z come first. Edges connect only nodes of different parity.
 struct GraphLevel {
   struct Edge {
     std::uint32_t to;
     float conductance;
   };
-  /// The first six neighbours of a node, as most have no more; the rest of the places leads to the 0 that ends `x`.
+  /// The first six edges of a node; most nodes have no more. Unused entries point to the 0 at the end of `x`.
   using Six = std::array<Edge, 6>;
 
   std::size_t size = 0;
-  std::size_t even = 0;          ///< how many nodes are of even parity
-  AlignedVector<VoxelIndex> at;  ///< address in units of the cubes of this level
-  AlignedVector<Six> six;        ///< of each node
-  std::vector<std::uint32_t>
-      first_more;  ///< where in `more` the edges of a node beyond six start; one more than nodes
+  std::size_t even = 0;                   ///< number of nodes with even parity
+  AlignedVector<VoxelIndex> at;           ///< address of each node, in units of the cubes of this level
+  AlignedVector<Six> six;                 ///< edges of each node
+  std::vector<std::uint32_t> first_more;  ///< start of each node's further edges in `more`; one entry more than nodes
   std::vector<Edge> more;
-  AlignedVector<float> leak;               ///< to the sinks
-  AlignedVector<float> diagonal;           ///< the sum of all conductances
-  AlignedVector<float> inverse;            ///< of that
-  AlignedVector<std::uint32_t> node;       ///< of the next coarser level
-  AlignedVector<std::uint32_t> children;   ///< the nodes in the order of those of the next coarser level
-  std::vector<std::uint32_t> first_child;  ///< of each of those, in `children`; one more than there are
-  AlignedVector<float> x;                  ///< the correction, and a 0
-  AlignedVector<float> right;              ///< the right hand side, and one that is not used
+  AlignedVector<float> leak;              ///< conductance to the sinks
+  AlignedVector<float> diagonal;          ///< sum of all conductances
+  AlignedVector<float> inverse;           ///< 1 / diagonal
+  AlignedVector<std::uint32_t> node;      ///< node of the next coarser level
+  AlignedVector<std::uint32_t> children;  ///< the nodes, ordered by their node of the next coarser level
+  /// start of each coarser node's range in `children`; one entry more than coarser nodes
+  std::vector<std::uint32_t> first_child;
+  AlignedVector<float> x;      ///< the correction, followed by a 0
+  AlignedVector<float> right;  ///< the right hand side, followed by an unused entry
 
-  /// Room for so many nodes, the first `even_nodes` of them even, whose addresses and edges are still to be written.
+  /// Allocates the nodes, the first `even_nodes` of them even. Addresses and edges must be written afterwards.
   GraphLevel(std::size_t nodes, std::size_t even_nodes);
 
   /// Calls `visit(Edge)` for every edge of a node.
@@ -55,9 +55,9 @@ struct GraphLevel {
       visit(more[e]);
     }
   }
-  /// One relaxation, the nodes of even parity before the others or after them.
+  /// One relaxation, with the even nodes first or last.
   void smooth(ThreadTeam& team, bool even_first);
-  /// The same, even ones first, from 0, whatever `x` holds.
+  /// One relaxation from x = 0, even nodes first. It overwrites `x` without reading it.
   void smooth_from_zero(ThreadTeam& team);
   void restrict_to(ThreadTeam& team, AlignedVector<float>& sums) const;
   void prolong(ThreadTeam& team, const AlignedVector<float>& correction);
@@ -67,25 +67,25 @@ struct GraphLevel {
   [[nodiscard]] float inflow(std::size_t of) const;
 };
 
-/// How much larger the step of a coarse level is than what plain aggregation gives, inverted: its correction is too
-/// small because it has steps where the solution has slopes.
+/// Scale of the conductances of a coarse level relative to plain aggregation. A value of 0.5 doubles the correction.
+/// Plain corrections are too small, because they are piecewise constant where the solution has slopes.
 inline constexpr float kOverCorrection = 0.5F;
 
 [[nodiscard]] inline bool is_even(const VoxelIndex& at) { return ((at.x ^ at.y ^ at.z) & 1) == 0; }
 
-/// Writes the edges of a level's nodes, one node after the other. Several writers may share the nodes among them.
+/// Writes the edges of the nodes of a level, node by node. Several writers may divide the nodes among them.
 class EdgeWriter {
  public:
   explicit EdgeWriter(GraphLevel& level) : level_(level) {}
 
-  /// A conductance from the node that comes next; several to the same neighbour add up.
+  /// Adds a conductance from the current node to `to`. Conductances to the same node add up.
   void join(std::uint32_t to, float conductance);
-  /// A conductance from it to the sinks.
+  /// Adds a conductance from the current node to the sinks.
   void leak(float conductance) { leak_ += conductance; }
-  /// There are no more of them: these are those of node `of`.
+  /// Finishes the current node and stores it as node `of`.
   void write(std::uint32_t of);
 
-  /// Gathers what does not fit into the places of the nodes, when all are written.
+  /// Collects the edges that exceed six per node. Call it once after all nodes are written.
   static void finish(GraphLevel& level, const std::vector<EdgeWriter>& writers);
 
  private:
@@ -100,7 +100,8 @@ class EdgeWriter {
   std::vector<Rest> rest_;
 };
 
-/// The next level: pieces of 2 x 2 x 2 cubes that hang together. Sets `finer.node` and its children.
+/// Builds the next coarser level from the connected pieces of 2 x 2 x 2 cubes. Sets `finer.node`, `finer.children`
+/// and `finer.first_child`.
 [[nodiscard]] GraphLevel coarsen(ThreadTeam& team, GraphLevel& finer);
 
 }  // namespace vantage::detail

@@ -8,13 +8,13 @@
 #include <type_traits>
 #include <utility>
 
-// Passing vectors wider than the baseline's registers has no stable calling convention; here they only ever pass
-// through functions that are inlined.
+// Vectors wider than the registers of the baseline have no stable calling convention. Here they are only passed to
+// functions that are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage::detail {
 
-/// Eight numbers that are computed together: half a row of a brick, or a row of blocks.
+/// Eight numbers that are processed together: half a row of a brick, or a row of blocks.
 inline constexpr std::size_t kLanes = 8;
 
 template <class T>
@@ -39,18 +39,18 @@ VANTAGE_INLINE void store(T* to, const Lanes<T>& lanes) {
 }
 template <class T>
 VANTAGE_INLINE Lanes<T> all(T value) {
-  const Lanes<T> first{value};  // of a list of eight, gcc 12 makes eight insertions
+  const Lanes<T> first{value};  // with a list of eight values, gcc 12 would emit eight insertions
   return __builtin_shufflevector(first, first, 0, 0, 0, 0, 0, 0, 0, 0);
 }
-/// Eight numbers of four bits, and of those the bits of `mask`.
+/// Unpacks eight 4-bit numbers and applies `mask` to each.
 template <class T>
 VANTAGE_INLINE Lanes<T> widen(std::uint32_t packed, std::uint32_t mask) {
   const Lanes<std::uint32_t> shift{0, 4, 8, 12, 16, 20, 24, 28};
   const Lanes<std::uint32_t> lanes = all(packed) >> shift & mask;
   return __builtin_convertvector(reinterpret_cast<const Lanes<std::int32_t>&>(lanes), Lanes<T>);
 }
-/// Lane k of `own` one lane further: the first comes from the last lane of `below`, or the last from the first of
-/// `above`.
+/// Shifts the lanes of `own` up by one and takes the first from the last lane of `below`. `shifted_down` is the
+/// inverse: the last lane comes from the first lane of `above`.
 template <class T>
 VANTAGE_INLINE Lanes<T> shifted_up(const Lanes<T>& own, const Lanes<T>& below) {
   return __builtin_shufflevector(own, below, 15, 0, 1, 2, 3, 4, 5, 6);
@@ -59,34 +59,34 @@ template <class T>
 VANTAGE_INLINE Lanes<T> shifted_down(const Lanes<T>& own, const Lanes<T>& above) {
   return __builtin_shufflevector(own, above, 1, 2, 3, 4, 5, 6, 7, 8);
 }
-/// In a fixed order, so that the sum does not depend on the instruction set.
+/// The sum in a fixed order, so that it does not depend on the instruction set.
 template <class T>
 VANTAGE_INLINE T sum_of(const Lanes<T>& lanes) {
   return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
 }
 
-/// Calls `visit` with each of 0 ... count - 1 as a constant.
+/// Calls `visit` with each of 0 ... count - 1 as a compile-time constant.
 template <class Visit, std::size_t... i>
 VANTAGE_INLINE void unrolled(Visit&& visit, std::index_sequence<i...> /*count*/) {
   (visit(std::integral_constant<std::size_t, i>{}), ...);
 }
 
-/// Calls `kernel()` compiled for best_instruction_set(). The kernel's call operator must be VANTAGE_INLINE. None of
-/// the sets fuses multiplication and addition: every processor computes the same bits.
+/// Calls `kernel()` compiled for best_instruction_set(). The kernel's call operator must be VANTAGE_INLINE. No
+/// instruction set fuses multiplication and addition, so every processor computes the same bits.
 #if defined(__x86_64__)
 template <class Kernel>
 [[gnu::target("avx2"), gnu::noinline]] void run_kernel_avx2(const Kernel& kernel) {
-  const Kernel local = kernel;  // whose members no store can change
+  const Kernel local = kernel;  // a local copy: no store can alias its members
   local();
 }
 template <class Kernel>
 [[gnu::target("avx512f,avx512vl,avx512dq,avx512bw"), gnu::noinline]] void run_kernel_avx512(const Kernel& kernel) {
-  const Kernel local = kernel;  // whose members no store can change
+  const Kernel local = kernel;  // a local copy: no store can alias its members
   local();
 }
 template <class Kernel>
 [[gnu::noinline]] void run_kernel_baseline(const Kernel& kernel) {
-  const Kernel local = kernel;  // whose members no store can change
+  const Kernel local = kernel;  // a local copy: no store can alias its members
   local();
 }
 template <class Kernel>

@@ -16,7 +16,7 @@ namespace {
 using Brick = LaplaceDomain::Brick;
 using Links = std::vector<std::array<std::uint32_t, 6>>;
 
-// Set bits of a row: processors of the baseline have no instruction for it.
+// The number of set bits of a row. Baseline processors have no instruction for it.
 std::uint32_t count_bits(std::uint32_t row) {
   row -= row >> 1U & 0x5555U;
   row = (row & 0x3333U) + (row >> 2U & 0x3333U);
@@ -24,19 +24,19 @@ std::uint32_t count_bits(std::uint32_t row) {
   return (row + (row >> 8U)) & 0x1FU;
 }
 
-// Calls visit(first, last) for each run of set bits, first to last included.
+// Calls visit(first, last) for each run of set bits; both ends are included.
 template <class Visit>
 void for_each_run(std::uint32_t row, Visit&& visit) {
   while (row != 0) {
     const int first = std::countr_zero(row);
     const int length = std::countr_one(row >> first);
     visit(first, first + length - 1);
-    row &= row + (1U << first);  // clears the lowest run, the carry if it ends at the top
+    row &= row + (1U << first);  // clears the lowest run; the carry may overflow at the top
   }
 }
 
-// Connected components of the domain by runs of cells along x, an order of magnitude fewer than there are cells; a
-// full brick is one run.
+// Connected components of the domain, computed on runs of cells along x. There are ten times fewer runs than cells. A
+// full brick counts as one run.
 class RunComponents {
  public:
   RunComponents(const std::vector<Brick>& bricks, const Links& links)
@@ -83,7 +83,7 @@ class RunComponents {
   static bool is_full(const Brick& brick) {
     return std::all_of(brick.cells.begin(), brick.cells.end(), [](std::uint16_t row) { return row == 0xFFFF; });
   }
-  // Runs of `row` that start within `mask`, which holds the lowest bits.
+  // The number of runs of `row` that start within `mask`, which must cover the lowest bits.
   static std::size_t starts_in(std::uint16_t row, std::uint16_t mask) {
     const std::uint32_t starts = row & ~(static_cast<std::uint32_t>(row) << 1U) & mask;
     return count_bits(starts);
@@ -92,10 +92,10 @@ class RunComponents {
     return first_run_[brick * LaplaceDomain::kRows + row];
   }
 
-  // Joins the runs of a row with those of the rows before it in y and z, and across the lower face in x. Where the
-  // four cells of a square all belong to the domain, three of its sides join them, and the fourth is left out: sides
-  // along z within a brick if there are cells before them in y, those from brick to brick if there are any in y or
-  // else in z.
+  // Joins the runs of a row with those of the previous rows in y and z, and across the lower x face of the brick. If
+  // all four cells of a square belong to the domain, three of its sides already connect them, so the fourth is
+  // skipped. Skipped are sides along z inside a brick if there are cells before them in y, and sides between bricks
+  // if there are cells before them in y, or otherwise in z.
   void join_row(std::size_t b, std::size_t row, const std::array<std::uint32_t, 6>& links) {
     const std::uint16_t cells = bricks_[b].cells[row];
     if (cells == 0) {
@@ -119,7 +119,7 @@ class RunComponents {
       join_rows(b, row, links[4], row + 56, first_y ? 0 : shared(b, row - 1, links[4], row + 55));
     }
   }
-  // Whether a row goes on in the brick before it in x.
+  // Whether a row continues in the adjacent lower brick along x.
   [[nodiscard]] bool meets_in_x(std::size_t b, std::size_t before, std::size_t row) const {
     return (bricks_[b].cells[row] & 1U) != 0 && (bricks_[before].cells[row] >> 15U) != 0;
   }
@@ -127,7 +127,8 @@ class RunComponents {
                                      std::size_t row_b) const {
     return static_cast<std::uint32_t>(bricks_[brick_a].cells[row_a] & bricks_[brick_b].cells[row_b]);
   }
-  // Joins what two rows share, but for runs that are `joined` already in one of their cells.
+  // Joins the runs that overlap in two rows. Skips overlaps with a cell in `joined`, because those runs are already
+  // connected.
   void join_rows(std::size_t brick_a, std::size_t row_a, std::size_t brick_b, std::size_t row_b,
                  std::uint32_t joined) {
     const std::uint16_t a = bricks_[brick_a].cells[row_a];
@@ -232,7 +233,7 @@ LaplaceDomain::Dropped LaplaceDomain::keep_component(const VoxelIndex& cell) {
   if (dropped.components > 0) {
     const std::size_t kept = components.component_of(position_of_brick(cell), row_of(cell), bit_of(cell));
     dropped.cells = cell_count();
-    // The runs are numbered by the rows as they are: collect first, write after.
+    // Runs are numbered by the unchanged rows. So collect first, and write afterwards.
     std::vector<std::array<std::uint16_t, kRows>> cells(bricks_.size());
     for (std::size_t b = 0; b < bricks_.size(); ++b) {
       for (std::size_t row = 0; row < kRows; ++row) {
@@ -254,7 +255,7 @@ LaplaceDomain::Dropped LaplaceDomain::keep_component(const VoxelIndex& cell) {
   return dropped;
 }
 
-// And corrects their positions, which may be wrong already if bricks have gone.
+// Sorts the bricks and rebuilds their positions. `have_gone`: bricks were erased, so the positions are invalid.
 void LaplaceDomain::sort_bricks(bool have_gone) {
   const auto before = [](const Brick& a, const Brick& b) { return RasterOrder{}(a.address, b.address); };
   if (!have_gone && std::is_sorted(bricks_.begin(), bricks_.end(), before)) {
@@ -280,7 +281,7 @@ LaplaceDomain known_free_domain(const OccupancyMap& map) {
       if (target == nullptr) {
         target = &domain.brick_at({address.x >> 1, address.y, address.z});
       }
-      // Four cells of a row of the map's sub-brick lie side by side in a row here.
+      // Four cells of a row of the map's sub-brick are adjacent in a row here.
       const std::size_t shift = static_cast<std::size_t>(address.x & 1) * 8 + (word & 1U) * 4;
       for (std::size_t line = 0; line < 16; ++line) {
         const std::size_t row = ((word >> 2U) * 4 + line / 4) * 8 + (word >> 1U & 1U) * 4 + line % 4;

@@ -22,15 +22,15 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// The most a solution in float is asked to reduce the residual before it is taken again in double. What float rounds
-// off the solution is noise to the residual, the more the larger the solution is beside it, and conjugate gradients
-// that begin with noise lose some iterations: in large domains it pays to take the residual again earlier.
+// The largest reduction of the residual that one single-precision solve should reach before the residual is
+// recomputed in double. Rounding of the solution adds noise to the residual, more in large domains. Conjugate
+// gradients lose iterations on noise, so in large domains it pays to recompute earlier.
 constexpr double reduction_in_float(std::size_t unknowns) { return unknowns < 500'000 ? 1e-4 : 4e-3; }
-// The same for BiCGSTAB, all in double but for its preconditioner.
+// The same limit for BiCGSTAB. There, only the preconditioner is in single precision.
 constexpr double kMirrorReduction = 1e-4;
-// It starts afresh after so many, before what it builds on is lost in rounding.
+// BiCGSTAB restarts after this many iterations, before rounding destroys its recurrences.
 constexpr std::size_t kMirrorIterations = 6;
-// A refinement that does not reduce the residual by this much is one too many.
+// A refinement that reduces the residual by less than this factor is the last one.
 constexpr double kProgress = 0.5;
 
 }  // namespace
@@ -45,7 +45,7 @@ void MultigridOptions::validate() const {
 
 struct LaplaceMultigrid::State {
   LaplaceDomain domain;
-  std::optional<detail::CellValues> solution;  // none: no sinks
+  std::optional<detail::CellValues> solution;  // nullopt if there are no sinks
   MultigridReport report;
 
   void prepare(const VoxelIndex& source);
@@ -54,8 +54,9 @@ struct LaplaceMultigrid::State {
   detail::Defect refine(detail::MirrorSolver& solver, const MultigridOptions& options);
   bool may_go_on(const detail::Defect& defect, double last, const MultigridOptions& options);
   void conclude(const detail::Defect& defect);
-  // By how much the residual has to fall: for the tolerance, by a little more. With that, hardly ever is there a cell
-  // without a lower neighbour, long before the proof; where there is one, as far as the proof goes.
+  // The factor by which the residual must still decrease: slightly below the tolerance at first. Then almost always
+  // every cell has a lower neighbour, long before this is proven. If some cell has none, the residual must become
+  // small enough for the proof.
   [[nodiscard]] double reduction_wanted(const detail::Defect& defect, const MultigridOptions& options) const {
     return defect.norm > options.tolerance || options.uniform_source == 0.0
                ? 0.8 * options.tolerance / defect.norm
@@ -109,7 +110,7 @@ void LaplaceMultigrid::State::solve(const VoxelIndex& source, const MultigridOpt
   report.solve_seconds = seconds_since(started);
 }
 
-// Whether the solution is not yet good enough and another refinement may make it so; else why not.
+// Whether another refinement is needed and may help. Otherwise sets the reason to stop.
 bool LaplaceMultigrid::State::may_go_on(const detail::Defect& defect, double last, const MultigridOptions& options) {
   if (good_enough(defect, options)) {
     report.stop = MultigridStop::Converged;
@@ -138,8 +139,8 @@ detail::Defect LaplaceMultigrid::State::refine(detail::BrickSolver& solver, deta
     const double reduction = std::clamp(wanted, most, 0.25);
     report.iterations += solver.solve(reduction, options.max_iterations - report.iterations);
     ++report.refinements;
-    // A solution that is not meant to be the last is not worth checking; if it is good enough after all, it is looked
-    // at again below.
+    // A check costs time, so it is skipped for a solution that will be refined further. If that solution meets the
+    // tolerance after all, it is checked afterwards.
     defect = update(std::exchange(unit, reduction * last), wanted >= most);
     if (!defect.checked && defect.norm <= options.tolerance) {
       defect = update(0.0, true);
@@ -172,7 +173,7 @@ void LaplaceMultigrid::State::conclude(const detail::Defect& defect) {
 LaplaceMultigrid::LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source, const MultigridOptions& options)
     : state_(std::make_unique<State>()) {
   options.validate();
-  (void)best_instruction_set();  // if it throws, it must be here: threads at work must not
+  (void)best_instruction_set();  // may throw, which must not happen later in a worker thread
   state_->domain = std::move(domain);
   state_->solve(source, options);
 }

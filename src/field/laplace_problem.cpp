@@ -15,7 +15,8 @@ bool before(const VoxelIndex& a, const VoxelIndex& b) {
   return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
-// In raster order. A flood's cells fill most of their box: then marking them there is much faster than comparing.
+// Sorts in raster order. If the cells fill most of their bounding box, marking them in a grid is much faster than
+// comparing them.
 void sort(std::vector<VoxelIndex>& cells) {
   constexpr std::size_t kMostOfABox = 16;
   const VoxelBox box = detail::box_around(cells);
@@ -25,7 +26,7 @@ void sort(std::vector<VoxelIndex>& cells) {
   }
   VoxelGrid<std::uint8_t> marked(box);
   for (const VoxelIndex& cell : cells) {
-    if (marked[cell] != 0) {  // given twice: for the caller to find
+    if (marked[cell] != 0) {  // a duplicate, which the caller will report
       std::sort(cells.begin(), cells.end(), before);
       return;
     }
@@ -85,11 +86,12 @@ std::optional<LaplaceProblem::Position> LaplaceProblem::position_of(const VoxelI
   return static_cast<Position>(found - cells_.begin());
 }
 
-// Keeps the component of the source, which stays sorted.
+// Keeps the component of the source, in sorted order.
 void LaplaceProblem::keep_component(std::vector<VoxelIndex> cells, const VoxelIndex& source) {
   cells_ = std::move(cells);
   link();
-  std::vector<std::uint8_t> joined(cells_.size(), 0);  // bytes: they are read six times a cell
+  // bytes instead of bits, because they are read six times per cell
+  std::vector<std::uint8_t> joined(cells_.size(), 0);
   std::vector<Position> queue;
   queue.reserve(cells_.size());
   queue.push_back(*position_of(source));
@@ -115,8 +117,8 @@ void LaplaceProblem::keep_component(std::vector<VoxelIndex> cells, const VoxelIn
   }
 }
 
-// Shifting every cell by the same step keeps their order, so all neighbours in one direction are found in one merge,
-// and those in the opposite direction, which comes before it, with them.
+// Shifting all cells by the same step keeps their order. So one merge finds all neighbours in one direction and, at
+// the same time, in the opposite direction.
 void LaplaceProblem::link() {
   std::array<Position, 6> closed{};
   closed.fill(kClosed);

@@ -36,7 +36,7 @@ LaplaceRelaxation::LaplaceRelaxation(const LaplaceProblem& problem, const Relaxa
   for (const bool red : {true, false}) {
     for (Position position = 0; position < size; ++position) {
       const bool due = options_.order == SweepOrder::Lexicographic ? red : is_red(problem.cell(position)) == red;
-      // A cell without any open face is alone in its component: it is the source.
+      // A cell without an open face is alone in its component, so it is the source.
       if (due && problem.kind(position) == LaplaceCell::Interior) {
         rows_.push_back(row_of(position));
       }
@@ -59,7 +59,7 @@ LaplaceRelaxation::Row LaplaceRelaxation::row_of(Position position) const {
       row.neighbours[face] = opposite;  // eq. 9
       ++terms;
     } else {
-      row.neighbours[face] = nothing;  // both faces of an axis closed: nothing varies along it
+      row.neighbours[face] = nothing;  // both faces of an axis are closed, so phi does not vary along it
     }
   }
   row.weight = 1.0 / terms;
@@ -94,7 +94,7 @@ double LaplaceRelaxation::sweep() {
     const double step = options_.over_relaxation * (mean_of(row) - value);
     value += step;
     if (std::abs(step) > largest * previous) {
-      largest = std::abs(step) / previous;  // eq. 10; infinite where phi leaves zero
+      largest = std::abs(step) / previous;  // eq. 10; infinite for the first change of a zero value
     }
   }
   ++report_.sweeps;

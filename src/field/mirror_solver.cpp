@@ -21,7 +21,8 @@ struct MirrorApply {
   VANTAGE_INLINE void operator()() const {
     for (std::size_t row = 0; row < kBrickRows; ++row) {
       const SixNeighbours<double> beside = neighbours<colour>(other, row);
-      // The neighbour at the same place in its row lies above along x where the cells of this colour start at 0.
+      // The neighbour at the same place in its row is the upper one along x if the cells of this colour start at x =
+      // 0, otherwise the lower one.
       const std::size_t level = ((row ^ row >> 3U ^ colour) & 1U) != 0 ? 0 : 1;
       Lanes<double> total{};
       Lanes<double> inflow{};
@@ -52,11 +53,11 @@ struct SpreadToRed {
   }
 };
 
-// The right hand side of the Schur complement: r_black + sum of r_red / degree, in float.
+// The right hand side of the Schur complement, r_black + sum of r_red / degree, in single precision.
 struct GatherFromRed {
   const std::uint32_t* faces;
   const double* right;
-  Around<double> red;  // divided by the degree already
+  Around<double> red;  // already divided by the degree
   double scale;
   float* black;
 
@@ -176,7 +177,7 @@ void MirrorSolver::precondition(const Field& in, Field& out) {
   }
 }
 
-// r = b - A u, afresh.
+// Recomputes r = b - A u.
 void MirrorSolver::take_residual() {
   const FineLevel& fine = preconditioner_.fine();
   apply(u_.u, r_);
@@ -193,7 +194,8 @@ void MirrorSolver::take_residual() {
 
 std::size_t MirrorSolver::solve(double norm, std::size_t most) {
   take_residual();
-  precondition(r_, shadow_);  // wide, where the residual is all in the source's cell at first
+  // the preconditioner spreads the first residual, which is concentrated in the source's cell
+  precondition(r_, shadow_);
   double rho = 1.0;
   double alpha = 1.0;
   double omega = 1.0;
@@ -205,7 +207,7 @@ std::size_t MirrorSolver::solve(double norm, std::size_t most) {
     const double next = dot(shadow_, r_);
     const double beta = next / rho * (alpha / omega);
     if (!std::isfinite(beta)) {
-      break;  // the shadow has lost the residual: whoever calls again starts with a new one
+      break;  // breakdown of the recurrence; the next call starts with a new shadow residual
     }
     rho = next;
     add(p_, -omega, v_);

@@ -11,19 +11,19 @@
 
 namespace vantage::detail {
 
-/// Shade & Newman's own scheme (2011, eq. 9): behind a closed face lies the value of the cell opposite. Its operator
-/// is not symmetric, so it is solved by BiCGSTAB (van der Vorst 1992) in double, preconditioned with the multigrid
-/// cycle of the symmetric operator, from which it differs only beside walls.
+/// Solver for NeumannScheme::Mirror: the value behind a closed face equals that of the opposite neighbour. The
+/// operator is not symmetric, so it is solved by BiCGSTAB in double precision. The preconditioner is the multigrid
+/// cycle of the symmetric operator, which differs only at walls. (Shade & Newman 2011, eq. 9; van der Vorst 1992.)
 class MirrorSolver {
  public:
   MirrorSolver(const LaplaceDomain& domain, BrickSolver& preconditioner, const CellPlace& source, double uniform);
 
-  /// Goes on from where it is, until the residual is at most `norm`, or `most` iterations are done, or the residual
-  /// does not get any smaller; returns how many it did.
+  /// Continues until the residual is at most `norm`, after `most` iterations, or when BiCGSTAB breaks down. Returns
+  /// the number of iterations.
   std::size_t solve(double norm, std::size_t most);
-  /// How good the solution is.
+  /// Recomputes the residual and counts the stuck cells.
   [[nodiscard]] Defect defect();
-  /// The solution, which is no longer here after it.
+  /// Moves the solution out.
   [[nodiscard]] CellValues take() { return std::move(u_); }
   [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -37,7 +37,7 @@ class MirrorSolver {
   BrickSolver& preconditioner_;
   CellPlace source_;
   double uniform_;
-  /// For each row by colour and side, four bits per cell: 0 for a closed face, else what its neighbour counts.
+  /// Per colour, side and row, four bits per cell: the weight of the neighbour, 0 for a closed face.
   std::array<std::array<AlignedVector<std::uint32_t>, 6>, 2> weights_;
   HalfField<float> cycle_;
   CellValues u_;

@@ -8,10 +8,10 @@
 namespace vantage::detail {
 namespace {
 
-// The right hand side: the same everywhere but in one cell, if that is in this half of a brick.
+// The right hand side of one colour of a brick: uniform, plus 1 in the source cell if that belongs to it.
 struct Load {
   double uniform;
-  std::size_t source_row;  // none: past the last row
+  std::size_t source_row;  // kBrickRows if the source is not here
   std::size_t source_lane;
 
   Load(const CellPlace& source, std::size_t brick, std::size_t colour, double each)
@@ -27,8 +27,8 @@ struct Load {
   }
 };
 
-// The lowest neighbour of each cell. A value of 0 is that of a sink, a lower neighbour that `faces` knows of, or
-// stands behind a closed face.
+// The value of the lowest neighbour of each cell. A neighbour value of 0 is ignored: it belongs to a closed face, or
+// to a sink, which `faces` marks.
 VANTAGE_INLINE Lanes<double> lowest_of(const SixNeighbours<double>& neighbours, std::uint32_t faces) {
   const Lanes<double> none = all(std::numeric_limits<double>::max());
   Lanes<double> lowest = none;
@@ -39,7 +39,7 @@ VANTAGE_INLINE Lanes<double> lowest_of(const SixNeighbours<double>& neighbours, 
   return lowest * (1.0 - 0.125 * widen<double>(faces, kBesideSink));
 }
 
-// 1 for each cell that has no strictly lower neighbour once all values are divided by `at_source`, else 0.
+// 1 for each cell without a strictly lower neighbour after all values are divided by `at_source`, otherwise 0.
 VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeighbours<double>& neighbours,
                                          std::uint32_t faces, double at_source) {
   const Lanes<double> lowest = lowest_of(neighbours, faces);
@@ -47,14 +47,14 @@ VANTAGE_INLINE Lanes<double> stuck_cells(const Lanes<double>& own, const SixNeig
   return widen<double>(faces, kDegree) > 0.0 ? stuck : Lanes<double>{};
 }
 
-// The same without a division, for all cells but the few that are as good as level with their lowest neighbour: those
-// are in doubt. A quotient is rounded by less than 2^-52 of itself; below `least`, where that is not so, every cell
-// is in doubt.
+// A fast version of the same test without divisions. It is conservative: cells nearly equal to their lowest neighbour
+// are in doubt and must be tested exactly. A quotient has a relative rounding error below 2^-52. That does not hold
+// below `least_`, so there every cell is in doubt.
 class Doubt {
  public:
   explicit Doubt(double at_source)
       : least_(at_source > 0.0 ? 1e-290 * at_source : std::numeric_limits<double>::infinity()) {}
-  // At least 0 for cells in doubt.
+  // >= 0 for cells in doubt.
   [[nodiscard]] VANTAGE_INLINE Lanes<double> about(const Lanes<double>& own, const Lanes<double>& degree,
                                                    const SixNeighbours<double>& neighbours,
                                                    std::uint32_t faces) const {
@@ -68,7 +68,7 @@ class Doubt {
   double least_;
 };
 
-// The larger of two, lane by lane; and the largest of all lanes.
+// The larger of two values per lane; below, the largest of all lanes.
 VANTAGE_INLINE Lanes<double> larger(const Lanes<double>& a, const Lanes<double>& b) { return a > b ? a : b; }
 VANTAGE_INLINE double largest_of(const Lanes<double>& lanes) {
   double largest = lanes[0];
@@ -110,7 +110,7 @@ struct BlackDefect {
   Load load_of;
   Doubt doubt;
   double scale;
-  float* out;  // the residual, times `scale`
+  float* out;  // the residual times `scale`
   double* square;
   double* largest;
   double* doubtful;
@@ -175,7 +175,7 @@ struct CountStuckOf {
   VANTAGE_INLINE void operator()() const { count.over<colour>(other); }
 };
 
-// How many cells of one colour in a brick are stuck.
+// The number of stuck cells of one colour in a brick.
 template <std::size_t colour>
 double stuck_in(const FineLevel& fine, const CellValues& values, std::size_t brick) {
   double stuck = 0.0;
@@ -207,7 +207,7 @@ Refinement::Refinement(const FineLevel& fine, const CellPlace& source, double un
   clear(fine, values_.u[kBlack], kHalfBrick);
 }
 
-// What the value at the source is going to be. The step is taken in copies of the brick and its neighbours.
+// Computes the value that the source cell will have after the step, on copies of its brick and the neighbours.
 double Refinement::source_value(const FineLevel& fine, const Step& step) const {
   const auto stepped = [&](std::size_t brick, std::size_t i) {
     return values_.u[kBlack][brick * kHalfBrick + i] +
@@ -271,7 +271,7 @@ Defect Refinement::update(const FineLevel& fine, const Step& step, const Remaind
   defect.norm = std::sqrt(defect.norm);
   defect.checked = check;
   if (check && !std::isfinite(defect.norm)) {
-    defect.stuck = count_stuck(fine, values_);  // what is not a number is in no doubt
+    defect.stuck = count_stuck(fine, values_);  // the doubt test does not catch NaN, so count exactly
   }
   return defect;
 }

@@ -24,48 +24,48 @@ struct CellPlace {
 
 /// A solution, not yet divided by its value at the source.
 struct CellValues {
-  std::array<HalfField<double>, 2> u;  ///< by colour
+  std::array<HalfField<double>, 2> u;  ///< values by colour
   double at_source = 1.0;              ///< value at the source
 
-  /// Value of a cell, 1 at the source; 0 where there is no unknown.
+  /// Normalised value of a cell: 1 at the source, 0 where there is no unknown.
   [[nodiscard]] double at(const CellPlace& place) const {
     return u[place.colour][place.brick * kHalfBrick + place.offset] / at_source;
   }
   [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(u[0]) + bytes_of(u[1]); }
 };
 
-/// How many unknowns have no strictly lower neighbour once all values are divided by that of the source.
+/// The number of unknowns without a strictly lower neighbour, after all values are divided by that of the source.
 [[nodiscard]] std::size_t count_stuck(const FineLevel& fine, const CellValues& values);
 
-/// How far a solution is from solving its equations.
+/// The error of a solution in its equations.
 struct Defect {
-  double norm = 0.0;      ///< Euclidean
-  double largest = 0.0;   ///< of the cells where the solution is too low
-  bool checked = true;    ///< whether these were looked for:
+  double norm = 0.0;      ///< Euclidean norm of the residual
+  double largest = 0.0;   ///< largest residual of a cell where the solution is too low
+  bool checked = true;    ///< whether stuck cells were counted
   std::size_t stuck = 0;  ///< cells without a strictly lower neighbour
 };
 
-/// The solution in double, and its residual: the outer loop of mixed precision refinement.
+/// The solution in double precision and its residual: the outer loop of mixed precision refinement.
 class Refinement {
  public:
-  /// A unit source in the cell `source`, `uniform` in every cell.
+  /// The right hand side is 1 in the cell `source`, plus `uniform` in every cell.
   Refinement(const FineLevel& fine, const CellPlace& source, double uniform);
 
-  /// What is to be added to the black cells, in units of `unit`.
+  /// The correction of the black cells, in units of `unit`.
   struct Step {
     const HalfField<float>& correction;
     double unit;
   };
-  /// Where the residual of the black cells goes, in units of `unit`: about what it is expected to be.
+  /// Receives the residual of the black cells, divided by `unit`, which should be close to its expected norm.
   struct Remainder {
     HalfField<float>& residual;
     double unit;
   };
-  /// Takes the step, solves for the red cells and takes the residual; if it is to `check`, looks for cells without a
-  /// lower neighbour among the values divided by that of the source.
+  /// Adds the step, solves for the red cells and computes the residual. If `check` is true, also counts the cells
+  /// without a strictly lower neighbour after division by the value at the source.
   Defect update(const FineLevel& fine, const Step& step, const Remainder& remainder, bool check);
 
-  /// The solution, which is no longer here after it.
+  /// Moves the solution out.
   [[nodiscard]] CellValues take() { return std::move(values_); }
   [[nodiscard]] std::size_t memory_bytes() const { return values_.memory_bytes() + bytes_of(partial_); }
 

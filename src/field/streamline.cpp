@@ -11,7 +11,8 @@ using Position = LaplaceProblem::Position;
 
 double value_at(std::span<const double> phi, Position position) { return phi[static_cast<std::size_t>(position)]; }
 
-// Central differences per cell; behind a closed face lies the cell's own value, so nothing flows through the face.
+// Central differences per cell. The value behind a closed face is the cell's own value, so there is no flow through
+// it.
 Eigen::Vector3d gradient_at(const LaplaceProblem& problem, std::span<const double> phi, Position position) {
   const double own = value_at(phi, position);
   const auto& n = problem.neighbours(position);
@@ -26,7 +27,7 @@ class Flow {
   Flow(const LaplaceProblem& problem, std::span<const double> phi, const VoxelFrame& frame)
       : problem_(problem), phi_(phi), frame_(frame) {}
 
-  // Unit direction of steepest descent; none where the field is level or there is no cell.
+  // Unit direction of steepest descent; nullopt where the field is constant or there is no cell.
   [[nodiscard]] std::optional<Eigen::Vector3d> direction(const Eigen::Vector3d& at_m) const {
     const Eigen::Vector3d centred = at_m / frame_.size_m - Eigen::Vector3d::Constant(0.5);
     const Eigen::Vector3d base = centred.array().floor();
@@ -96,10 +97,10 @@ std::optional<std::vector<Eigen::Vector3d>> streamline(const LaplaceProblem& pro
                                                        const VoxelFrame& frame, const Eigen::Vector3d& from_m) {
   const Flow flow(problem, phi, frame);
   const double step_m = 0.5 * frame.size_m;
-  // A curve that has not arrived after visiting as many half cells as there are faces goes round in a hollow between
-  // cell centres, which interpolation can make though the cells themselves have none.
+  // Limit on the number of points. A curve that is longer circles in a hollow between cell centres, which
+  // interpolation can create even if no cell is a minimum.
   const std::size_t longest = 6 * problem.size();
-  // Progress is judged over a window: phi along the curve need not fall at every half step.
+  // Number of steps without a new lowest cell that are tolerated: phi need not decrease at every half step.
   constexpr std::size_t kWindow = 16;
   std::vector<Eigen::Vector3d> points{from_m};
   double lowest = std::numeric_limits<double>::infinity();
@@ -115,7 +116,7 @@ std::optional<std::vector<Eigen::Vector3d>> streamline(const LaplaceProblem& pro
       lowest = value_at(phi, *here);
       since_lowest = 0;
     }
-    // The midpoint rule; at the edge of the domain the plain step.
+    // The midpoint rule; at the border of the domain the Euler step.
     const auto at_start = flow.direction(points.back());
     if (!at_start) {
       return std::nullopt;

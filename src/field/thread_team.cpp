@@ -4,7 +4,7 @@
 namespace vantage::detail {
 namespace {
 
-// The next pass comes within microseconds mostly: sleeping and being woken takes longer.
+// Spins before it sleeps: the next pass mostly follows within microseconds, and waking up takes longer.
 constexpr int kLooks = 10000;
 
 // Returns when `value` is no longer `old`.

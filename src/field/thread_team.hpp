@@ -10,10 +10,11 @@
 
 namespace vantage::detail {
 
-/// Threads that stay for the many short passes of a solver; whoever calls is one of them.
+/// A pool of threads for the many short passes of a solver. The calling thread is one of them.
 class ThreadTeam {
  public:
-  /// So many threads (> 0), the caller's included. Throws std::system_error if there cannot be as many.
+  /// Creates a team of `threads` threads (> 0), including the caller. Throws std::system_error if they cannot be
+  /// created.
   explicit ThreadTeam(std::size_t threads);
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
@@ -23,7 +24,7 @@ class ThreadTeam {
 
   [[nodiscard]] std::size_t size() const { return others_.size() + 1; }
 
-  /// Calls `work(i)` for each i < size(), every one on its own thread, and returns when all are done. `work` must not
+  /// Calls `work(i)` for each i < size(), each on its own thread, and returns when all have finished. `work` must not
   /// throw.
   template <class Work>
   void run(const Work& work) {
@@ -33,8 +34,8 @@ class ThreadTeam {
     }
     start([](const void* what, std::size_t i) { (*static_cast<const Work*>(what))(i); }, &work);
   }
-  /// Calls `work(begin, end)` on parts of [0, count) that together are all of it; on one thread if the parts would
-  /// have less than `grain`.
+  /// Calls `work(begin, end)` on disjoint parts that cover [0, count). Uses a single thread if the parts would be
+  /// smaller than `grain`.
   template <class Work>
   void split(std::size_t count, std::size_t grain, const Work& work) {
     if (count < grain * size()) {
@@ -51,7 +52,7 @@ class ThreadTeam {
   void serve(std::size_t i);
   void dismiss();
 
-  Call call_ = nullptr;  // none: the end
+  Call call_ = nullptr;  // null: end of work
   const void* work_ = nullptr;
   std::atomic<std::uint32_t> round_{0};
   std::atomic<std::uint32_t> at_work_{0};

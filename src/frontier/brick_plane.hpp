@@ -11,17 +11,18 @@
 
 namespace vantage::detail {
 
-/// Bits of a sub-brick (4 x 4 x 4, x fastest) with coordinate 0 along an axis; those with coordinate 3 lie `3 *
-/// stride` bits higher.
+/// The bit layout of a sub-brick (4 x 4 x 4 cells, x fastest) along one axis. Cells at coordinate 3 lie `3 * stride`
+/// bits above those at coordinate 0.
 struct Axis {
   std::uint64_t first;   ///< cells at coordinate 0
   unsigned stride;       ///< bits between neighbours along the axis
-  std::size_t word_bit;  ///< which bit of the word number says "upper half of the brick"
+  std::size_t word_bit;  ///< the bit of the word number that selects the upper half of the brick
 };
 inline constexpr std::array<Axis, 3> kAxes{
     {{0x1111111111111111ULL, 1, 1}, {0x000F000F000F000FULL, 4, 2}, {0x000000000000FFFFULL, 16, 4}}};
 
-/// For every cell of `plane` the bit of its neighbour one step down `axis`; `below` is the plane of the brick there.
+/// For every cell of word `word` of `plane`: the bit of its lower neighbour along `axis`. `below` is the plane of the
+/// adjacent lower brick. `from_above` is the same for the upper neighbour.
 inline std::uint64_t from_below(const BrickPlane& plane, const BrickPlane& below, const Axis& axis,
                                 std::size_t word) {
   const std::size_t other = word ^ axis.word_bit;
@@ -37,12 +38,12 @@ inline std::uint64_t from_above(const BrickPlane& plane, const BrickPlane& above
   return (plane[word] >> axis.stride & ~last) | (neighbour << (3 * axis.stride) & last);
 }
 
-/// Whether a plane has a cell.
+/// Whether a plane has a set bit.
 inline bool any(const BrickPlane& plane) {
   return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
 }
 
-/// How many cells a plane has.
+/// The number of set bits of a plane.
 inline std::size_t size_of(const BrickPlane& plane) {
   std::size_t count = 0;
   for (const std::uint64_t word : plane) {
@@ -51,7 +52,7 @@ inline std::size_t size_of(const BrickPlane& plane) {
   return count;
 }
 
-/// Adds the cells of a brick's plane to a list.
+/// Appends the cells of a brick's plane to a list.
 inline void append(const BrickPlane& plane, const VoxelIndex& brick, std::vector<VoxelIndex>& cells) {
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     for_each_offset(plane[word], word,

@@ -23,7 +23,7 @@ void join(BrickPlane& plane, const BrickPlane& other) {
   }
 }
 
-// The cells of a plane and their neighbours along one axis, within the brick.
+// Dilates a plane by one cell in both directions along an axis, within the brick.
 BrickPlane grown_along(const BrickPlane& plane, std::size_t axis) {
   constexpr BrickPlane kOutside{};
   BrickPlane grown = plane;
@@ -53,7 +53,7 @@ BrickPlane grown(const BrickPlane& plane, Connectivity connectivity) {
   return result;
 }
 
-// The connected part of `plane` around the first of its cells.
+// The connected component of the first cell of `plane`.
 BrickPlane first_piece(const BrickPlane& plane, Connectivity connectivity) {
   BrickPlane piece{};
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -72,7 +72,7 @@ BrickPlane first_piece(const BrickPlane& plane, Connectivity connectivity) {
   return piece;
 }
 
-// The cells on the surface of a brick, which alone have neighbours in others.
+// The cells on the surface of a brick. Only they have neighbours in other bricks.
 constexpr BrickPlane kShell = [] {
   BrickPlane shell{};
   for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
@@ -85,7 +85,7 @@ constexpr BrickPlane kShell = [] {
   return shell;
 }();
 
-// The steps of a connectivity.
+// Offsets to the neighbours of a cell.
 std::vector<VoxelIndex> steps_of(Connectivity connectivity) {
   const int most = connectivity == Connectivity::Face6 ? 1 : connectivity == Connectivity::Edge18 ? 2 : 3;
   std::vector<VoxelIndex> steps;
@@ -102,7 +102,7 @@ FrontierTracker::FrontierTracker(const OccupancyMap& map, Connectivity connectiv
 }
 
 std::size_t FrontierTracker::update() {
-  // A brick's frontier depends on the brick and its face neighbours.
+  // The frontier of a brick depends only on the brick and its face neighbours.
   std::vector<VoxelIndex> touched = map_->changed_since(revision_);
   revision_ = map_->revision();
   for (std::size_t i = touched.size(); i-- > 0;) {
@@ -126,7 +126,7 @@ std::size_t FrontierTracker::update() {
   return changes.size();
 }
 
-// Takes the clusters that the changes touch apart and puts together what hangs together now.
+// Dissolves the clusters that the changes touch, then regroups their pieces.
 void FrontierTracker::regroup(const std::vector<Change>& changes) {
   std::vector<PieceNumber> loose;
   for (const Change& change : changes) {
@@ -144,7 +144,8 @@ void FrontierTracker::regroup(const std::vector<Change>& changes) {
   for (std::size_t i = old; i < loose.size(); ++i) {
     link(loose[i]);
   }
-  // Of the loose pieces, those of replaced bricks may be gone; what is there in their place is loose as well.
+  // The list may name pieces of replaced bricks that no longer exist. A new piece at the same index needs a cluster
+  // too.
   for (const PieceNumber& number : loose) {
     if (number.piece < bricks_[number.brick].pieces.size() && at(number).cluster == kNone) {
       gather(number);
@@ -164,7 +165,7 @@ void FrontierTracker::dissolve(std::uint32_t cluster, std::vector<PieceNumber>& 
   unused_clusters_.push_back(cluster);
 }
 
-// Makes the pieces around a brick forget those in it.
+// Removes the references to the pieces of a brick from the adjacent pieces.
 void FrontierTracker::unlink(std::uint32_t brick) {
   for (const Piece& piece : bricks_[brick].pieces) {
     for (const PieceNumber& other : piece.touching) {
@@ -199,7 +200,7 @@ void FrontierTracker::replace(const Change& change, std::vector<PieceNumber>& lo
   }
 }
 
-// Lets a new piece and those it touches know of each other; those that are new as well may do already.
+// Connects a new piece with the pieces adjacent to it, unless they are connected already.
 void FrontierTracker::link(const PieceNumber& number) {
   for (const PieceNumber& other : neighbours(number)) {
     std::vector<PieceNumber>& touching = at(other).touching;
@@ -210,7 +211,7 @@ void FrontierTracker::link(const PieceNumber& number) {
   }
 }
 
-// Grows a cluster from a loose piece over all that hang together with it; clusters it meets become one with it.
+// Grows a cluster from a piece without a cluster over all connected pieces. Existing clusters on the way are merged.
 void FrontierTracker::gather(const PieceNumber& first) {
   std::uint32_t cluster = static_cast<std::uint32_t>(clusters_.size());
   if (unused_clusters_.empty()) {
@@ -241,7 +242,7 @@ void FrontierTracker::gather(const PieceNumber& first) {
   }
 }
 
-// Moves the pieces of the smaller cluster to the larger, which is returned.
+// Moves the pieces of the smaller cluster to the larger one and returns the larger one.
 std::uint32_t FrontierTracker::merge(std::uint32_t a, std::uint32_t b) {
   if (clusters_[a].pieces.size() < clusters_[b].pieces.size()) {
     std::swap(a, b);
@@ -256,7 +257,7 @@ std::uint32_t FrontierTracker::merge(std::uint32_t a, std::uint32_t b) {
   return a;
 }
 
-// The pieces in other bricks that a piece touches, each once.
+// The adjacent pieces in other bricks, each once.
 std::vector<FrontierTracker::PieceNumber> FrontierTracker::neighbours(const PieceNumber& number) const {
   const BrickFrontier& brick = bricks_[number.brick];
   std::vector<PieceNumber> found;

@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-// The voids beside a cell, each once.
+// The voids adjacent to a cell, each once.
 std::vector<std::uint32_t> voids_beside(const VoidClusters& voids, const VoxelIndex& cell) {
   std::vector<std::uint32_t> beside;
   for (const VoxelIndex& step : kFaceNeighbours) {

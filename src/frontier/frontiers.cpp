@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-// Of four consecutive coordinates from `first`, those in [lo, hi), as bits.
+// Bit i is set if first + i lies in [lo, hi), for i in [0, 4).
 unsigned row_mask(std::int32_t first, std::int32_t lo, std::int32_t hi) {
   unsigned mask = 0;
   for (std::int32_t i = 0; i < 4; ++i) {
@@ -32,7 +32,7 @@ std::uint64_t region_mask(const VoxelBox& region, const VoxelIndex& brick, std::
   return mask;
 }
 
-// The unknown cells of a brick inside the region; a brick that is not stored is all unknown.
+// The unknown cells of a brick inside the region. All cells of a brick that is not stored are unknown.
 BrickPlane unknown_plane(const OccupancyMap& map, const VoxelIndex& address, const Brick* brick) {
   BrickPlane unknown;
   for (std::size_t word = 0; word < Brick::kWords; ++word) {

@@ -15,7 +15,7 @@
 namespace vantage::detail {
 namespace {
 
-// The two halves of a box, cut across its longest side.
+// Splits a box into two halves across its longest side.
 std::pair<VoxelBox, VoxelBox> halves(const VoxelBox& box) {
   const VoxelIndex extent = box.extent();
   VoxelIndex low_end = box.hi;
@@ -30,7 +30,7 @@ std::pair<VoxelBox, VoxelBox> halves(const VoxelBox& box) {
   return {{box.lo, low_end}, {high_start, box.hi}};
 }
 
-// The centres of some cells, as a box of points.
+// The bounding box of the centres of cells, as centre and half extent.
 struct PointBox {
   Eigen::Vector3d middle;
   Eigen::Vector3d half;
@@ -69,7 +69,7 @@ HullChange::HullChange(const Hull& before, const Hull& now) {
       gone_.push_back(plane.plane());
     }
   }
-  // An empty hull has all cells beyond it.
+  // An empty hull is represented by a plane that has every cell beyond it.
   const ConvexHull::Plane none{Eigen::Vector3d::Zero(), 1.0};
   if (before.planes.empty()) {
     gone_.push_back(none);
@@ -113,14 +113,14 @@ void HullChange::visit_box(const VoxelBox& bricks, const Cutting& common, const 
   added_.resize(added_here.first);
 }
 
-// Adds those of the planes beyond which some of a box lies.
+// Pushes the planes beyond which a part of the box lies.
 HullChange::Cutting HullChange::narrow(Planes& planes, const Cutting& from, const VoxelBox& bricks) {
   const PointBox box({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
   Cutting cutting{planes.size(), planes.size()};
   for (std::size_t i = from.first; i < from.last; ++i) {
     const ConvexHull::Plane plane = planes[i];
     const double distance = distance_from(plane, box.middle) - kOnFacet;
-    const double reach = box.reach(plane) + kOnFacet;  // and what rounding may add
+    const double reach = box.reach(plane) + kOnFacet;  // adds a margin for rounding
     if (distance > -reach) {
       planes.push_back(plane);
       cutting.beyond = cutting.beyond || distance > reach;

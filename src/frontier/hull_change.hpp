@@ -10,26 +10,28 @@
 
 namespace vantage::detail {
 
-/// From one hull to another: the bricks in which that may have changed what is inside. A cell that only one of them
-/// holds lies beyond a plane of the other that is none of its own, so all is left alone but what lies beyond planes
-/// that only one of them has.
+/// Finds the bricks in which the set of cells inside the hull may differ between two hulls.
+///
+/// A cell that is inside only one hull lies beyond a plane of the other, and this plane is not shared. So only the
+/// space beyond unshared planes is searched. The search bisects boxes of bricks and drops a box if no part of it lies
+/// beyond an unshared plane, or if all of it lies outside both hulls.
 class HullChange {
  public:
-  /// A hull: its planes, ascending, and its corners.
+  /// A hull given by its planes, ascending, and its corners.
   struct Hull {
     std::span<const LatticeHull::Plane> planes;
     std::span<const VoxelIndex> corners;
   };
-  /// Called with the address of a brick and its cells inside the hull now.
+  /// Called with the address of a brick and the cells of it that are inside the new hull.
   using Visit = std::function<void(const VoxelIndex&, const BrickPlane&)>;
 
   HullChange(const Hull& before, const Hull& now);
 
-  /// Visits every such brick of some tiles (VoidTiles), all different, once.
+  /// Calls `visit` once for every such brick in the given tiles (VoidTiles). The tiles must be distinct.
   void for_each_brick(std::span<const VoxelIndex> tiles, const Visit& visit);
 
  private:
-  // The planes that matter to a box of bricks, as positions in those of each kind.
+  // The planes of one kind that cut a box, as a range of indices.
   struct Cutting {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -45,7 +47,7 @@ class HullChange {
   [[nodiscard]] BrickPlane inside(const VoxelIndex& brick, const Cutting& common, const Cutting& added) const;
 
   VoxelBox bricks_;
-  // A stack each: a box adds those that matter to it, and takes them off again.
+  // Three stacks. Each recursion pushes the planes that cut its box, and removes them when it returns.
   Planes common_;
   Planes gone_;
   Planes added_;

@@ -6,7 +6,7 @@
 
 namespace vantage::detail {
 
-/// A cell as the point of a lattice, in cells: hulls of such points are exact.
+/// A cell as an integer point, in cells. Hulls of integer points are exact.
 inline Eigen::Vector3d lattice_point(const VoxelIndex& cell) { return Eigen::Vector3d(cell.x, cell.y, cell.z); }
 
 }  // namespace vantage::detail

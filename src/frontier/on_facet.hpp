@@ -3,7 +3,7 @@
 
 namespace vantage::detail {
 
-/// The centre of a cell on a facet of a hull belongs to the hull; this is what rounding may do to it, in cells.
+/// Tolerance in cells: a cell whose centre lies on a facet belongs to the hull despite rounding.
 inline constexpr double kOnFacet = 1e-6;
 
 }  // namespace vantage::detail

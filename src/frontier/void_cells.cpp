@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-// The cells of the row (., y, z) inside the hull: [first, last), by cutting the row with every facet's plane.
+// The cells [first, last) of the row (., y, z) inside the hull. The row is clipped with the plane of every facet.
 std::pair<std::int32_t, std::int32_t> row_span(const ConvexHull& hull, const VoxelBox& box, std::int32_t y,
                                                std::int32_t z) {
   double lo = box.lo.x;
@@ -45,8 +45,9 @@ VoxelBox box_around(const ConvexHull& hull, const OccupancyMap& map) {
   return map.region() ? detail::box_overlap(box, *map.region()) : box;
 }
 
-// Rows of tiles, so that a row of cells is cut with the hull once.
-using TileRows = std::map<std::int32_t, std::map<std::int32_t, std::vector<std::int32_t>>>;  // z, y, ascending x
+// Tiles grouped by rows, so that each row of cells is clipped with the hull once.
+// keys z, y; values: ascending x
+using TileRows = std::map<std::int32_t, std::map<std::int32_t, std::vector<std::int32_t>>>;
 
 TileRows tile_rows(const OccupancyMap& map) {
   TileRows rows;
@@ -99,7 +100,7 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
 }  // namespace
 
 ConvexHull occupied_hull(const OccupancyMap& map) {
-  // Only the two ends of a row of occupied cells can be corners of the hull.
+  // Only the first and the last occupied cell of a row can be corners of the hull.
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>> ends;
   map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
     for (std::size_t word = 0; word < Brick::kWords; ++word) {

@@ -28,16 +28,16 @@ namespace {
 constexpr std::uint32_t kNoVoid = VoidClusters::kNone;
 constexpr std::uint32_t kUnassigned = VoidClusters::kNone - 1;
 
-// The variance of a solid ellipsoid along an axis of half length a is a^2 / this.
+// A solid ellipsoid has the variance a^2 / 5 along a half axis of length a.
 constexpr double kVarianceShare = 5.0;
 
-// Of the half axes of an ellipsoid: those within which members are counted.
+// Scales of the half axes at which the members inside are counted.
 constexpr std::array<double, 5> kShares{1.0, 0.95, 0.9, 0.86, 0.82};
 
-// The clusters of void cells that a box holds tightly: a number for each of its cells.
+// Cluster numbers of all cells of a box. Used if the void cells fill the box densely.
 class DenseNumbers {
  public:
-  /// These cells unassigned, in `box`.
+  /// Marks `cells`, all inside `box`, as unassigned.
   DenseNumbers(std::span<const VoxelIndex> cells, const VoxelBox& box)
       : grid_(box, kNoVoid), strides_{1, box.extent().x, std::ptrdiff_t{box.extent().x} * box.extent().y} {
     lowest_ = {box.lo.x, box.lo.y, box.lo.z};
@@ -46,7 +46,7 @@ class DenseNumbers {
       grid_[cell] = kUnassigned;
     }
   }
-  /// The positions of the cells, in raster order.
+  /// The positions of the unassigned cells, in raster order.
   [[nodiscard]] std::vector<std::size_t> positions() const {
     std::vector<std::size_t> positions;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
@@ -58,7 +58,8 @@ class DenseNumbers {
   }
   [[nodiscard]] std::uint32_t& operator[](std::size_t position) { return grid_.values()[position]; }
   [[nodiscard]] VoxelIndex cell_at(std::size_t position) const { return grid_.cell_at(position); }
-  /// Calls `visit(position)` for the neighbour of a cell that lies `at` a coordinate, if it can be a void cell.
+  /// Calls `visit(position)` for the neighbour of a cell along `axis`, if it lies inside the box. `at` is the
+  /// coordinate of the cell along `axis`.
   template <class Visit>
   void with_neighbour(std::size_t position, std::size_t axis, std::int32_t at, std::int32_t step,
                       const Visit& visit) const {
@@ -74,7 +75,7 @@ class DenseNumbers {
   std::array<std::int32_t, 3> highest_{};
 };
 
-// The same for cells that may lie anywhere: a number for each of them. A position is that in raster order.
+// The same interface for scattered cells: stores one number per void cell. A position is an index in raster order.
 class SparseNumbers {
  public:
   explicit SparseNumbers(std::span<const VoxelIndex> cells) : cells_(cells.begin(), cells.end()) {
@@ -108,14 +109,14 @@ class SparseNumbers {
   BrickGrid<std::uint32_t> positions_{kNoVoid};
 };
 
-// The cells where clusters start, drawn one after the other. They lie anywhere in memory, so they are fetched ahead.
+// Draws the start cells of clusters at random. They lie anywhere in memory, so a batch is drawn and prefetched.
 template <class Numbers>
 class Starts {
  public:
-  /// Of the cells of `numbers`, all of them unassigned now, as positions in it.
+  /// Takes the positions of all cells of `numbers`, which are all unassigned now.
   Starts(Numbers& numbers, std::uint64_t seed) : numbers_(numbers), dice_(seed), left_(numbers.positions()) {}
 
-  // The next that is still unassigned.
+  // The next start cell that is still unassigned; nullopt if there is none.
   std::optional<std::size_t> next() {
     for (;;) {
       if (next_ == drawn_.size()) {
@@ -148,12 +149,12 @@ class Starts {
 
   Numbers& numbers_;
   Dice dice_;
-  std::vector<std::size_t> left_;   // in raster order at first
-  std::vector<std::size_t> drawn_;  // of which those before `next_` have been given
+  std::vector<std::size_t> left_;   // not drawn yet; initially in raster order
+  std::vector<std::size_t> drawn_;  // the current batch; those before `next_` were returned
   std::size_t next_ = 0;
 };
 
-// Grows clusters, one after the other, from the cells that still have none.
+// Grows clusters, one after the other, over the unassigned cells.
 template <class Numbers>
 class Growth {
  public:
@@ -197,8 +198,8 @@ class Growth {
     moments_.add({cell[0], cell[1], cell[2]});
   }
 
-  // One cell further on every side: along x, from there along y, from there along z. Members before `latest` have
-  // found all their neighbours already.
+  // Adds one layer: the neighbours along x, then the neighbours of all of these along y, then along z. Members before
+  // `latest` already have all their neighbours.
   void add_layer(std::size_t latest) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t end = offsets_.size();
@@ -230,7 +231,8 @@ class Growth {
     }
   }
 
-  // How many members lie in ellipsoids with one centre and shape: that of all members then, and smaller ones.
+  // The number of members inside the ellipsoid of all members at the time of counting, and inside the smaller
+  // ellipsoids scaled by kShares.
   struct Counted {
     std::size_t members = 0;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -266,11 +268,12 @@ class Growth {
     });
   }
 
-  // At least so many members lie in the ellipsoid of these moments: those counted in the largest ellipsoid that lies
-  // in it whole. In units in which the new one is a ball of radius 1 about 0, one of a share of the old reaches from
-  // its own centre as far as `longest` times the share.
+  // A lower bound on the number of members inside the ellipsoid with these moments. It is the count of the largest
+  // old, scaled ellipsoid that lies completely inside the new one. In units where the new ellipsoid is the unit ball
+  // at 0, an old ellipsoid with scale s reaches at most `longest` * s from its own centre, which is at distance
+  // `shift`.
   [[nodiscard]] std::int32_t inside_at_least(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance) const {
-    constexpr std::size_t kFew = 64;  // are counted as soon
+    constexpr std::size_t kFew = 64;  // below this, counting all members is just as fast
     constexpr double kRounding = 1e-6;
     if (counted_.members < kFew) {
       return 0;
@@ -289,16 +292,16 @@ class Growth {
     return 0;
   }
 
-  // Equation (2) for so many members inside.
+  // Equation (2) for this number of members inside the ellipsoid.
   [[nodiscard]] double score(std::int32_t inside, const Eigen::Matrix3d& covariance) const {
-    const double variances = covariance.determinant();  // the product of the eigenvalues
+    const double variances = covariance.determinant();  // equals the product of the eigenvalues
     const double product = options_.score == FitScore::VolumeRatio
                                ? std::sqrt(std::pow(kVarianceShare, 3) * variances)
                                : variances * std::pow(frame_.size_m, 3);
     return inside / (4.0 / 3.0 * std::numbers::pi * product);
   }
 
-  // For the members as they are.
+  // The exact score of the current members.
   [[nodiscard]] double score_now() {
     if (counted_.members != offsets_.size()) {
       count();
@@ -306,7 +309,8 @@ class Growth {
     return score(counted_.inside[0], counted_.covariance);
   }
 
-  // Whether the score is high enough. Counting all members after every layer would be most of the work.
+  // Whether the score is high enough. The lower bound is tried first, because counting all members after every layer
+  // would dominate the run time.
   [[nodiscard]] bool fits() {
     const Eigen::Matrix3d covariance = moments_.covariance_cells();
     return score(inside_at_least(moments_.mean_cells(), covariance), covariance) >= options_.min_score ||
@@ -318,8 +322,8 @@ class Growth {
   const VoidClusterOptions options_;
   const InstructionSet instructions_ = best_instruction_set();
   std::uint32_t number_ = 0;
-  std::vector<std::size_t> offsets_;                  // of the members, their positions
-  std::array<std::vector<std::int32_t>, 3> members_;  // their x, y and z
+  std::vector<std::size_t> offsets_;                  // positions of the members
+  std::array<std::vector<std::int32_t>, 3> members_;  // x, y and z of the members
   CellMoments moments_;
   Counted counted_;
 };
@@ -345,7 +349,7 @@ VoidClusters clusters_of(Numbers numbers, const VoxelFrame& frame, const VoidClu
 VoidClusters cluster_void_cells(std::span<const VoxelIndex> cells, const VoxelFrame& frame,
                                 const VoidClusterOptions& options) {
   detail::require_option(options.min_score > 0.0, "VoidClusterOptions::min_score", options.min_score, "> 0");
-  constexpr double kLoosest = 32.0;  // cells of the box for one void cell
+  constexpr double kLoosest = 32.0;  // box cells per void cell, above which SparseNumbers is used
   const VoxelBox box = detail::box_around(cells);
   const VoxelIndex extent = box.extent();
   const bool tight = 1.0 * extent.x * extent.y * extent.z <= kLoosest * static_cast<double>(cells.size());

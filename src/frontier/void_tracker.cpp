@@ -50,7 +50,7 @@ bool VoidTracker::has_lost_a_corner() const {
                       [&](const VoxelIndex& corner) { return map_->at(corner) == Occupancy::Occupied; });
 }
 
-// From all occupied cells.
+// Rebuilds everything from all occupied cells.
 void VoidTracker::start_anew() {
   numbers_.clear();
   bricks_.clear();
@@ -65,7 +65,7 @@ void VoidTracker::start_anew() {
   reshape(LatticeHull(cells));
 }
 
-// By the tiles that touched bricks bring, with what of the hull lies there.
+// Adds the tiles of the touched bricks, and finds the cells inside the hull in the new tiles.
 void VoidTracker::widen(const std::vector<VoxelIndex>& touched) {
   const std::size_t before = tiles_.tiles().size();
   for (const VoxelIndex& address : touched) {
@@ -83,7 +83,8 @@ void VoidTracker::widen(const std::vector<VoxelIndex>& touched) {
       });
 }
 
-// To the corners that are left; adds to `touched` the bricks in which cells may lie outside of these now.
+// Replaces the hull by the hull of those corners that are still occupied. Appends to `touched` the changed bricks,
+// because their occupied cells may now lie outside.
 void VoidTracker::shrink(std::vector<VoxelIndex>& touched) {
   std::vector<VoxelIndex> left;
   std::copy_if(corners_.begin(), corners_.end(), std::back_inserter(left),
@@ -91,7 +92,7 @@ void VoidTracker::shrink(std::vector<VoxelIndex>& touched) {
   reshape(LatticeHull(left), &touched);
 }
 
-// Takes another hull, and asks again of the cells where that tells.
+// Replaces the hull, and updates the bricks where the set of cells inside it has changed.
 void VoidTracker::reshape(LatticeHull hull, std::vector<VoxelIndex>* reshaped) {
   std::vector<LatticeHull::Plane> planes = hull.planes();
   std::vector<VoxelIndex> corners = hull.corners();
@@ -117,7 +118,7 @@ VoidTracker::BrickVoids& VoidTracker::brick_at(const VoxelIndex& address) {
   return bricks_[known->second];
 }
 
-// The hull of cells of the region, which is a box, does not leave it.
+// The region needs no test: it is a box, so the hull of cells inside it stays inside it.
 void VoidTracker::refresh(BrickVoids& brick) {
   const Brick* stored = map_->find_brick(brick.address);
   cell_count_ -= detail::size_of(brick.voids);

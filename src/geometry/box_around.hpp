@@ -7,7 +7,7 @@
 
 namespace vantage::detail {
 
-/// The smallest box that holds all of `cells`; empty if there are none.
+/// The smallest box that contains all `cells`; empty if there are none.
 [[nodiscard]] inline VoxelBox box_around(std::span<const VoxelIndex> cells) {
   if (cells.empty()) {
     return {};
@@ -20,7 +20,7 @@ namespace vantage::detail {
   return box;
 }
 
-/// The smallest box that holds both; an empty one counts for nothing.
+/// The smallest box that contains both boxes. An empty box is ignored.
 [[nodiscard]] inline VoxelBox box_around(const VoxelBox& a, const VoxelBox& b) {
   if (a.empty() || b.empty()) {
     return a.empty() ? b : a;

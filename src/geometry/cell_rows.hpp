@@ -9,12 +9,12 @@
 
 namespace vantage::detail {
 
-/// A set of cells of a box, one bit each, in rows of whole words along x: for what moves whole sets about, and for
-/// what asks for single cells so often that they had better stay in the cache.
+/// A set of cells of a box, one bit per cell, in rows of whole words along x. For operations on whole rows, and for
+/// frequent lookups that should stay in the cache.
 class CellRows {
  public:
   CellRows() = default;
-  /// No cell of `box`.
+  /// Creates an empty set of cells of `box`.
   explicit CellRows(const VoxelBox& box)
       : box_(box), words_per_row_((static_cast<std::size_t>(box.extent().x) + 63) / 64) {
     const VoxelIndex extent = box.extent();
@@ -22,15 +22,15 @@ class CellRows {
   }
 
   [[nodiscard]] const VoxelBox& box() const { return box_; }
-  /// The cell must be in the box.
+  /// Adds a cell, which must be in the box.
   void insert(const VoxelIndex& cell) { words_[word_of(cell)] |= std::uint64_t{1} << bit_of(cell); }
-  /// Adds cells of the four from `first` on, all in the box and in one word: `first` lies a multiple of 4 from its
-  /// start.
+  /// Adds up to four cells, given by the bits of `cells`, from `first` on along x. All must be in the box, and
+  /// `first` must be a multiple of 4 cells from its start.
   void insert_four(const VoxelIndex& first, std::uint64_t cells) { words_[word_of(first)] |= cells << bit_of(first); }
   [[nodiscard]] bool contains(const VoxelIndex& cell) const {
     return box_.contains(cell) && (words_[word_of(cell)] >> bit_of(cell) & 1U) != 0;
   }
-  /// The row (., y, z) of the box; bit i of word w is the cell 64 w + i from its start.
+  /// The row (., y, z) of the box. Bit i of word w is the cell 64 w + i from the start of the row.
   [[nodiscard]] std::span<std::uint64_t> row(std::int32_t y, std::int32_t z) {
     return {words_.data() + word_of({box_.lo.x, y, z}), words_per_row_};
   }
@@ -54,8 +54,8 @@ class CellRows {
   std::vector<std::uint64_t> words_;
 };
 
-/// Word `at` of a row in which every cell has the value of that `steps` further along x; nothing lies beyond the
-/// ends.
+/// Word `at` of the row shifted by `steps`: each cell gets the value of the cell `steps` further along x. Cells
+/// beyond the ends are 0.
 [[nodiscard]] inline std::uint64_t shifted_word(std::span<const std::uint64_t> row, std::size_t at,
                                                 std::int32_t steps) {
   const std::int64_t first = static_cast<std::int64_t>(at) * 64 + steps;

@@ -16,7 +16,7 @@ extern "C" {
 namespace vantage {
 namespace {
 
-// The furthest point from what `distance` measures against.
+// Index of the point with the largest distance.
 template <class Distance>
 std::size_t furthest(const std::vector<Eigen::Vector3d>& points, const Distance& distance) {
   std::size_t best = 0;
@@ -26,7 +26,7 @@ std::size_t furthest(const std::vector<Eigen::Vector3d>& points, const Distance&
   return best;
 }
 
-// Why points span no volume, or nothing. Asked first, since Qhull answers with pages of advice.
+// Why the points span no volume; empty if they do. Tested before Qhull runs, because Qhull's error text is very long.
 std::string flatness(const std::vector<Eigen::Vector3d>& points) {
   if (points.size() < 4) {
     return "there are fewer than four points";
@@ -73,7 +73,7 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
   if (!reason_.empty()) {
     return;
   }
-  // Around the origin: far from it the planes' offsets would lose their digits.
+  // Coordinates relative to the first point: far from the origin, the offsets of the planes would lose digits.
   const Eigen::Vector3d& origin = points.front();
   std::vector<coordT> coordinates;
   coordinates.reserve(3 * points.size());
@@ -81,7 +81,8 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
     const Eigen::Vector3d local = point - origin;
     coordinates.insert(coordinates.end(), local.data(), local.data() + 3);
   }
-  const std::unique_ptr<std::FILE, CloseFile> messages(std::tmpfile());  // Qhull must write somewhere, not to stderr
+  // Qhull needs an output file; stderr is not allowed
+  const std::unique_ptr<std::FILE, CloseFile> messages(std::tmpfile());
   if (messages == nullptr) {
     throw std::runtime_error("ConvexHull: no temporary file could be opened");
   }

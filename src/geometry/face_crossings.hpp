@@ -8,10 +8,11 @@
 
 namespace vantage::detail {
 
-/// The crossings of a segment from the coordinate `from`, in cell `first`, to `to`, in cell `last`, of cells of
-/// `size_m`.
+/// The crossings of one axis for a segment from the coordinate `from`, in cell `first`, to `to`, in cell `last`.
+/// Metres; `size_m` is the edge of a cell.
 ///
-/// For sources of the library only: a compiler that contracts `face_m - from` to one rounding finds other times.
+/// Use it only in compiled sources of the library. A compiler that fuses operations such as `face_m - from` into one
+/// rounding would compute different times.
 [[nodiscard]] inline FaceCrossings crossings_between(double from, double to, std::int32_t first, std::int32_t last,
                                                      double size_m) {
   if (first == last) {

@@ -14,7 +14,7 @@ namespace vantage {
 namespace {
 
 using Integers = std::array<std::int64_t, 3>;
-// Distances are products of three differences of coordinates.
+// Distances are products of three coordinate differences.
 __extension__ typedef __int128 Wide;  // NOLINT(modernize-use-using): only a typedef takes __extension__
 
 bool before(const VoxelIndex& a, const VoxelIndex& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
@@ -23,7 +23,7 @@ Integers difference(const VoxelIndex& a, const VoxelIndex& b) {
   return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y, std::int64_t{a.z} - b.z};
 }
 
-// Of differences of coordinates, each below 2^31: no component reaches 2^63.
+// The inputs are coordinate differences below 2^31, so no component reaches 2^63.
 Integers cross(const Integers& a, const Integers& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -35,14 +35,14 @@ double squared_length(const Integers& a) {
       .squaredNorm();
 }
 
-// The point with the largest `value`, the first of these.
+// The first point with the largest `value`.
 template <class Value>
 VoxelIndex furthest(std::span<const VoxelIndex> points, const Value& value) {
   return *std::max_element(points.begin(), points.end(),
                            [&](const VoxelIndex& a, const VoxelIndex& b) { return value(a) < value(b); });
 }
 
-// Points that follow each other in one brick of cells lie beyond much the same facets.
+// Length of the first run of points in the same brick. They lie beyond nearly the same facets.
 std::size_t run_length(std::span<const VoxelIndex> points) {
   const auto brick = [](const VoxelIndex& point) { return VoxelIndex{point.x >> 3, point.y >> 3, point.z >> 3}; };
   const auto end = std::find_if(points.begin(), points.end(),
@@ -52,19 +52,19 @@ std::size_t run_length(std::span<const VoxelIndex> points) {
 
 }  // namespace
 
-// The points outside, each with one of the facets that it is beyond.
+// The points outside the hull. Each is assigned to one facet that it lies beyond.
 struct LatticeHull::Outside {
   static constexpr Number kNone = std::numeric_limits<Number>::max();
   std::span<const VoxelIndex> points;
-  std::vector<Number> next;   // point with the same facet
-  std::vector<Number> first;  // point, by facet
-  std::vector<Number> seen;   // by facet, the point by which it was last asked for
-  std::vector<Number> open;   // facets with points
+  std::vector<Number> next;   // per point: next point of the same facet
+  std::vector<Number> first;  // per facet: its first point
+  std::vector<Number> seen;   // per facet: the last point for which it was visited
+  std::vector<Number> open;   // facets that have points
 
   Outside(std::span<const VoxelIndex> all, std::size_t facets)
       : points(all), next(all.size(), kNone), first(facets, kNone), seen(facets, kNone) {}
 
-  // To the first of these facets that it is beyond; to none if it is inside.
+  // Assigns a point to the first of `facets` that it lies beyond, or to none if it is inside.
   void assign(const LatticeHull& hull, Number point, std::span<const Number> facets) {
     for (const Number facet : facets) {
       if (hull.beyond(facet, points[point])) {
@@ -134,7 +134,7 @@ bool LatticeHull::beyond(Number facet, const VoxelIndex& point) const {
   return dot(facets_[facet].normal, difference(point, facets_[facet].corners[0])) > 0;
 }
 
-// A tetrahedron of points far apart; false if they lie in one plane.
+// Creates a tetrahedron of points far apart. Returns false if all points lie in one plane.
 bool LatticeHull::start(std::span<const VoxelIndex> points) {
   if (points.size() < 4) {
     return false;
@@ -161,7 +161,7 @@ bool LatticeHull::start(std::span<const VoxelIndex> points) {
   return true;
 }
 
-// Facet by facet to the furthest of its points; what then lies beyond none of the new facets is inside.
+// Repeatedly extends the hull to the furthest point of a facet. A point beyond none of the new facets is inside.
 void LatticeHull::grow(Outside& outside) {
   while (!outside.open.empty()) {
     const Number start = outside.open.back();
@@ -181,7 +181,7 @@ void LatticeHull::grow(Outside& outside) {
   }
 }
 
-// The facets visible from a point outside give way to a cone from their rim to the point.
+// Replaces the facets visible from an outside point by a cone from their rim to the point.
 void LatticeHull::replace(Number first_visible, Number point, Outside& outside) {
   std::vector<Number> visible{first_visible};
   const std::vector<Edge> rim = horizon(visible, point, outside);
@@ -204,7 +204,7 @@ void LatticeHull::replace(Number first_visible, Number point, Outside& outside) 
   }
 }
 
-// Adds to the first visible facet all others, and returns the edges around them.
+// Appends all visible facets to the first one, and returns the edges around them.
 std::vector<LatticeHull::Edge> LatticeHull::horizon(std::vector<Number>& visible, Number point,
                                                     Outside& outside) const {
   std::vector<Edge> rim;
@@ -282,7 +282,8 @@ std::vector<LatticeHull::Plane> LatticeHull::planes() const {
   return planes;
 }
 
-// In the middle of a plane, or of an edge where two meet, a corner of triangles is none of the hull.
+// A vertex of triangles is a corner only if at least three planes meet there. Otherwise it lies inside a plane or an
+// edge.
 std::vector<VoxelIndex> LatticeHull::corners() const {
   std::vector<std::pair<VoxelIndex, Integers>> planes_at;
   for (const Facet& facet : facets_) {

@@ -5,7 +5,7 @@
 
 namespace vantage::detail {
 
-/// Signed distance of a point from a facet's plane, metres: negative inside.
+/// Signed distance of a point from the plane of a facet, in the unit of the hull; negative inside.
 [[nodiscard]] inline double distance_from(const ConvexHull::Plane& plane, const Eigen::Vector3d& point) {
   return plane.normal.dot(point) + plane.offset;
 }

@@ -3,7 +3,7 @@
 
 namespace vantage::detail {
 
-/// Has memory that is read soon brought near, where the compiler knows how.
+/// Prefetches memory that will be read soon, if the compiler supports it.
 inline void prefetch(const void* soon_read) {
 #if defined(__GNUC__)
   __builtin_prefetch(soon_read);
@@ -12,7 +12,7 @@ inline void prefetch(const void* soon_read) {
 #endif
 }
 
-/// The same for memory that is written soon.
+/// Prefetches memory that will be written soon.
 inline void prefetch_to_write(const void* soon_written) {
 #if defined(__GNUC__)
   __builtin_prefetch(soon_written, 1);

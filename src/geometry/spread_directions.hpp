@@ -9,7 +9,7 @@
 
 namespace vantage::detail {
 
-/// Evenly spread unit vectors: a Fibonacci lattice on the sphere.
+/// Uniformly distributed unit vectors: a Fibonacci lattice on the sphere.
 [[nodiscard]] inline std::vector<Eigen::Vector3d> spread_directions(std::size_t count) {
   std::vector<Eigen::Vector3d> directions;
   directions.reserve(count);

@@ -13,7 +13,8 @@ bool connects(const VoxelIndex& step, Connectivity connectivity) {
   return axes <= (connectivity == Connectivity::Face6 ? 1 : connectivity == Connectivity::Edge18 ? 2 : 3);
 }
 
-// Two cells that differ by `step` meet when the list and the list moved by `step`, both in raster order, are merged.
+// Merges the sets of all pairs of cells that differ by `step`. The pairs are found by merging the list with the
+// shifted list; both are in raster order.
 void merge_neighbours(const std::vector<VoxelIndex>& cells, const VoxelIndex& step, DisjointSets& sets) {
   constexpr RasterOrder kBefore;
   std::size_t neighbour = 0;
@@ -35,7 +36,7 @@ std::vector<std::vector<VoxelIndex>> voxel_clusters(std::vector<VoxelIndex> cell
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   DisjointSets sets(cells.size());
   for (const VoxelIndex& step : kAllNeighbours) {
-    const bool later = RasterOrder{}(VoxelIndex{}, step);  // the other half finds the same pairs
+    const bool later = RasterOrder{}(VoxelIndex{}, step);  // the opposite steps would find the same pairs
     if (later && connects(step, connectivity)) {
       merge_neighbours(cells, step, sets);
     }

@@ -11,8 +11,8 @@
 
 namespace vantage::detail {
 
-/// A set of bricks that tells for any box whether one lies in it: a tree whose nodes have 4 x 4 x 4 children, a bit
-/// each. Memory follows the bricks, the cost of a question hardly anything.
+/// A set of bricks that answers whether any brick overlaps a box. It is a tree whose nodes have 4 x 4 x 4 children,
+/// one bit each. Memory grows with the number of bricks; a query visits few nodes.
 class BrickTree {
  public:
   /// Adds a brick.
@@ -29,21 +29,21 @@ class BrickTree {
       child = node;
     }
   }
-  /// Takes all bricks out.
+  /// Removes all bricks.
   void clear() {
     for (VoxelTable<std::uint64_t>& level : levels_) {
       level.clear();
     }
   }
 
-  /// Whether one of the bricks holds a cell of this box.
+  /// Whether any brick of the set overlaps this box of cells.
   [[nodiscard]] bool touches(const VoxelBox& cells) const {
     if (cells.empty()) {
       return false;
     }
     const VoxelBox bricks{Brick::of_cell(cells.lo),
                           Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-    // The lowest level at which the box lies in two nodes along each axis, at most.
+    // Find the lowest level at which the box spans at most two nodes along each axis.
     std::size_t level = 0;
     VoxelBox nodes = parents(bricks);
     while (std::max({nodes.hi.x - nodes.lo.x, nodes.hi.y - nodes.lo.y, nodes.hi.z - nodes.lo.z}) > 2) {
@@ -68,12 +68,12 @@ class BrickTree {
     return {{up(box.lo.x), up(box.lo.y), up(box.lo.z)},
             {up(box.hi.x - 1) + 1, up(box.hi.y - 1) + 1, up(box.hi.z - 1) + 1}};
   }
-  // The children of a node that lie in a box of them.
+  // Bit mask of the children of a node that lie in a box.
   static std::uint64_t children_in(const VoxelIndex& node, const VoxelBox& box) {
     const auto along = [](std::int32_t first, std::int32_t lo, std::int32_t hi) {
       const std::int32_t from = std::clamp(lo - first, 0, 4);
       const std::int32_t to = std::clamp(hi - first, from, 4);
-      return (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));  // of four bits
+      return (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));  // a mask of four bits
     };
     constexpr std::array<std::uint64_t, 4> kRow{0x1, 0x10, 0x100, 0x1000};
     const std::uint64_t x = along(node.x * 4, box.lo.x, box.hi.x);
@@ -119,7 +119,7 @@ class BrickTree {
     return false;
   }
 
-  // Enough for every address; nodes of level i + 1 hold those of level i.
+  // Enough levels for every address. Nodes of level i + 1 contain nodes of level i.
   std::array<VoxelTable<std::uint64_t>, 15> levels_;
 };
 

@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-// Where drawn rays end: `visit(end, whether by a return)`.
+// Calls `visit(end, is_return)` for the end point of every drawn ray.
 template <class Visit>
 void for_each_end(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, const ScanMarks& marks,
                   Visit&& visit) {

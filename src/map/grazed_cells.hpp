@@ -7,9 +7,9 @@
 
 namespace vantage {
 
-/// Takes back, after `mark_rays`, what rays are marked to have passed of surfaces that the same scan sees
-/// (OccupancyMapOptions::keep_grazed_cells): of the cells occupied in `map`, those that touch a cell in which some
-/// ray ends, and for each drawn ray the unbroken run that ends with it.
+/// Second step of insertion, after `mark_rays` (see OccupancyMapOptions::keep_grazed_cells): removes the marks of
+/// passed rays from surfaces that the same scan sees. These are cells occupied in `map` that touch an end cell of a
+/// return, and, for each drawn ray, the unbroken run of occupied cells at its end.
 void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks);
 
 }  // namespace vantage

@@ -20,7 +20,7 @@ void check(const HeightBandOptions& options) {
                          options.free_share, "in (0, 1]");
 }
 
-// The options of the map itself, but for a region of the one layer.
+// The options of the projected map: a copy of those of the map, with a region of one layer.
 OccupancyMapOptions plane_options(const OccupancyMapOptions& of_map, const HeightBandOptions& options) {
   check(options);
   OccupancyMapOptions plane = of_map;
@@ -93,7 +93,7 @@ void HeightBand::follow(const OccupancyMap& map) {
   }
   stale_.clear();
   if (map.revision() != followed_) {
-    plane_.confirm();  // what has been looked at in vain has been looked at
+    plane_.confirm();  // the plane's revision must grow even if nothing in the band has changed
   }
   followed_ = map.revision();
 }
@@ -111,7 +111,7 @@ Occupancy HeightBand::state_of(const OccupancyMap& map, const VoxelIndex& column
                                                                       : Occupancy::Unknown;
 }
 
-// Of a column whose band is free.
+// The state of a column whose cells in the band are free.
 Occupancy HeightBand::state_by_floor(const OccupancyMap& map, const VoxelIndex& column) const {
   bool all_free = lowest_floor_ < lowest_;
   for (VoxelIndex cell{column.x, column.y, lowest_floor_}; cell.z < lowest_; ++cell.z) {

@@ -11,7 +11,10 @@
 
 namespace vantage {
 
-/// First which cells, as bit planes; then one update for each, word by word.
+/// Inserts a scan in two phases, so that each cell gets at most one update:
+///
+///     scan -> blocks of 64 rays (ScanRays) -> cells passed and hit, as bit planes (mark_rays, ScanMarks)
+///          -> surfaces at grazing angles removed (unmark_grazed_cells) -> log-odds, 64 cells at a time (update_word)
 class ScanInserter {
  public:
   explicit ScanInserter(OccupancyMap& map)
@@ -40,8 +43,8 @@ class ScanInserter {
   }
 
  private:
-  // The cells to which rays are clipped, one beyond the region; none where most of the cells between the ends of the
-  // rays lie there anyhow: without a clip, neighbouring rays are drawn together.
+  // The cells to which rays are clipped: the region and one layer of cells around it. nullopt if the region covers
+  // most of the bounding box of the rays; without a clip, neighbouring rays can be drawn together, which is faster.
   [[nodiscard]] std::optional<VoxelBox> clip_of(const VoxelBox& cells) const {
     constexpr double kMost = 0.25;
     const auto volume = [](const VoxelBox& box) { return 1.0 * box.extent().x * box.extent().y * box.extent().z; };
@@ -79,7 +82,7 @@ class ScanInserter {
     map_.cells_refused_ += cells;
   }
 
-  // Whether a cell of the brick changed its state.
+  // Returns whether a cell of the brick has changed its state.
   bool update_brick(Brick& brick, const BrickMarks& marks) {
     std::uint64_t any_change = 0;
     for (std::size_t word = 0; word < Brick::kWords; ++word) {

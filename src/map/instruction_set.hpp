@@ -7,17 +7,17 @@
 
 namespace vantage {
 
-/// What the innermost loops of insertion, of ray casting and of the field are compiled for. All give the same bits;
-/// the processor decides which one runs.
+/// The instruction set for which the innermost loops of insertion, ray casting and field solver are compiled. All
+/// sets give bitwise equal results; the processor decides which one is used.
 enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 
-/// Those this processor has, the fastest last.
+/// The sets that this processor supports, the fastest last.
 [[nodiscard]] std::vector<InstructionSet> instruction_sets();
-/// The fastest of them, none beyond `limit`: `baseline`, `avx2` or `avx512`, or nothing for no limit. Throws
+/// The fastest supported set up to `limit`: `baseline`, `avx2`, `avx512`, or empty for no limit. Throws
 /// std::invalid_argument for any other name.
 [[nodiscard]] InstructionSet best_instruction_set_within(std::string_view limit);
-/// The fastest of them within VANTAGE_INSTRUCTION_SET of the environment, if that is set, for timing the others.
-/// Throws as `best_instruction_set_within`.
+/// The fastest supported set, limited by the environment variable VANTAGE_INSTRUCTION_SET if it is set, for
+/// benchmarks. Throws as `best_instruction_set_within`.
 [[nodiscard]] InstructionSet best_instruction_set();
 
 /// \cond
@@ -39,7 +39,7 @@ template <class Body>
 /// \endcond
 
 /// \cond
-/// Before a loop over arrays: its passes do not depend on each other, which compilers cannot tell from pointers.
+/// Marks the iterations of the following loop as independent, which a compiler cannot deduce from pointers.
 #if defined(__clang__)
 #define VANTAGE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #else
@@ -47,8 +47,8 @@ template <class Body>
 #endif
 /// \endcond
 
-/// Calls `body()`, in which every call is inlined and compiled for `set`: loops over arrays become vectors. The
-/// library is compiled without contraction of a * b + c, so that all sets round alike.
+/// Calls `body()` compiled for `set`, with all calls in it inlined, so that loops over arrays are vectorised. The
+/// library is compiled without contraction of a * b + c, so that all sets round in the same way.
 template <class Body>
 void compiled_for(InstructionSet set, const Body& body) {
 #if defined(__x86_64__)

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLanes = RayLanes::kLanes;
 
-// Calls `visit(block)` for all rays.
+// Calls `visit(block)` for all blocks of rays.
 template <class Visit>
 void for_each_block(const ScanRays& rays, Visit&& visit) {
   RayBlock block;
@@ -20,8 +20,8 @@ void for_each_block(const ScanRays& rays, Visit&& visit) {
   }
 }
 
-// Marks the cells in which returns of the block lie; calls `is_first(ray)` for those that are the first in their
-// cell, and for all whose cell has no mark.
+// Marks the end cells of the block's returns. Calls `is_first(ray)` for the first return in each cell, and for every
+// return whose cell is outside the clip.
 template <class IsFirst>
 void mark_hits(const RayBlock& block, ScanMarks& marks, IsFirst&& is_first) {
   if (!marks.holds_all()) {
@@ -50,10 +50,10 @@ void mark_hits(const RayBlock& block, ScanMarks& marks, IsFirst&& is_first) {
   }
 }
 
-// The rays with a return into a cell that has none yet, ending at its centre; and all rays without a return.
+// The first return into each cell, moved to the centre of the cell, and all rays without a return.
 std::vector<DrawnRay> one_ray_per_end_cell(const ScanRays& rays, const VoxelFrame& frame, ScanMarks& marks) {
   std::vector<DrawnRay> drawn;
-  std::unordered_set<VoxelIndex> left_out;  // cells of ends without a mark
+  std::unordered_set<VoxelIndex> left_out;  // end cells outside the clip
   for_each_block(rays, [&](const RayBlock& block) {
     const auto cell = [&](std::size_t i) { return VoxelIndex{block.cell[0][i], block.cell[1][i], block.cell[2][i]}; };
     mark_hits(block, marks, [&](std::size_t i) {
@@ -70,7 +70,7 @@ std::vector<DrawnRay> one_ray_per_end_cell(const ScanRays& rays, const VoxelFram
   return drawn;
 }
 
-// Each lane draws its own part of the list.
+// Draws a list of rays. Each lane gets a contiguous part.
 void draw(const std::vector<DrawnRay>& list, RayMarker& marker) {
   std::array<std::size_t, kLanes> at{};
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -85,7 +85,7 @@ void draw(const std::vector<DrawnRay>& list, RayMarker& marker) {
   });
 }
 
-// Draws blocks of rays, each lane its own part of them.
+// Draws blocks of rays. Each lane gets a contiguous part.
 class BlockDrawer {
  public:
   BlockDrawer(const ScanRays& rays, const VoxelFrame& frame, std::size_t stride, ScanMarks& marks)
@@ -109,7 +109,7 @@ class BlockDrawer {
     std::size_t next_block = 0;
     std::size_t end_block = 0;
     RayBlock block;
-    std::uint64_t todo = 0;  // a bit for each ray of the block that is still to be drawn
+    std::uint64_t todo = 0;  // bit mask of the rays of the block that remain
     UndrawnPart part;
   };
 
@@ -161,7 +161,8 @@ void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, 
     return;
   }
   for_each_block(rays, [&](const RayBlock& block) { mark_hits(block, marks, [](std::size_t) {}); });
-  // Of a depth image, first few rays: where they lie closer than the cells are wide, the others have nothing to add.
+  // For a depth image, draw every fourth row and column first. Where rays are closer than a cell, the other rays then
+  // add nothing and are skipped.
   if (rays.are_tiles()) {
     constexpr std::size_t kEveryFourth = 4;
     BlockDrawer(rays, frame, kEveryFourth, marks).draw(marker);

@@ -7,8 +7,9 @@
 
 namespace vantage {
 
-/// Marks the cells that the rays pass (up to, and without, the cell of their end) and those in which returns lie. Of
-/// the rays with a return, only the first into each cell is drawn, to the cell's centre, if the policy says so.
+/// First step of insertion: marks the cells that the rays pass, without their end cells, and the end cells of
+/// returns. With RayPolicy::EachEndCell, only the first return into each cell is drawn, as a ray to the centre of the
+/// cell.
 void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, ScanMarks& marks);
 
 }  // namespace vantage

@@ -32,7 +32,8 @@ void validate(const OccupancyMapOptions& options) {
   }
 }
 
-// The coarsest step that holds all four constants without loss; where none of these does, the finest that fits int8.
+// The first step of a list that represents all four constants exactly. If there is none, the finest step that fits
+// int8.
 double choose_step(const OccupancyMapOptions& options) {
   const std::array<double, 4> constants{options.log_odds_hit, options.log_odds_miss, options.log_odds_min,
                                         options.log_odds_max};
@@ -58,7 +59,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options) : options_(option
   }
   const auto steps = [this](double log_odds) {
     const double rounded = std::round(log_odds / step_);
-    // A constant below half a step must still count for something.
+    // A constant below half a step must not vanish.
     return static_cast<std::int8_t>(
         std::clamp(rounded == 0.0 ? std::copysign(1.0, log_odds) : rounded, -127.0, 127.0));
   };
@@ -172,7 +173,7 @@ VoxelBox OccupancyMap::bounds() const {
   return bounds.empty() ? VoxelBox{} : bounds;
 }
 
-// What is moved from gets an identity, which takes memory.
+// The moved-from map gets a new identity, which allocates memory and may throw.
 // NOLINTNEXTLINE(performance-noexcept-move-constructor)
 OccupancyMap::OccupancyMap(OccupancyMap&& other) : OccupancyMap(other.options_) { swap(other); }
 
@@ -229,7 +230,7 @@ void OccupancyMap::require_addressable(const VoxelIndex& cell, const char* what)
   }
 }
 
-// What of a box may be written to.
+// The part of a box inside the region. Throws if it is not addressable or too large.
 VoxelBox OccupancyMap::writable(const VoxelBox& cells, const char* what) const {
   const VoxelBox inside = region_ ? detail::box_overlap(cells, *region_) : cells;
   if (inside.empty()) {
@@ -298,8 +299,8 @@ BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& address) {
   return number;
 }
 
-// Bricks form one list, ordered by the revision of their last change; a brick that changes moves to its head. So the
-// list holds each brick once, however long the map lives, and a reader walks only what is news to it.
+// All bricks form a doubly linked list, ordered by the revision of their last change. A changed brick moves to the
+// head. So the list holds each brick once, and a reader visits only the bricks that are new to it.
 void OccupancyMap::mark_changed(BrickDirectory::Number number) {
   Stored& stored = bricks_[number];
   if (stored.changed == revision_) {
@@ -352,7 +353,8 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
 std::int8_t OccupancyMap::to_steps(double log_odds) const {
   const auto steps =
       static_cast<std::int8_t>(std::clamp<double>(std::round(log_odds / step_), min_steps_, max_steps_));
-  return log_odds < 0.0 ? std::min(steps, std::int8_t{-1}) : steps;  // rounding must not make a free cell occupied
+  // a negative value must not round to 0, which is occupied
+  return log_odds < 0.0 ? std::min(steps, std::int8_t{-1}) : steps;
 }
 
 }  // namespace vantage

@@ -21,18 +21,18 @@ using detail::kOctomapDepth;
 using detail::kOctomapReach;
 using detail::OctomapLeaf;
 
-// Whether a free leaf's log-odds mean to a map of these options what they mean to the tree that made them.
+// Whether the log-odds of a free leaf mean the same in the map as in the tree that produced them.
 enum class BeamModel : std::uint8_t { Same, Other };
 
 BeamModel beam_model_of(const octomap::OcTree& tree, const OccupancyMapOptions& options) {
-  constexpr double kRounding = 0.02;  // OctoMap states probabilities: 0.4 is -0.405
+  constexpr double kRounding = 0.02;  // OctoMap stores probabilities: 0.4 becomes -0.405
   const bool same = std::abs(tree.getProbMissLog() - options.log_odds_miss) < kRounding &&
                     std::abs(tree.getClampingThresMinLog() - options.log_odds_min) < kRounding;
   return same ? BeamModel::Same : BeamModel::Other;
 }
 
-// A tree may set its threshold elsewhere than at 0; the state is what counts. What another beam model calls free is
-// brought to a whole number of our misses: else every free cell would look contested.
+// A tree may use another threshold than 0, but its state must be kept. If a different beam model produced the tree,
+// free log-odds are rounded to a whole number of our misses; otherwise every free cell would appear contested.
 double log_odds_of(const OctomapLeaf& leaf, BeamModel model, const OccupancyMapOptions& options) {
   if (leaf.occupied) {
     return std::max(leaf.log_odds, 0.0);
@@ -49,8 +49,8 @@ void write_leaf(const OctomapLeaf& leaf, BeamModel model, OccupancyMap& map) {
                    log_odds_of(leaf, model, map.options()));
 }
 
-// Fills a new map from anything that has `for_each_leaf(visit)`: once to count, so that what is too large costs
-// nothing, and once to write.
+// Fills a new map from any object with `for_each_leaf(visit)`. The first pass only counts and checks, so that a tree
+// that is too large fails early; the second one writes.
 template <class ForEachLeaf>
 OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapImportOptions& options,
                             const std::string& what, const ForEachLeaf& for_each_leaf) {
@@ -59,7 +59,7 @@ OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapI
   OctomapImport import{OccupancyMap(map_options)};
   std::uint64_t cells = 0;
   for_each_leaf([&](const OctomapLeaf& leaf) {
-    cells += leaf.cells();  // at most 2^48 in all: the leaves of a tree are disjoint
+    cells += leaf.cells();  // at most 2^48 in total, because leaves are disjoint
     if (cells > options.max_cells) {
       throw std::runtime_error(what + ": its leaves stand for more than " + std::to_string(options.max_cells) +
                                " finest cells (OctomapImportOptions::max_cells)");
@@ -119,7 +119,7 @@ std::unique_ptr<octomap::OcTree> make_octree(const OccupancyMap& map, Keep keep)
   return tree;
 }
 
-// OctoMap's own writers round the resolution to six digits and talk to stderr in debug builds.
+// Replaces OctoMap's own writers, which round the resolution to six digits and print to stderr in debug builds.
 class OctreeWriter {
  public:
   explicit OctreeWriter(const octomap::OcTree& tree) : tree_(tree) {}

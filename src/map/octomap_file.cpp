@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kStatesLine = "# Octomap OcTree binary file";
 constexpr const char* kLogOddsLine = "# Octomap OcTree file";
 
-// Bytes between the log-odds of a node and its children, by type of tree; none for a type that is not known.
+// Number of bytes between the log-odds and the children of a node, by type of tree; nullopt for an unknown type.
 std::optional<std::size_t> payload_of(const std::string& type) {
   if (type == "OcTree" || type == "OcTreeStamped") {  // OctoMap does not write the time stamps
     return 0;
@@ -41,7 +41,7 @@ VoxelIndex child_of(const VoxelIndex& first, int child_level, unsigned child) {
 
 }  // namespace
 
-// One walk over the nodes, depth first, as they lie in the file.
+// Reads all nodes depth first, in the order of the file.
 class OctomapFile::Reader {
  public:
   Reader(const OctomapFile& file, const std::function<void(const OctomapLeaf&)>& visit)
@@ -62,7 +62,7 @@ class OctomapFile::Reader {
   }
 
  private:
-  // Two bits a child: 0 unknown, 1 free, 2 occupied, 3 has children.
+  // Two bits per child: 0 unknown, 1 free, 2 occupied, 3 has children.
   void read_states(const VoxelIndex& first, int level) {
     const char* bytes = take(2);
     const unsigned children = static_cast<unsigned char>(bytes[0]) | unsigned{static_cast<unsigned char>(bytes[1])}
@@ -192,7 +192,7 @@ void OctomapFile::read_header() {
     fail("holds a tree of type \"" + type + "\", must be OcTree, ColorOcTree or OcTreeStamped");
   }
   payload_bytes_ = *payload;
-  // A stream reads "-1" as a huge unsigned number.
+  // A stream would read "-1" as a huge unsigned number.
   if (nodes.find('-') != std::string::npos || !parse(nodes, nodes_)) {
     fail("has the node count \"" + nodes + "\" in its header, must be a whole number");
   }

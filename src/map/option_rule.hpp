@@ -10,9 +10,8 @@
 
 namespace vantage::detail {
 
-/// Holds an option to its rule: throws std::invalid_argument "OPTION is VALUE, must be RULE" unless `holds`. The
-/// option is named as its user wrote it ("OccupancyMapOptions::resolution_m", "--resolution"); its value is printed
-/// in as many digits as tell it from every other.
+/// Throws std::invalid_argument "OPTION is VALUE, must be RULE" unless `holds`. Name the option as its user writes it
+/// ("OccupancyMapOptions::resolution_m", "--resolution"). The value is printed with enough digits to be unique.
 template <class Number>
 void require_option(bool holds, std::string_view option, Number value, std::string_view rule) {
   static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>);
@@ -25,10 +24,10 @@ void require_option(bool holds, std::string_view option, Number value, std::stri
       std::string(option).append(" is ").append(digits.data(), end).append(", must be ").append(rule));
 }
 
-/// The longest length of a body, metres: no robot is larger, and all of it can be addressed in cells.
+/// Upper limit on the length of a body, metres. No robot is larger, and such a body is addressable in cells.
 inline constexpr double kLongestLengthM = 1000.0;
 
-/// Holds a length to [0, 1000] metres.
+/// Throws unless a length is in [0, 1000] metres.
 inline void require_length(double length_m, std::string_view option) {
   require_option(length_m >= 0.0 && length_m <= kLongestLengthM, option, length_m, "in [0, 1000]");
 }

@@ -88,7 +88,7 @@ void RayPlacer::place_ends(const std::array<RayBlock::PerRay<float>, 3>& directi
   });
 }
 
-// VoxelFrame::cell_of, without a branch.
+// The same as VoxelFrame::cell_of, without branches and without the clamp, because all ends are addressable.
 void RayPlacer::place_cells(RayBlock& block, InstructionSet set) const {
   compiled_for(set, [&] {
     for (std::size_t axis = 0; axis < 3; ++axis) {

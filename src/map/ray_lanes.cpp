@@ -12,7 +12,8 @@ void mark(std::uint64_t* plane, std::int64_t position) {
   plane[position >> 6] |= std::uint64_t{1} << (position & 63);
 }
 
-// One lane after the other: the definition of the vectorised walks below, and what runs where there is neither.
+// Walks one lane after the other. This is the reference for the vectorised versions below, and the fallback without
+// them.
 void walk_baseline(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane) {
   const auto [mask_x, mask_y, mask_z] = lanes.mask;
   for (std::size_t lane = 0; lane < RayLanes::kLanes; ++lane) {
@@ -94,7 +95,7 @@ VANTAGE_TARGET_AVX2 void store(std::int64_t* four, __m256i vector) {
   _mm256_store_si256(reinterpret_cast<__m256i*>(four), vector);
 }
 
-// Four lanes at a time, which is what the registers hold.
+// Walks four lanes, the number that fits into a register.
 VANTAGE_TARGET_AVX2 void walk_avx2(RayLanes& lanes, std::int64_t steps, std::uint64_t* plane, std::size_t first) {
   __m256i x = load(&lanes.next[0][first]);
   __m256i y = load(&lanes.next[1][first]);

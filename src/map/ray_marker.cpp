@@ -27,7 +27,7 @@ void RayMarker::park(std::size_t lane) {
   left_[lane] = kNoRay;
 }
 
-// None if no cell of the part lies in the window.
+// nullopt if no cell of the part lies in the window.
 std::optional<RayMarker::Part> RayMarker::within_window(const DrawnRay& ray, const Crossings& faces,
                                                         Part part) const {
   const VoxelBox& window = marks_.window();
@@ -38,8 +38,10 @@ std::optional<RayMarker::Part> RayMarker::within_window(const DrawnRay& ray, con
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool up = last[axis] > first[axis];
     const std::int64_t all = std::abs(last[axis] - first[axis]);
-    const std::int64_t into = up ? lo[axis] - first[axis] : first[axis] - hi[axis] + 1;  // faces before the window
-    const std::int64_t out = up ? hi[axis] - first[axis] : first[axis] - lo[axis] + 1;   // up to behind it
+    // faces crossed before the window
+    const std::int64_t into = up ? lo[axis] - first[axis] : first[axis] - hi[axis] + 1;
+    // faces crossed up to leaving the window
+    const std::int64_t out = up ? hi[axis] - first[axis] : first[axis] - lo[axis] + 1;
     if (into > all || out <= 0) {
       return std::nullopt;
     }
@@ -82,7 +84,7 @@ void RayMarker::start(std::size_t lane, const DrawnRay& ray) {
   }
   lanes_.base[lane] = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // The last of them included.
+    // Number of faces crossed up to and including this crossing.
     const auto crossed_by = [&](const Crossing& one) {
       return one.time < 0 ? 0 : faces[axis].crossed_by(one.time - (axis > one.axis ? 1 : 0));
     };

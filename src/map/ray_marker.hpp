@@ -14,19 +14,18 @@ namespace vantage {
 struct DrawnRay {
   Eigen::Vector3d end;
   VoxelIndex last;                ///< cell of the end
-  std::size_t axis = 0;           ///< along which faces are counted
-  std::int64_t faces_before = 0;  ///< how many faces across `axis` it crosses before the part that is drawn
+  std::size_t axis = 0;           ///< axis of `faces_before`
+  std::int64_t faces_before = 0;  ///< the part to draw starts after this number of faces across `axis`
 };
 
-/// Marks the cells of rays from one origin, many at a time.
+/// Marks the cells of rays from one origin, several rays in parallel.
 class RayMarker {
  public:
   RayMarker(const VoxelFrame& frame, const Eigen::Vector3d& origin, ScanMarks& marks);
 
-  /// Marks as passed the cells of rays, up to and without those of their ends. `next(lane, ray)` puts the next ray of
-  /// a lane into `ray`, or returns false if that has no more. Rays that follow each other in a lane may be
-  /// neighbours; rays of different lanes should not be: those that mark the same words at the same time wait for each
-  /// other.
+  /// Marks the cells passed by rays, without their end cells, as passed. `next(lane, ray)` stores the next ray of a
+  /// lane in `ray`, or returns false if there is none. Successive rays of a lane may be neighbours. Rays of different
+  /// lanes should be apart, because lanes that write the same word at the same time slow each other down.
   template <class Next>
   void mark(Next&& next) {
     DrawnRay ray;
@@ -60,7 +59,7 @@ class RayMarker {
   void start(std::size_t lane, const DrawnRay& ray);
   void mark_far(const DrawnRay& ray);
 
-  // The crossing of a face; of those at the same time, that across the lower axis comes first.
+  // The crossing of a face. Crossings at equal times are ordered by axis.
   struct Crossing {
     std::int64_t time = -1;
     std::size_t axis = 0;
@@ -69,7 +68,7 @@ class RayMarker {
     }
     friend bool operator<=(const Crossing& a, const Crossing& b) { return !(b < a); }
   };
-  // The part of a ray that is drawn: the cells after one crossing and up to another.
+  // The part of a ray to draw: the cells after crossing `enters` and before crossing `leaves`.
   struct Part {
     Crossing enters;
     std::optional<Crossing> leaves;
@@ -83,7 +82,7 @@ class RayMarker {
   bool starts_in_window_;
   ScanMarks& marks_;
   RayLanes lanes_;
-  std::array<std::int64_t, RayLanes::kLanes> left_{};  // steps to the end of the lane's ray
+  std::array<std::int64_t, RayLanes::kLanes> left_{};  // remaining steps of the ray in each lane
 };
 
 }  // namespace vantage

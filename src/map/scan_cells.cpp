@@ -19,7 +19,7 @@ class Walker {
       cells_.hit.insert(map_.frame().cell_of(end));
     }
   }
-  // As OctoMap: the cell in which the ray ends without a return is left alone.
+  // As in OctoMap, the end cell of a ray without a return is not cleared.
   void clear_before(const Eigen::Vector3d& end, bool is_return = false) {
     const VoxelIndex last = map_.frame().cell_of(end);
     const VoxelRay ray(map_.frame(), origin_, end);
@@ -38,7 +38,7 @@ class Walker {
       });
     }
   }
-  // After all rays: what does not count as passed.
+  // Called after all rays: removes the cells that do not count as passed.
   void spare_grazed_and_hit() {
     std::erase_if(cells_.cleared, [&](const VoxelIndex& cell) {
       return cells_.hit.contains(cell) || grazed_.contains(cell) ||

@@ -31,7 +31,7 @@ std::size_t ScanLog::correct(std::span<const Pose> world_from_sensor) {
     return 0;
   }
   auto again = std::make_unique<OccupancyMap>(
-      map_->options());  // clamping forgets, so what a scan did cannot be taken back from the map
+      map_->options());  // a scan cannot be removed from a map, because clamping loses information
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     scans_[i].world_from_sensor = world_from_sensor[i];
     again->insert(scans_[i], policy_);

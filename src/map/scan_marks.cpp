@@ -8,20 +8,21 @@
 namespace vantage {
 namespace {
 
-// Bits that hold the numbers below `count`.
+// Number of bits for integers below `count`.
 unsigned bits_for(std::int32_t count) {
   return static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(count - 1)));
 }
 
-// The bits that stand for coordinates from `first` to `last` among those of the four of a word, `stride` bits for
-// each.
+// Bit mask of the coordinates first..last, clipped to the four coordinates of a word, with `stride` bits per
+// coordinate.
 std::uint64_t bits_within(std::int32_t first, std::int32_t last, std::int32_t stride) {
   const std::uint64_t below_end =
       last >= 3 && stride == 16 ? 0 : std::uint64_t{1} << (std::min(last, 3) + 1) * stride;
   return below_end - (std::uint64_t{1} << std::max(first, 0) * stride);
 }
 
-// The bricks of `cells`; if they hold too many cells, those within the largest distance of `origin` that does not.
+// The bricks of `cells`. If they have too many cells, a smaller box of bricks around `origin`: the half extent is
+// halved until it fits.
 VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
   const VoxelBox all{Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   const VoxelIndex centre = Brick::of_cell(origin);
@@ -64,7 +65,7 @@ ScanMarks ScanMarks::clipped_to(const VoxelBox& clip, const VoxelIndex& origin) 
   return marks;
 }
 
-// Not a vector: pages of calloc that no ray touches are never written.
+// calloc instead of a vector: the system provides zeroed pages lazily, so untouched pages cost nothing.
 ScanMarks::Plane ScanMarks::zeros(std::size_t words) {
   Plane plane(static_cast<std::uint64_t*>(std::calloc(std::max<std::size_t>(words, 1), sizeof(std::uint64_t))));
   if (plane == nullptr) {
@@ -109,7 +110,8 @@ void ScanMarks::unmark_passed(const VoxelIndex& cell) {
 }
 
 BrickMarks* ScanMarks::far_brick(const VoxelIndex& brick) {
-  if (last_far_ == nullptr || brick != last_far_->address) {  // a ray stays in a brick for some steps
+  // the brick of the last call is cached, because a ray stays in a brick for some steps
+  if (last_far_ == nullptr || brick != last_far_->address) {
     BrickDirectory::Number number = far_numbers_.find(brick);
     if (number == BrickDirectory::kNone) {
       if (far_.size() == kMaxFarBricks) {

@@ -13,42 +13,41 @@
 
 namespace vantage {
 
-/// One bit per cell: which cells of a brick the rays of a scan pass, and in which they end. Words as in Brick.
+/// Marks of one brick: the cells that rays pass, and the cells in which they end. Words as in Brick.
 struct BrickMarks {
   std::array<std::uint64_t, Brick::kWords> passed{};
   std::array<std::uint64_t, Brick::kWords> hit{};
 };
 
 /// The cells that a scan touches, as bit planes in the layout of bricks: a dense window around the scan, and a sparse
-/// directory for what a few far rays touch outside of it.
+/// directory for what few far rays touch outside it.
 ///
-/// The position of a cell of the window, word * 64 + bit, is the sum of one part for each axis, and the parts have no
-/// bits in common: rows and columns of bricks are padded to powers of two.
+/// The position of a cell in the window, word * 64 + bit, is the sum of one part per axis. The parts share no bits,
+/// because rows and columns of bricks are padded to powers of two.
 class ScanMarks {
  public:
-  /// The largest window, in cells: one plane of it takes 128 MiB of address space, of which only what is touched
-  /// counts.
+  /// Largest window, in cells. One plane then takes 128 MiB of address space; only touched pages use memory.
   static constexpr std::size_t kMaxWindow = std::size_t{1} << 30U;
-  /// The most bricks outside of the window; marks in further ones are dropped and counted.
+  /// Largest number of bricks outside the window. Marks in further bricks are dropped and counted.
   static constexpr std::size_t kMaxFarBricks = std::size_t{1} << 21U;
 
-  /// A window over `cells`, or as much of it around `origin` as may be.
+  /// Creates a window over `cells`, or over as much of it around `origin` as kMaxWindow allows.
   ScanMarks(const VoxelBox& cells, const VoxelIndex& origin);
-  /// For the cells of `clip` alone, not empty: marks anywhere else are none.
+  /// Creates marks for the cells of `clip` only, which must not be empty. Other cells are ignored.
   [[nodiscard]] static ScanMarks clipped_to(const VoxelBox& clip, const VoxelIndex& origin);
 
   /// The cells of the window.
   [[nodiscard]] const VoxelBox& window() const { return window_; }
   [[nodiscard]] bool in_window(const VoxelIndex& cell) const { return window_.contains(cell); }
-  /// Whether the window holds every cell that is marked.
+  /// Whether the window holds every cell that may be marked, without a clip.
   [[nodiscard]] bool holds_all() const { return holds_all_ && !clip_; }
-  /// Whether it holds every cell that is marked and not left out.
+  /// Whether the marks are clipped and the window holds all of the clip.
   [[nodiscard]] bool holds_clip() const { return holds_all_ && clip_; }
-  /// Whether marks of this cell are none.
+  /// Whether marks of this cell are ignored.
   [[nodiscard]] bool leaves_out(const VoxelIndex& cell) const { return clip_ && !clip_->contains(cell); }
-  /// How many marks found no room.
+  /// The number of marks dropped for lack of space.
   [[nodiscard]] std::size_t dropped() const { return dropped_; }
-  /// The part of the position that stands for a coordinate of a cell of the window.
+  /// The part of a position that stands for a coordinate of a cell in the window.
   [[nodiscard]] std::uint64_t part(std::size_t axis, std::int32_t coordinate) const {
     const std::array<std::int32_t, 3> lo{window_.lo.x, window_.lo.y, window_.lo.z};
     const auto at = static_cast<std::uint64_t>(coordinate - lo[axis]);
@@ -63,18 +62,18 @@ class ScanMarks {
   [[nodiscard]] std::uint64_t position_of(const VoxelIndex& cell) const {
     return part(0, cell.x) | part(1, cell.y) | part(2, cell.z);
   }
-  /// A position behind the window, for marks that nobody reads.
+  /// A position after the window, for marks that nobody reads.
   [[nodiscard]] std::uint64_t nowhere() const { return words_ * 64; }
   [[nodiscard]] std::uint64_t* passed() { return passed_.get(); }
   [[nodiscard]] std::uint64_t* hit() { return hit_.get(); }
 
-  /// Whether all cells of a box within the window, not empty, have marks of either kind.
+  /// Whether all cells of a box have a mark of either kind. The box must not be empty and must lie in the window.
   [[nodiscard]] bool all_marked(const VoxelBox& cells) const;
 
   void mark_passed(const VoxelIndex& cell) { mark(cell, passed_.get(), &BrickMarks::passed); }
-  /// Takes the mark back.
+  /// Removes the mark of a passed cell.
   void unmark_passed(const VoxelIndex& cell);
-  /// Whether rays end in the cell.
+  /// Whether a ray ends in the cell with a return.
   [[nodiscard]] bool is_hit(const VoxelIndex& cell) const {
     if (in_window(cell)) {
       const std::uint64_t position = position_of(cell);
@@ -84,11 +83,10 @@ class ScanMarks {
     const std::uint64_t offset = Brick::offset_of(cell);
     return number != BrickDirectory::kNone && (far_[number].marks.hit[offset >> 6U] >> (offset & 63U) & 1U) != 0;
   }
-  /// Whether the mark is new.
+  /// Marks a hit cell. Returns whether the mark is new.
   bool mark_hit(const VoxelIndex& cell) { return mark(cell, hit_.get(), &BrickMarks::hit); }
 
-  /// Calls `visit(brick address, passed words, hit words)` for each brick that holds a mark, always in the same
-  /// order.
+  /// Calls `visit(brick address, passed words, hit words)` for each brick with a mark, in a deterministic order.
   template <class Visit>
   void for_each_marked_brick(Visit&& visit) const {
     for_each_cell(bricks_, [&](const VoxelIndex& brick) {
@@ -119,7 +117,7 @@ class ScanMarks {
   using Plane = std::unique_ptr<std::uint64_t[], Free>;
 
   static Plane zeros(std::size_t words);
-  // Null where there is no room for it.
+  // Null if there is no space for another brick.
   BrickMarks* far_brick(const VoxelIndex& brick);
   bool mark(const VoxelIndex& cell, std::uint64_t* plane,
             std::array<std::uint64_t, Brick::kWords> BrickMarks::*far_plane) {
@@ -142,7 +140,7 @@ class ScanMarks {
   bool holds_all_;
   std::optional<VoxelBox> clip_;
   std::size_t dropped_ = 0;
-  std::array<unsigned, 3> shift_{};  // of the brick's coordinate in a position
+  std::array<unsigned, 3> shift_{};  // position of the first bit of each axis's brick coordinate
   std::size_t words_ = 0;
   Plane passed_;
   Plane hit_;

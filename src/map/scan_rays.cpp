@@ -9,7 +9,7 @@ namespace {
 
 std::size_t divided_up(std::size_t count, std::size_t by) { return (count + by - 1) / by; }
 
-// Copies points to the rays of a block from `ray` on, every so manieth.
+// Copies every `stride`-th point to the rays of a block, starting at `ray`.
 void put(const Eigen::Vector3f* points, std::size_t count, std::size_t stride, std::size_t ray, RayBlock& block) {
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
   if (stride == 1) {
@@ -21,20 +21,21 @@ void put(const Eigen::Vector3f* points, std::size_t count, std::size_t stride, s
   }
 }
 
-// Rays that no scan has.
+// Fills unused rays of a block with NaN.
 void put_none(std::size_t first, std::size_t end, RayBlock& block) {
   std::fill(block.point.begin() + static_cast<std::ptrdiff_t>(3 * first),
             block.point.begin() + static_cast<std::ptrdiff_t>(3 * end), std::numeric_limits<float>::quiet_NaN());
 }
 
-// The rays `first`, ... of a list.
+// Fills a block with the rays of a list from `first` on.
 void gather(const std::vector<Eigen::Vector3f>& rays, std::size_t first, RayBlock& block) {
   const std::size_t count = std::min(rays.size() - first, RayBlock::kRays);
   put(rays.data() + first, count, 1, 0, block);
   put_none(count, RayBlock::kRays, block);
 }
 
-// The smallest and the largest coordinates of many blocks, without a dependency from ray to ray.
+// Bounding box of the ends of many blocks. It keeps one bound per ray position, so there is no dependency between the
+// rays of a block.
 class Bounds {
  public:
   explicit Bounds(const Eigen::Vector3d& start) {
@@ -85,7 +86,7 @@ ScanRays::ScanRays(const Scan& scan, const VoxelFrame& frame)
     bounds.add(block);
     count(block);
   }
-  // What fills the blocks up is not finite, and no ray of the scan.
+  // The NaN rays that fill incomplete blocks were counted too.
   report_.not_finite -= all * RayBlock::kRays - scan.points.size() - scan.no_return.size();
   if (!empty()) {
     cells_ = bounds.cells(frame);

@@ -8,29 +8,29 @@
 
 namespace vantage {
 
-/// The rays of a scan, put into the world block by block, as often as asked: cheaper than keeping them.
+/// The rays of a scan in the world frame. Blocks are recomputed on each request, which is cheaper than storing them.
 class ScanRays {
  public:
-  /// Counts the rays by their fate. Throws std::invalid_argument if the pose is not rigid or the range is not
-  /// positive. `scan` must live as long as this.
+  /// Classifies and counts the rays. Throws std::invalid_argument if the pose is not rigid or the range is not
+  /// positive. `scan` must outlive this object.
   ScanRays(const Scan& scan, const VoxelFrame& frame);
 
-  /// Where all rays start.
+  /// The common start of all rays.
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
-  /// What became of the rays; the cells are not counted yet.
+  /// Ray counts; the cell counts are not set yet.
   [[nodiscard]] const ScanReport& report() const { return report_; }
-  /// Whether no ray is drawn.
+  /// Whether no ray is usable.
   [[nodiscard]] bool empty() const { return report_.hits + report_.beyond_range + report_.no_return == 0; }
-  /// Holds the cells of the origin and of all ends; empty if no ray is drawn.
+  /// Bounding box of the cells of the origin and of all ends; empty if no ray is usable.
   [[nodiscard]] const VoxelBox& cells() const { return cells_; }
 
-  /// How many blocks hold all rays.
+  /// The number of blocks of all rays.
   [[nodiscard]] std::size_t blocks() const { return point_blocks_ + blocks_of_directions(); }
-  /// Whether the first `blocks_of_points(1)` blocks are squares of 8 x 8 pixels of a depth image.
+  /// Whether the first `blocks_of_points(1)` blocks are tiles of 8 x 8 pixels of a depth image.
   [[nodiscard]] bool are_tiles() const { return scan_.organised(); }
-  /// How many blocks hold the points; with a stride, of a depth image, those of every so manieth row and column.
+  /// The number of blocks of returns. With a stride, only every stride-th row and column of the depth image is used.
   [[nodiscard]] std::size_t blocks_of_points(std::size_t stride) const;
-  /// One block: those of the points come first. With a stride above 1 there are no others.
+  /// Computes one block. Blocks of returns come first; with a stride above 1 there are no others.
   void block(std::size_t number, std::size_t stride, RayBlock& block) const {
     place(number, stride, block);
     placer_.place_cells(block);

@@ -7,7 +7,8 @@
 
 namespace vantage {
 
-/// The pose of a scan as numbers, with one order of rounding for insertion and its definition.
+/// The pose of a scan as plain numbers. Insertion and its reference implementation share its order of operations, so
+/// both round in the same way.
 struct SensorFrame {
   explicit SensorFrame(const Pose& world_from_sensor) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -17,16 +18,16 @@ struct SensorFrame {
     }
   }
 
-  /// A coordinate in the world of a direction in the sensor frame.
+  /// World coordinate `axis` of a direction in the sensor frame.
   [[nodiscard]] double rotated(std::size_t axis, double x, double y, double z) const {
     return rotation[axis][0] * x + (rotation[axis][1] * y + rotation[axis][2] * z);
   }
-  /// A coordinate in the world of a point in the sensor frame.
+  /// World coordinate `axis` of a point in the sensor frame.
   [[nodiscard]] double world(std::size_t axis, double x, double y, double z) const {
     return rotated(axis, x, y, z) + translation[axis];
   }
-  /// The square of the distance of a point from the sensor. Of a finite point in float it is finite, and zero only
-  /// there.
+  /// Squared distance of a point in the sensor frame from the sensor. For a finite single-precision point it is
+  /// finite, and zero only at the sensor.
   [[nodiscard]] static double squared(double x, double y, double z) { return x * x + (y * y + z * z); }
 
   std::array<std::array<double, 3>, 3> rotation{};

@@ -11,7 +11,7 @@ namespace {
 using Doubles = RayBlock::PerRay<double>;
 constexpr std::size_t kRays = RayBlock::kRays;
 
-// In cells: what the walk along a ray rounds is far less, for rays of up to kMostSlices.
+// Margin in cells. The rounding error along a ray of up to kMostSlices slices is much smaller.
 constexpr double kMargin = 1e-3;
 constexpr double kMostSlices = 1 << 16;
 constexpr double kSteepest = 2.0;
@@ -21,7 +21,7 @@ struct Range {
   double hi;
 };
 
-// Without a dependency from value to value.
+// Smallest of `a` and largest of `b`, without dependencies between successive values.
 Range range_of(const Doubles& a, const Doubles& b) {
   std::array<double, 8> lo;
   std::array<double, 8> hi;
@@ -38,7 +38,8 @@ Range range_of(const Doubles& a, const Doubles& b) {
 
 double along(const VoxelIndex& cell, std::size_t axis) { return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z; }
 
-// The rays of a block as lines over the distance along their major axis, in cells from their origin.
+// The rays of a block as lines: lateral position as a function of the distance along the major axis, in cells from
+// the origin.
 template <std::size_t kMajor>
 class TileBeam {
  public:
@@ -70,7 +71,7 @@ class TileBeam {
     }
   }
 
-  // Those which cross so many faces along the major axis.
+  // The rays that cross at least this many faces along the major axis.
   [[nodiscard]] std::uint64_t rays_with_faces(double faces) const {
     std::uint64_t rays = 0;
     for (std::size_t i = 0; i < kRays; ++i) {
@@ -79,7 +80,7 @@ class TileBeam {
     return rays;
   }
 
-  // How many slices the rays pass together or end in, in which all cells between them have marks.
+  // Number of leading slices in which every cell between the rays already has a mark.
   [[nodiscard]] std::int64_t marked_slices() const {
     const auto [least, most] = range_of(faces_, faces_);
     const Range shortest = range_of(length_, length_);
@@ -114,12 +115,12 @@ class TileBeam {
  private:
   static constexpr std::array<std::size_t, 2> kSides{(kMajor + 1) % 3, (kMajor + 2) % 3};
 
-  // Along the major axis, from where a slice begins.
+  // Distance along the major axis at which a slice begins.
   [[nodiscard]] double start_of(std::int64_t slice) const {
     return slice == 0 ? 0.0 : to_face_ + static_cast<double>(slice - 1);
   }
 
-  // How many slices, from this one on, lie in the same words of the marks.
+  // Number of slices, from this one on, that lie in the same words of the marks.
   [[nodiscard]] std::int64_t slices_in_word(std::int64_t slice) const {
     const std::int32_t at = cell_at(slice) & 3;  // windows start at a brick
     return up_ ? 4 - at : at + 1;
@@ -129,7 +130,7 @@ class TileBeam {
     return first_ + (up_ ? steps : -steps);
   }
 
-  // Where the rays are within slices that all of them leave.
+  // Lateral range of the rays in slices that all of them cross completely.
   [[nodiscard]] Range between(std::size_t side, std::int64_t slice, std::int64_t end) const {
     const double enter = start_of(slice);
     const double leave = start_of(end);
@@ -137,7 +138,7 @@ class TileBeam {
             std::max(slopes_[side].hi * enter, slopes_[side].hi * leave)};
   }
 
-  // Where the rays are within a slice before which some of them end, and in which some may.
+  // Lateral range of the rays in a slice, if some rays end before it or in it.
   [[nodiscard]] Range ending(std::size_t side, std::int64_t slice) const {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     const double start = start_of(slice);
@@ -156,7 +157,7 @@ class TileBeam {
     return range_of(lo, hi);
   }
 
-  // Whether all cells of the slices up to `end` that the rays may pass have marks.
+  // Whether all cells that the rays may pass in the slices [slice, end) have marks.
   [[nodiscard]] bool is_marked(std::int64_t slice, std::int64_t end, const std::array<Range, 2>& at) const {
     std::array<std::int32_t, 3> lo{};
     std::array<std::int32_t, 3> hi{};
@@ -177,17 +178,17 @@ class TileBeam {
   const ScanMarks& marks_;
   bool up_ = true;
   std::int32_t first_ = 0;  // cell of the origin along the major axis
-  double to_face_ = 0.0;    // from the origin to the first face across it
-  Doubles length_;          // along the major axis
-  Doubles faces_;           // crossed across it
+  double to_face_ = 0.0;    // distance from the origin to the first face across the major axis
+  Doubles length_;          // lengths of the rays along the major axis
+  Doubles faces_;           // number of faces each ray crosses across the major axis
   std::array<Doubles, 2> slope_;
   std::array<Range, 2> slopes_{};
-  std::array<double, 2> offset_{};  // of the origin in the window
+  std::array<double, 2> offset_{};  // position of the origin in the window
   std::array<double, 2> extent_{};
   std::array<std::int32_t, 2> lo_{};
 };
 
-// The axis along which a ray goes furthest.
+// The axis along which a ray is longest.
 std::size_t major_axis(const RayBlock& block, std::size_t ray, const Eigen::Vector3d& origin) {
   std::size_t major = 0;
   double furthest = -1.0;

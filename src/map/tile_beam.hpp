@@ -7,17 +7,16 @@
 
 namespace vantage {
 
-/// What of a block of rays may still pass cells without a mark: of the rays whose bits are set in `rays`, what comes
-/// after `faces_before` faces across `axis`.
+/// The part of a block of rays that may still pass unmarked cells: the rays selected by `rays`, each from its
+/// `faces_before`-th face across `axis` on.
 struct UndrawnPart {
   std::uint64_t rays = 0;
   std::size_t axis = 0;
   std::int64_t faces_before = 0;
 };
 
-/// Follows the rays of a block whose bits are set in `usable`, at least one, slice by slice of cells while all the
-/// cells between them have marks. Of rays that diverge much, everything is called undrawn. `block` keeps its usable
-/// rays.
+/// Follows the `usable` rays of a block (at least one) slice by slice, while all cells between them have marks. If
+/// the rays diverge too much, the result is all of them in full. Only unusable rays of `block` are changed.
 [[nodiscard]] UndrawnPart undrawn_part(RayBlock& block, std::uint64_t usable, const Eigen::Vector3d& origin,
                                        const VoxelFrame& frame, const ScanMarks& marks);
 

@@ -18,7 +18,7 @@ struct BeamSteps {
 
 namespace detail {
 
-// Byte b of entry m is all ones where bit b of m is set.
+// Byte b of entry m is 0xFF if bit b of m is set, otherwise 0.
 consteval std::array<std::uint64_t, 256> bytes_of_bits() {
   std::array<std::uint64_t, 256> table{};
   for (std::size_t mask = 0; mask < 256; ++mask) {
@@ -32,8 +32,8 @@ inline constexpr std::array<std::uint64_t, 256> kBytesOfBits = bytes_of_bits();
 
 }  // namespace detail
 
-/// Adds one measurement to the 64 log-odds at `log_odds`, clamped: `beam.hit` where `hit` has a bit, `beam.miss`
-/// where `passed` has one (no cell may have both). Returns the plane of the log-odds that are now >= 0.
+/// Updates the 64 log-odds at `log_odds`: adds `beam.hit` where `hit` has a bit and `beam.miss` where `passed` has
+/// one, and clamps. No cell may have both bits. Returns the mask of cells whose log-odds are now >= 0.
 inline std::uint64_t update_word(std::int8_t* log_odds, std::uint64_t hit, std::uint64_t passed,
                                  const BeamSteps& beam) {
   constexpr std::uint64_t kOnes = 0x0101010101010101ULL;

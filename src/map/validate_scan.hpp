@@ -8,8 +8,8 @@
 
 namespace vantage::detail {
 
-/// Throws std::invalid_argument naming the field if the pose is not rigid or the range is not positive: the one check
-/// that insertion and its definition share.
+/// Throws std::invalid_argument, which names the field, if the pose is not rigid or the range is not positive. Shared
+/// by insertion and its reference implementation.
 inline void validate(const Scan& scan) {
   if (!is_rigid(scan.world_from_sensor)) {
     throw std::invalid_argument(

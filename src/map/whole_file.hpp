@@ -12,16 +12,16 @@
 #include <system_error>
 #include <utility>
 
-// In a header, as every library writes by it and shows nothing of its own to another.
+// Header-only, because every component writes files with it and exports no symbols for it.
 namespace vantage::detail {
 
-// Where the bytes of a file go first.
+// Where the bytes of a file are written.
 struct WritePlace {
   std::filesystem::path opened;
-  std::filesystem::path renamed;  // empty: written to as it is
+  std::filesystem::path renamed;  // final name; empty if the file is written in place
 };
 
-// A link is followed, so that it stays one.
+// Follows a symbolic link, so that the link itself is kept.
 inline WritePlace write_place_of(const std::filesystem::path& path) {
   std::error_code none;
   const bool is_link = std::filesystem::is_symlink(path, none);
@@ -46,7 +46,7 @@ class WholeFile {
   WholeFile(WholeFile&&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
   WholeFile& operator=(WholeFile&&) = delete;
-  // What was not finished goes.
+  // Removes an unfinished file.
   ~WholeFile() {
     if (file_ >= 0) {
       ::close(file_);
@@ -87,16 +87,16 @@ class WholeFile {
   bool finished_ = false;
 };
 
-/// Writes a file so that its name holds all of `bytes` or what it held before: they go to NAME.part, which takes the
-/// name once it is whole. A device or a pipe is written to as it is. Throws std::runtime_error with the path and the
-/// system's reason; then there is no NAME.part.
+/// Writes a file atomically: its name holds either all of `bytes` or the old content. The bytes are written to
+/// NAME.part, which is then renamed. Devices and pipes are written in place. Throws std::runtime_error with the path
+/// and the system's reason; NAME.part is then removed.
 inline void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
   WholeFile file(path, write_place_of(path));
   file.write(bytes);
   file.finish();
 }
 
-/// Whether such a file could be begun: throws as `write_whole_file` does. Leaves nothing behind.
+/// Tests whether a file could be written; throws as `write_whole_file`. Leaves no file behind.
 inline void try_whole_file(const std::filesystem::path& path) { WholeFile(path, write_place_of(path)); }
 
 }  // namespace vantage::detail

@@ -14,7 +14,7 @@ bool any_in(const WindowPatch& patch, const WindowRows& rows) {
   return any != 0;
 }
 
-// In which slices there is any of these cells: a bit for each.
+// A bit for each slice that holds any of these cells inside the patch.
 std::uint32_t slices_with(const WindowPatch& patch, const WindowCells& cells) {
   std::uint32_t slices = 0;
   for (std::size_t slice = 0; slice < cells.size(); ++slice) {

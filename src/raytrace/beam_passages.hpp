@@ -10,34 +10,37 @@
 
 namespace vantage {
 
-/// The windows on the way of a beam in which something may stop a ray, in the order of the walk.
+/// The passages of a beam (glossary in view_walk.hpp): the windows along its way in which a cell may stop a ray, in
+/// the order of the walk. They are recorded once for a group of tiles, and then restricted to the beam of one tile
+/// after the other.
 class BeamPassages {
  public:
-  static constexpr std::size_t kMost = 16;  ///< passages
+  static constexpr std::size_t kMost = 16;  ///< maximum number of passages
 
-  /// Some slices one after the other.
+  /// The windows of a few consecutive slices.
   struct Passage {
     SliceWindows windows;
-    alignas(64) WindowCells wanted{};  ///< cells that rays may meet, and are to be found
+    alignas(64) WindowCells wanted{};  ///< cells to find: rays may meet them, and no ray has met them yet
     SlicePlace place;
-    std::int64_t first = 0;  ///< slice
+    std::int64_t first = 0;  ///< first slice
   };
 
-  /// How many there are.
+  /// The number of passages.
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// One of them.
+  /// The passage with this index.
   [[nodiscard]] Passage& operator[](std::size_t i) { return passages_[i]; }
-  /// None from now on.
+  /// Removes all passages.
   void clear() { size_ = 0; }
-  /// One to be filled; there must be less than kMost.
+  /// The next passage, to be filled; size() must be less than kMost. `keep` adds it.
   [[nodiscard]] Passage& next() { return passages_[size_]; }
-  /// Takes that one over, of slices that the beams enter and leave so many cells from the origin.
+  /// Adds the passage filled through `next`, which was recorded for this beam.
   void keep(const SliceBeam& beam);
 
-  /// Turns to a beam that is a part of that of which they are.
+  /// Restricts the passages to a beam that is a part of the recorded beam: finds the columns and rows that it may
+  /// pass.
   void turn_to(const SliceBeam& beam, InstructionSet set);
-  /// Which slices of them it has to pass, a bit for each: those in which something may stop a ray and what is between
-  /// them, up to the last in which it may meet what is wanted. Four bits for each passage, so all in one word.
+  /// The slices that must be walked, a bit each, four bits per passage: those in which a cell may stop a ray of the
+  /// current beam, up to the last slice with a wanted cell. 0 if the beam can meet no wanted cell.
   [[nodiscard]] std::uint64_t to_pass(InstructionSet set) const;
 
  private:
@@ -46,11 +49,13 @@ class BeamPassages {
 
   std::size_t size_ = 0;
   PerPassage<Passage> passages_;
-  alignas(64) PerPassage<double> enters_{};  // how far from the origin beams do, in cells
+  // distance from the origin, in cells along the major axis, at which rays enter and leave
+  alignas(64) PerPassage<double> enters_{};
   alignas(64) PerPassage<double> leaves_{};
-  alignas(64) PerPassage<double> from_u_{};  // where the origin is in the windows
+  alignas(64) PerPassage<double> from_u_{};  // position of the origin in the coordinates of the window
   alignas(64) PerPassage<double> from_v_{};
-  alignas(64) PerPassage<std::uint32_t> columns_{};  // that the beam passes
+  // bit mask of the columns, and below of the rows, that the current beam may pass
+  alignas(64) PerPassage<std::uint32_t> columns_{};
   alignas(64) PerPassage<std::uint32_t> rows_{};
 };
 

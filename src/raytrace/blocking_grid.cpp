@@ -10,10 +10,10 @@
 namespace vantage {
 namespace {
 
-// A table of this many pages takes 1 GiB; it is for 2^42 cells.
+// Pointers to this many pages take 1 GiB and cover 2^42 cells.
 constexpr std::size_t kMaxTable = std::size_t{1} << 27U;
 
-// State of the cube of `edge` cells at `from` in a brick, as OccupancyMap::at gives it for a coarser level.
+// State of the coarse cell that covers the cube of `edge` cells at `from` in a brick, as OccupancyMap::at defines it.
 Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::int32_t edge, CoarseningPolicy policy) {
   int known = 0;
   int sum = 0;
@@ -37,12 +37,13 @@ void prefetch_planes(const Brick& brick) {
   detail::prefetch(brick.occupied.data());
 }
 
-// Rows of words along x, as bits, of a page and kFurthest words around it; rows of a plane side by side.
+// The rows of a page and of the kFurthest words around it, one bit per word along x. The rows of a plane are stored
+// side by side.
 constexpr std::size_t kSpan = 24;
-constexpr std::size_t kFirstRow = 8;  // row, and plane, of the page
+constexpr std::size_t kFirstRow = 8;  // index of the page's first row in a plane, and of its first plane
 using Rows = std::array<std::uint32_t, kSpan * kSpan>;
 
-// From the rows of 27 pages, those of lower z, then of lower y, then of lower x first.
+// Collects the rows of 27 pages. The pages are sorted by z, then y, then x.
 inline void gather(const std::array<const std::array<std::uint8_t, 64>*, 27>& pages, Rows& rows) {
   for (std::size_t side = 0; side < 9; ++side) {
     const std::uint8_t* const low = pages[3 * side]->data();
@@ -59,7 +60,8 @@ inline void gather(const std::array<const std::array<std::uint8_t, 64>*, 27>& pa
   }
 }
 
-// Leaves the bits all of whose 26 neighbours are set, in the planes [from, to); bits at the rim lose their meaning.
+// Erosion: in the planes [from, to), keeps the bits whose 26 neighbours are all set. Bits at the border become
+// invalid.
 inline void erode(Rows& rows, std::size_t from, std::size_t to) {
   Rows in_plane;
   VANTAGE_INDEPENDENT
@@ -73,7 +75,7 @@ inline void erode(Rows& rows, std::size_t from, std::size_t to) {
   }
 }
 
-// Bit x of byte k becomes bit k of byte x.
+// Transposes 8 x 8 bits: bit x of byte k becomes bit k of byte x.
 inline std::uint64_t transposed(std::uint64_t bits) {
   std::uint64_t moves = (bits ^ bits >> 7U) & 0x00AA00AA00AA00AAU;
   bits ^= moves ^ moves << 7U;
@@ -83,20 +85,20 @@ inline std::uint64_t transposed(std::uint64_t bits) {
   return bits ^ moves ^ moves << 28U;
 }
 
-// How many bits of every byte are set.
+// The number of set bits of each byte.
 inline std::uint64_t bits_of_bytes(std::uint64_t bytes) {
   bytes -= bytes >> 1U & 0x5555555555555555U;
   bytes = (bytes & 0x3333333333333333U) + (bytes >> 2U & 0x3333333333333333U);
   return (bytes + (bytes >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
 }
 
-// A bit for every byte that is not zero; bytes are at most 15.
+// A bit for every byte that is not zero. Bytes must be at most 15.
 inline std::uint8_t bytes_set(std::uint64_t bytes) {
   const std::uint64_t tops = (bytes + 0x7F7F7F7F7F7F7F7FU) & 0x8080808080808080U;
   return static_cast<std::uint8_t>((tops >> 7U) * 0x0102040810204080U >> 56U);
 }
 
-// Whether any of these words of a page lies at its border to the page next to it on this side.
+// Whether any of these words of a page touches the adjacent page on this side.
 bool meet(const std::array<std::uint8_t, 64>& words, const VoxelIndex& side) {
   const auto first = [](std::int32_t along) { return along > 0 ? std::size_t{7} : std::size_t{0}; };
   const auto last = [](std::int32_t along) { return along < 0 ? std::size_t{0} : std::size_t{7}; };
@@ -116,7 +118,8 @@ std::size_t BlockingGrid::update(const OccupancyMap& map) {
     VoxelIndex address;
     const Brick* brick;
   };
-  // The mean of a coarser cell may change its sign while no finest cell changes its state.
+  // The mean of a coarse cell may change its sign although no finest cell changes its state, so all bricks are read
+  // again.
   const bool by_mean = level_ > 0 && policy_ == CoarseningPolicy::Mean && map.revision() != revision_;
   std::vector<Changed> changed;
   VoxelBox pages;
@@ -164,7 +167,7 @@ VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) const {
   return {lo, lo + VoxelIndex{words, words, words}};
 }
 
-// Lets the table hold these pages.
+// Enlarges the table so that it covers these pages. Throws std::length_error if it would become too large.
 void BlockingGrid::reach(const VoxelBox& pages) {
   const VoxelBox larger = pages.empty() ? pages_box_ : detail::box_around(pages_box_, pages);
   if (larger == pages_box_) {
@@ -200,7 +203,7 @@ void BlockingGrid::make_stale(Page& page) {
   }
 }
 
-// Takes note of whether a word stops nothing.
+// Records whether no cell of a word stops a ray.
 void BlockingGrid::set_free(Page& page, const VoxelIndex& word, bool is_free) {
   std::uint8_t& row = page.free_words[row_in_page(word)];
   const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(word.x & 7));
@@ -210,7 +213,7 @@ void BlockingGrid::set_free(Page& page, const VoxelIndex& word, bool is_free) {
   }
 }
 
-// The words of a brick lie in one page.
+// All words of a brick lie in the same page.
 void BlockingGrid::take_brick(const VoxelIndex& address, const Brick& brick) {
   const VoxelIndex first = words_of_brick(address).lo;
   Page& page = writable_page(page_address(first));
@@ -250,10 +253,11 @@ void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& addres
   });
 }
 
-// Between a word whose distance changes, as another one begins or ceases to stop rays, and that one lies a chain of
-// neighbours whose distances change too: so pages pass it on across their borders, and no other page is looked at.
+// If the distance of a word changes because another word starts or stops blocking rays, the distances of a chain of
+// neighbouring words between them change too. So changes spread from page to page across the borders, and no other
+// page needs a look.
 void BlockingGrid::refresh_distances() {
-  for (std::size_t i = 0; i < stale_.size(); ++i) {  // more may come meanwhile
+  for (std::size_t i = 0; i < stale_.size(); ++i) {  // the list may grow in the loop
     const VoxelIndex address = stale_[i]->address;
     const RowBits changed = find_distances(*stale_[i]);
     if (changed == RowBits{}) {
@@ -263,7 +267,7 @@ void BlockingGrid::refresh_distances() {
       const VoxelIndex beside = address + side;
       if (pages_box_.contains(beside) && meet(changed, side)) {
         Page* const page = table_[place_in_table(beside)];
-        if (page != &unseen_) {  // in which everything is at distance 0
+        if (page != &unseen_) {  // the distance there is 0 anyway
           make_stale(*page);
         }
       }
@@ -275,8 +279,9 @@ void BlockingGrid::refresh_distances() {
   stale_.clear();
 }
 
-// The k-th erosion of the free words leaves those with only free words less than k words away. Returns the words
-// whose distance has changed.
+// The k-th erosion of the free words keeps the words that have only free words within k words along every axis. The
+// distance of a word is the number of erosions, the 0th included, that keep it. Returns the words whose distance has
+// changed.
 BlockingGrid::RowBits BlockingGrid::find_distances(Page& page) const {
   std::array<const RowBits*, 27> around{};
   std::size_t next = 0;
@@ -286,10 +291,10 @@ BlockingGrid::RowBits BlockingGrid::find_distances(Page& page) const {
   compiled_for(best_instruction_set(), [&] {
     Rows rows;
     gather(around, rows);
-    std::array<std::uint64_t, kPageRows> survived{};  // byte k of a row: the bits that the k-th erosion leaves
+    std::array<std::uint64_t, kPageRows> survived{};  // byte k of a row: the words kept by the k-th erosion
     for (std::size_t k = 0; k < kFurthest; ++k) {
       if (k > 0) {
-        erode(rows, k, kSpan - k);  // what lies further out does not reach the page any more
+        erode(rows, k, kSpan - k);  // words further out no longer affect the page
       }
       std::uint32_t any = 0;
       for (std::size_t row = 0; row < kPageRows; ++row) {

@@ -11,50 +11,52 @@
 
 namespace vantage {
 
-/// The cells of a map in a form made for rays: bit planes in words of 4 x 4 x 4 cells (as the words of Brick), and
-/// for every word how far the nearest word is in which a cell stops a ray. A cell stops a ray unless it is known
-/// free.
+/// A copy of a map in a form made for ray casting: bit planes in words of 4 x 4 x 4 cells (the same layout as in
+/// Brick), and for every word the distance to the nearest word with a cell that stops a ray. A cell stops a ray
+/// unless it is known free.
 ///
-/// Pages of 8 x 8 x 8 words exist where the map has bricks; a dense table finds them. All that is unseen shares one
-/// page that stops everything.
+/// Words are stored in pages of 8 x 8 x 8. Pages exist only where the map has bricks; a dense table finds them. All
+/// unseen space shares one page, which stops every ray.
 class BlockingGrid {
   struct Page;
 
  public:
   class Reader;
 
-  /// No distance is larger: a page need only know its neighbours.
+  /// Upper limit of a distance. It equals the side of a page, so a page depends only on its 26 neighbours.
   static constexpr std::uint8_t kFurthest = 8;
 
-  /// Of the cells of 2^level finest cells an edge.
+  /// Creates an empty grid whose cells have an edge of 2^level finest cells.
   BlockingGrid(int level, CoarseningPolicy policy) : level_(level), policy_(policy) { unseen_.blocking.fill(~0ULL); }
   ~BlockingGrid() = default;
-  BlockingGrid(BlockingGrid&&) = delete;  // the table points into it
+  BlockingGrid(BlockingGrid&&) = delete;  // the table points into the grid
   BlockingGrid& operator=(BlockingGrid&&) = delete;
   BlockingGrid(const BlockingGrid&) = delete;
   BlockingGrid& operator=(const BlockingGrid&) = delete;
 
-  /// Takes over what changed in the map since the last call. Returns how many of its bricks changed.
+  /// Applies the changes of the map since the last call. Returns the number of bricks that were read. Throws
+  /// std::length_error if the known cells are too far apart.
   std::size_t update(const OccupancyMap& map);
 
-  /// As RayCaster::suppose.
+  /// See RayCaster::suppose.
   void suppose(const CellSet& stopping);
 
-  /// The word that holds a cell.
+  /// The address of the word that holds a cell.
   [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
   /// The bit of a cell in its word.
   [[nodiscard]] static std::uint64_t bit_of(const VoxelIndex& cell) {
     return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
   }
-  /// Which cells of a word stop a ray.
+  /// The cells of a word that stop rays.
   [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) const {
     return page_of(word).blocking[offset_in_page(word)];
   }
-  /// Which cells of a word are occupied.
+  /// The occupied cells of a word.
   [[nodiscard]] std::uint64_t occupied(const VoxelIndex& word) const {
     return page_of(word).occupied[offset_in_page(word)];
   }
-  /// All words less than this many words away along every axis stop nothing; 0: this one stops something.
+  /// Distance d of a word, in words: no word less than d words away, along every axis, stops a ray. 0 if this word
+  /// does.
   [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) const { return page_of(word).distance_of(word); }
   /// State of a cell.
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
@@ -64,25 +66,25 @@ class BlockingGrid {
     }
     return (occupied(word) & bit_of(cell)) != 0 ? Occupancy::Occupied : Occupancy::Unknown;
   }
-  /// Bytes held.
+  /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
     return table_.size() * sizeof(void*) + pages_.size() * sizeof(Page);
   }
 
  private:
-  static constexpr std::int32_t kPageSide = 8;  // words
+  static constexpr std::int32_t kPageSide = 8;  // words along an edge
   static constexpr std::size_t kPageWords = 512;
-  static constexpr std::size_t kPageRows = 64;  // of words along x
+  static constexpr std::size_t kPageRows = 64;  // rows of words along x
 
   using RowBits = std::array<std::uint8_t, kPageRows>;  // a bit for every word of a row
 
   struct Page {
-    std::array<std::uint64_t, kPageWords> blocking{};  // brick by brick, as offset_in_page
+    std::array<std::uint64_t, kPageWords> blocking{};  // indexed by offset_in_page
     std::array<std::uint64_t, kPageWords> occupied{};
-    std::array<std::uint64_t, kPageRows> distance{};  // a byte for every word of a row along x
-    RowBits free_words{};                             // those that stop nothing
+    std::array<std::uint64_t, kPageRows> distance{};  // a byte for every word of a row
+    RowBits free_words{};                             // words without a cell that stops rays
     VoxelIndex address;
-    bool stale = false;  // its distances may be wrong
+    bool stale = false;  // distances must be recomputed
 
     [[nodiscard]] std::uint8_t distance_of(const VoxelIndex& word) const {
       return static_cast<std::uint8_t>(distance[row_in_page(word)] >> 8U * static_cast<unsigned>(word.x & 7));
@@ -90,7 +92,7 @@ class BlockingGrid {
   };
 
   static VoxelIndex page_address(const VoxelIndex& word) { return {word.x >> 3, word.y >> 3, word.z >> 3}; }
-  // The eight words of a brick lie side by side, in the order of the brick.
+  // The eight words of a brick are adjacent, in the order of Brick.
   static std::size_t offset_in_page(const VoxelIndex& word) {
     return static_cast<std::size_t>((word.x & 1) | (word.y & 1) << 1 | (word.z & 1) << 2 | (word.x & 6) << 2 |
                                     (word.y & 6) << 4 | (word.z & 6) << 6);
@@ -122,25 +124,25 @@ class BlockingGrid {
   CoarseningPolicy policy_;
   OccupancyMap::Revision revision_ = 0;
   VoxelBox pages_box_;
-  std::size_t row_ = 0;       // pages of pages_box_ along x
-  std::size_t plane_ = 0;     // and in a plane of x and y
-  std::vector<Page*> table_;  // of pages_box_; null never: what is unseen points to unseen_
+  std::size_t row_ = 0;       // pages per row of the table
+  std::size_t plane_ = 0;     // pages per xy plane of the table
+  std::vector<Page*> table_;  // covers pages_box_; never null: unseen pages point to unseen_
   std::deque<Page> pages_;
   std::vector<Page*> stale_;
   Page unseen_;
 };
 
-/// Looks at words of a grid that does not change meanwhile, and is quick where they lie near to the one before.
+/// Reads words of a grid that does not change meanwhile. Caches the last page, so it is fast for neighbouring words.
 class BlockingGrid::Reader {
  public:
-  /// The grid must outlive it.
+  /// The grid must outlive the reader.
   explicit Reader(const BlockingGrid& grid) : grid_(&grid), page_(&grid.page_of({})) {}
 
-  /// As BlockingGrid::blocking.
+  /// See BlockingGrid::blocking.
   [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) {
     return page_of(word).blocking[offset_in_page(word)];
   }
-  /// As BlockingGrid::distance.
+  /// See BlockingGrid::distance.
   [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) { return page_of(word).distance_of(word); }
 
  private:
@@ -155,7 +157,7 @@ class BlockingGrid::Reader {
 
   const BlockingGrid* grid_;
   const Page* page_;
-  VoxelIndex last_;  // a word of the page
+  VoxelIndex last_;  // a word of the cached page
 };
 
 }  // namespace vantage

@@ -6,12 +6,12 @@
 namespace vantage {
 BoxCulling::BoxCulling(const Pose& world_from_sensor, const Box& box, InstructionSet set)
     : set_(set), origin_(world_from_sensor.translation()), box_(box) {
-  // Far more than rounding can move a ray, far less than a cell.
+  // Much larger than the rounding error of a ray, much smaller than a cell.
   const double margin =
       1e-9 * (1.0 + origin_.cwiseAbs().maxCoeff() + box.min.cwiseAbs().maxCoeff() + box.max.cwiseAbs().maxCoeff());
   box_.min.array() -= margin;
   box_.max.array() += margin;
-  constexpr double kLooseness = 1e-5;  // of rotations
+  constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
   furthest_m_ = (1.0 + kLooseness) * (box_.max - origin_).cwiseAbs().cwiseMax((box_.min - origin_).cwiseAbs()).norm();
   const Eigen::Vector3d to_centre = box_.centre() - origin_;
   const double distance = to_centre.norm();
@@ -25,9 +25,9 @@ BoxCulling::BoxCulling(const Pose& world_from_sensor, const Box& box, Instructio
   }
 }
 
-// A cone may meet the box if it meets the cone around the sphere around the box, and is not all on the outer side of
-// a plane through the origin and an edge of the outline of the box; all of it does, if it is on the inner side of
-// each.
+// Two tests show that a cone misses the box: it does not meet the cone around the box's bounding sphere, or it lies
+// completely on the outer side of a plane through the origin and an edge of the box's outline. The cone is completely
+// inside if it lies on the inner side of all these planes.
 Meeting BoxCulling::meeting(const RayCone& cone) const {
   if (inside_sphere_ || cone.cos_half_angle <= 0.0) {
     return Meeting::Some;
@@ -51,8 +51,7 @@ Meeting BoxCulling::meeting(const RayCone& cone) const {
   return meeting;
 }
 
-// A ray passes through the box where it is on the inner side of all planes through the origin and an edge of the
-// outline.
+// A ray meets the box if it lies on the inner side of all planes through the origin and an edge of the outline.
 std::uint64_t BoxCulling::meeting(const RayTile& tile) const {
   std::uint64_t meeting = tile.rays;
   RayBlock::PerRay<std::int32_t> flags;
@@ -61,7 +60,7 @@ std::uint64_t BoxCulling::meeting(const RayTile& tile) const {
   const float* const z = tile.directions[2].data();
   for (std::size_t edge = 0; edge < edges_; ++edge) {
     compiled_for(set_, [=, &flags, outwards = Eigen::Vector3f(outwards_[edge].cast<float>())] {
-      constexpr float kFlat = 1e-6F;  // more than the rounding of single precision
+      constexpr float kFlat = 1e-6F;  // larger than the rounding error of single precision
       std::int32_t* const inside = flags.data();
       VANTAGE_INDEPENDENT
       for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
@@ -75,7 +74,7 @@ std::uint64_t BoxCulling::meeting(const RayTile& tile) const {
   return meeting;
 }
 
-// The edges at which a side of the box that looks at the origin meets one that does not.
+// The outline: the edges between a face of the box that is visible from the origin and a face that is not.
 void BoxCulling::find_outline(const Eigen::Matrix3d& world_from_sensor) {
   const auto side = [&](Eigen::Index axis, bool upper) {
     return (upper ? box_.max : box_.min)[axis] - origin_[axis];

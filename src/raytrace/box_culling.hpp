@@ -12,19 +12,19 @@
 
 namespace vantage {
 
-/// Which of some rays may meet a box: none, or some, or all as far as is known.
+/// How many rays of a set may meet a box. Some is also the answer if the test cannot tell.
 enum class Meeting : std::uint8_t { None, Some, All };
 
-/// Which rays of a view can meet a box at all.
+/// Culling: finds the rays of a view that can meet a box at all.
 class BoxCulling {
  public:
   BoxCulling(const Pose& world_from_sensor, const Box& box, InstructionSet set);
 
-  /// Of the rays of a cone.
+  /// Tests all rays in a cone.
   [[nodiscard]] Meeting meeting(const RayCone& cone) const;
-  /// The rays of a tile that may pass through the box.
+  /// Bit mask of the rays of a tile that may meet the box.
   [[nodiscard]] std::uint64_t meeting(const RayTile& tile) const;
-  /// No point of the box is further from the sensor than this, metres.
+  /// Upper bound on the distance from the sensor to a point of the box, metres.
   [[nodiscard]] double furthest_m() const { return furthest_m_; }
 
  private:
@@ -35,10 +35,11 @@ class BoxCulling {
   Box box_;
   double furthest_m_ = 0.0;
   bool inside_sphere_ = false;
-  std::size_t edges_ = 0;                            // of the outline
-  std::array<Eigen::Vector3d, 6> outwards_;          // across planes through them and the origin, in the sensor frame
-  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  // to the centre of the box, in the sensor frame
-  double cos_ = -1.0;                                // of the cone around the box
+  std::size_t edges_ = 0;  // number of edges of the outline
+  // outward normals of the planes through the origin and an edge, in the sensor frame
+  std::array<Eigen::Vector3d, 6> outwards_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  // from the sensor to the centre of the box, in the sensor frame
+  double cos_ = -1.0;                                // half angle of the cone around the bounding sphere of the box
   double sin_ = 0.0;
 };
 

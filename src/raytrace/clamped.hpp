@@ -3,13 +3,13 @@
 
 namespace vantage {
 
-/// The nearest value between limits; of what is no number, the least. Without a branch, for loops that are made
-/// vectors. (g++ 12 makes a vector of limits only if it does not know them.)
+/// Clamps a value to [least, most]; NaN becomes `least`. Branch-free, for vectorised loops. (g++ 12 vectorises such a
+/// loop only if the limits are not compile-time constants.)
 struct Clamped {
   double least;
   double most;
 
-  /// Of a value.
+  /// The clamped value.
   [[nodiscard]] double operator()(double value) const {
     const double no_less = value > least ? value : least;
     return no_less < most ? no_less : most;

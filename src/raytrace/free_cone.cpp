@@ -12,15 +12,15 @@ FreeCone::FreeCone(const BlockingGrid& grid, const VoxelFrame& frame, const Pose
       origin_(world_from_sensor.translation() / frame.size_m),
       world_from_sensor_(world_from_sensor.linear()) {}
 
-// From one cube of free words to the next along the axis: the rays of the cone that are as far from the sensor are
-// no further from its axis than their distance times the chord of its half angle.
+// Steps along the axis from one cube of free words to the next. A ray of the cone at distance d from the sensor is at
+// most d times the chord of the half angle away from the axis.
 double FreeCone::free_m(const RayCone& cone, double enough_m) {
-  constexpr double kLooseness = 1e-5;  // of rotations, and of rounding, per cell of distance
-  constexpr double kLeastStep = 2.0;   // cells: for less, a step costs more than it spares
-  constexpr double kSlack = 1e-3;      // cells
+  constexpr double kLooseness = 1e-5;  // tolerance for rotations and rounding, per cell of distance
+  constexpr double kLeastStep = 2.0;   // cells; a shorter step costs more than it saves
+  constexpr double kSlack = 1e-3;      // tolerance for rounding, cells
   const double chord = std::sqrt(2.0 * (1.0 - cone.cos_half_angle)) + kLooseness;
   const Eigen::Vector3d axis = world_from_sensor_ * cone.axis;
-  // How fast the cone approaches the upper and the lower face of a box around it, at most.
+  // Inverse of the largest speed at which the cone approaches the upper and the lower faces of a cube around it.
   std::array<double, 3> per_upper{};
   std::array<double, 3> per_lower{};
   for (std::size_t i = 0; i < 3; ++i) {

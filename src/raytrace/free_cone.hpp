@@ -8,13 +8,13 @@
 
 namespace vantage {
 
-/// Tells how far cones of rays from the sensor of a view reach before a cell may stop one of them.
+/// Finds how far cones of rays from the sensor reach before a cell may stop one of the rays.
 class FreeCone {
  public:
-  /// The grid must outlive it.
+  /// The grid must outlive the object.
   FreeCone(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor);
 
-  /// A distance, metres, up to which nothing stops a ray of the cone; not much more than `enough_m`.
+  /// A distance, metres, up to which no cell stops a ray of the cone. The search ends soon after `enough_m`.
   [[nodiscard]] double free_m(const RayCone& cone, double enough_m);
 
  private:

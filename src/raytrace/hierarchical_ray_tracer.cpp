@@ -4,7 +4,7 @@
 namespace vantage {
 namespace {
 
-// The cells of 2^level finest cells an edge that overlap a box.
+// The coarse cells, with an edge of 2^level finest cells, that overlap a box.
 VoxelBox coarser(const VoxelBox& box, int level) {
   const std::int32_t more = (1 << level) - 1;
   return {{box.lo.x >> level, box.lo.y >> level, box.lo.z >> level},

@@ -26,7 +26,7 @@ VANTAGE_TARGET_AVX512 std::uint64_t equal_avx512(const RayBlock::PerRay<std::int
 
 VANTAGE_TARGET_AVX512 std::uint64_t changes_avx512(const RayBlock::PerRay<std::int32_t>& values) {
   std::uint64_t changes = 1;
-  for (const std::size_t first : {0U, 16U, 32U, 47U}) {  // the last sixteen pairs overlap
+  for (const std::size_t first : {0U, 16U, 32U, 47U}) {  // the last sixteen pairs overlap with those before
     const __m512i some = _mm512_loadu_si512(&values[first]);
     const __m512i next = _mm512_loadu_si512(&values[first + 1]);
     changes |= std::uint64_t{_mm512_cmpneq_epi32_mask(some, next)} << (first + 1);
@@ -87,7 +87,8 @@ VANTAGE_TARGET_AVX2 std::uint64_t equal_avx2(const RayBlock::PerRay<std::int32_t
 
 VANTAGE_TARGET_AVX2 std::uint64_t changes_avx2(const RayBlock::PerRay<std::int32_t>& values) {
   std::uint64_t changes = 1;
-  for (const std::size_t first : {0U, 8U, 16U, 24U, 32U, 40U, 48U, 55U}) {  // the last eight pairs overlap
+  // the last eight pairs overlap with those before
+  for (const std::size_t first : {0U, 8U, 16U, 24U, 32U, 40U, 48U, 55U}) {
     const __m256i some = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&values[first]));
     const __m256i next = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&values[first + 1]));
     const auto same = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(some, next))));

@@ -8,14 +8,14 @@
 
 namespace vantage {
 
-/// The rays with this value, a bit for each.
+/// Bit mask of the rays with this value.
 [[nodiscard]] std::uint64_t equal_to(const RayBlock::PerRay<std::int32_t>& values, std::int32_t value,
                                      InstructionSet set);
 
-/// The rays with another value than the ray before them, a bit for each; the first is one.
+/// Bit mask of the rays whose value differs from that of the ray before. The first ray always counts.
 [[nodiscard]] std::uint64_t changes_of(const RayBlock::PerRay<std::int32_t>& values, InstructionSet set);
 
-/// The least and the largest of the values of the `active` rays.
+/// The smallest and the largest value of the `active` rays.
 [[nodiscard]] std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active,
                                                  InstructionSet set);
 

@@ -19,7 +19,8 @@ constexpr double radians(double degrees) { return degrees * kPi / 180.0; }
 
 RangeSensor kinect() { return RangeSensor::pinhole(640, 480, radians(57.0), radians(43.0), 0.4, 4.0); }
 
-// Shade & Newman 2011, VI: a stereo camera of 65 degrees and 512 x 384 pixels; square pixels give the vertical angle.
+// Shade & Newman 2011, VI: a stereo camera with a field of view of 65 degrees and 512 x 384 pixels. The vertical
+// field of view follows from square pixels.
 RangeSensor stereo() {
   const double vertical_fov_rad = 2.0 * std::atan(std::tan(radians(65.0) / 2.0) * 384.0 / 512.0);
   return RangeSensor::pinhole(512, 384, radians(65.0), vertical_fov_rad, 0.5, 5.0);
@@ -28,22 +29,23 @@ RangeSensor stereo() {
 // The depth camera of a RealSense D435 in its 640 x 360 mode.
 RangeSensor realsense() { return RangeSensor::pinhole(640, 360, radians(87.0), radians(58.0), 0.3, 3.0); }
 
-// A spinning lidar of 128 beams over 90 degrees: at 10 m neighbouring beams are 0.12 m apart, columns 0.06 m.
+// A spinning lidar with 128 beams over 90 degrees. At 10 m, neighbouring beams are 0.12 m apart, columns 0.06 m.
 RangeSensor lidar() {
   RangeSensor sensor = RangeSensor::spherical(1024, 128, 2.0 * kPi, kPi / 2.0, 0.1, 20.0);
   sensor.reports_no_return = true;
   return sensor;
 }
 
-// Half a degree both ways: at 10 m neighbouring rays are 0.09 m apart.
+// Half a degree in both directions: at 10 m, neighbouring rays are 0.09 m apart.
 RangeSensor panoramic() {
   RangeSensor sensor = RangeSensor::spherical(720, 360, 2.0 * kPi, kPi, 0.0, 20.0);
   sensor.reports_no_return = true;
   return sensor;
 }
 
-// Vasquez-Gomez et al. 2013: the outermost *rays*, not the edges of the outermost pixels, are at these half angles.
-// (Their rays between are spaced by equal angles, a pinhole's by equal tangents: at most 8 mm off per metre.)
+// Vasquez-Gomez et al. 2013: these half angles belong to the outermost *rays*, not to the edges of the outermost
+// pixels. (Their rays are spaced by equal angles, those of a pinhole by equal tangents; the difference is at most 8
+// mm per metre.)
 RangeSensor vpl() {
   RangeSensor sensor;
   sensor.width = 176;
@@ -74,7 +76,7 @@ void validate_pinhole(const RangeSensor& sensor) {
   detail::require_option(is_pixel(sensor.cy), "RangeSensor::cy", sensor.cy, "in [-1e6, 1e6]");
 }
 
-// Full turns are often written as 6.2832: let them pass.
+// Allows a full turn that is written as 6.2832.
 constexpr double kAngleSlackRad = 1e-3;
 constexpr double kLeastAngleRad = 1e-4;
 
@@ -200,7 +202,7 @@ bool RangeSensor::in_view(const Eigen::Vector3d& direction) const {
     const double v = fy * direction.y() / direction.z() + cy;
     return u >= -0.5 && u < static_cast<double>(width) - 0.5 && v >= -0.5 && v < static_cast<double>(height) - 0.5;
   }
-  constexpr double kRounding = 1e-9;  // a full sphere must hold its own poles and seam
+  constexpr double kRounding = 1e-9;  // a full sphere must contain its own poles and its seam
   const double level = std::hypot(direction.x(), direction.z());
   return std::abs(std::atan2(direction.y(), level)) <= 0.5 * vertical_fov_rad + kRounding &&
          std::abs(std::atan2(direction.x(), direction.z())) <= 0.5 * horizontal_fov_rad + kRounding;
@@ -219,7 +221,7 @@ double RangeSensor::vertical_angle_rad() const {
 }
 
 double RangeSensor::resolving_range_m(double cell_m) const {
-  // A pinhole's rays are furthest apart, by 1 / f, at the principal point.
+  // The rays of a pinhole are furthest apart at the principal point: 1 / f at unit distance.
   const bool pinhole = projection == Projection::Pinhole;
   const double across = pinhole ? 1.0 / fx : horizontal_fov_rad / static_cast<double>(width);
   const double down = pinhole ? 1.0 / fy : vertical_fov_rad / static_cast<double>(height);
@@ -231,7 +233,7 @@ RangeSensor RangeSensor::rays_for(double cell_m) const {
   RangeSensor reduced = *this;
   const auto columns = static_cast<double>(width);
   const auto rows = static_cast<double>(height);
-  // A pinhole's rays are furthest apart, by 1 / f, at the principal point.
+  // The rays of a pinhole are furthest apart at the principal point: 1 / f at unit distance.
   const bool pinhole = projection == Projection::Pinhole;
   reduced.width = rays_needed((pinhole ? columns / fx : horizontal_fov_rad) * max_range_m / cell_m, width);
   reduced.height = rays_needed((pinhole ? rows / fy : vertical_fov_rad) * max_range_m / cell_m, height);

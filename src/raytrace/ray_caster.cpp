@@ -21,7 +21,7 @@ namespace {
 constexpr std::int32_t kFar = kFurthestVoxel;
 constexpr VoxelBox kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-// Has memory that is needed soon brought near.
+// Prefetches all cache lines of an object.
 template <class T>
 void prefetch(const T& object) {
   constexpr std::size_t kLine = 64;
@@ -84,7 +84,7 @@ void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays, std::s
   for (std::size_t n = 0; n < rays.tiles().size(); ++n) {
     const RayTile& tile = rays.tiles()[n];
     prefetch(rays.tiles()[std::min(n + 1, rays.tiles().size() - 1)]);
-    for (std::size_t i = 0; i < RayTile::kRays; i += 4) {  // of which ends share a line
+    for (std::size_t i = 0; i < RayTile::kRays; i += 4) {  // ends of four successive rays share a cache line
       detail::prefetch_to_write(&ends[tile.ray[i]]);
     }
     placer.place_ends(tile, block);
@@ -104,7 +104,7 @@ void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays, std::s
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const VoxelIndex cell = hits.cell_at(i);
       const VoxelIndex by = {cell.x ^ last.x, cell.y ^ last.y, cell.z ^ last.z};
-      if (((by.x | by.y | by.z) & ~3) != 0) {  // seldom: neighbours meet neighbours
+      if (((by.x | by.y | by.z) & ~3) != 0) {  // rare, because neighbouring rays end in neighbouring cells
         occupied = grid_->occupied(BlockingGrid::word_of(cell));
         last = cell;
       }
@@ -129,7 +129,7 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
   TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
   CellStamps stamps(seen, set);
   RayBlock block;
-  constexpr double kLooseness = 1e-5;  // of rotations
+  constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
   const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
   for (std::size_t g = 0; g < rays.groups().size(); ++g) {
     const TileGroup& group = rays.groups()[g];

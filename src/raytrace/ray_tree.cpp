@@ -37,9 +37,10 @@ std::size_t nearest_index(double place, std::size_t count) {
   return static_cast<std::size_t>(std::clamp(std::round(place), 0.0, static_cast<double>(count - 1)));
 }
 
-// The ray of `coarse` with the smallest angle to that of `fine`; of several, that of the row nearest to its own. Of a
-// row it is the one nearest in angle across, or its neighbour around the back; and no ray of a row is nearer than the
-// row itself.
+// The ray of `coarse` with the smallest angle to a ray of `fine`. If several are equal, the row nearest to that of
+// the fine ray wins. In each row, the candidates are the ray with the nearest horizontal angle and the two ends of
+// the row (for the seam behind the sensor). The search over rows stops when the angle to the row itself exceeds the
+// best angle.
 std::uint32_t nearest_ray(const Angles& coarse, const Angles& fine, std::size_t column, std::size_t row) {
   const Eigen::Vector3d ray = fine.direction(column, row);
   const double alpha = fine.across(column);

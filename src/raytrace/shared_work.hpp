@@ -11,8 +11,9 @@
 
 namespace vantage::detail {
 
-/// Calls `work(i)` once for every i below `count`, on this many threads (> 0), in no particular order. If one throws,
-/// so does this, when all are done.
+/// Calls `work(i)` once for every i in [0, count), in no particular order, on `threads` threads (> 0). If calls
+/// throw, one of the exceptions is rethrown after all threads have ended. A thread stops taking work after its call
+/// has thrown.
 template <class Work>
 void share_work(std::size_t count, std::size_t threads, const Work& work) {
   std::atomic<std::size_t> next{0};

@@ -40,7 +40,7 @@ bool SingleWalk::advance(const BlockingGrid& grid) {
   }
 }
 
-// Leaves a box of cells by the face that is crossed first; false: the ray ends before.
+// Leaves a box of cells through the face that is crossed first. Returns false if the ray ends before.
 bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
   const std::array<std::int32_t, 3> least{lo.x, lo.y, lo.z};
   const std::array<std::int32_t, 3> most{last.x, last.y, last.z};
@@ -51,7 +51,7 @@ bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
     const FaceCrossings& crossings = faces_[axis];
     if (static_cast<double>(faces) * static_cast<double>(crossings.delta) >
         static_cast<double>(FaceCrossings::kEnd)) {
-      continue;  // after the end; and the product might not fit
+      continue;  // beyond the end of the ray; the product might also overflow
     }
     const std::int64_t crosses = crossings.next + faces * crossings.delta;
     if (crosses < leaves) {
@@ -62,7 +62,7 @@ bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
   const bool ends = leaves > FaceCrossings::kEnd;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     FaceCrossings& faces = faces_[axis];
-    // Of faces crossed at the same time, that across the lower axis comes first.
+    // If faces are crossed at the same time, the lower axis comes first.
     const std::int64_t until = ends ? FaceCrossings::kEnd : leaves - (axis > by ? 1 : 0);
     if (faces.next <= until) {
       const std::int64_t crossed = faces.crossed_by(until);

@@ -8,15 +8,16 @@
 
 namespace vantage {
 
-/// The walk of one ray, from cell to cell where something may stop it and in leaps where nothing does.
+/// Walks a single ray: cell by cell where a cell may stop it, and in leaps through free space. Exact, as VoxelRay.
 class SingleWalk {
  public:
-  /// From `from`, in cell `first`, to `to`, in cell `last`.
+  /// The ray goes from `from`, which lies in cell `first`, to `to`, which lies in cell `last`.
   SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& from, const VoxelIndex& first, const Eigen::Vector3d& to,
              const VoxelIndex& last);
-  /// Walks on to the first cell that stops the ray; false: there is none, and it is in the last cell.
+  /// Walks on to the first cell that stops the ray. Returns false if there is none; the walk is then at the last
+  /// cell.
   bool advance(const BlockingGrid& grid);
-  /// Where it is.
+  /// The current cell.
   [[nodiscard]] VoxelIndex cell() const { return {cell_[0], cell_[1], cell_[2]}; }
 
  private:

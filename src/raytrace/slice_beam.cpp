@@ -27,7 +27,7 @@ LateralLayers SliceBeam::layers_from(std::int64_t slice, InstructionSet set) con
   const double enters_first = static_cast<double>(slice) - from_entry;
   const double enters_layer = static_cast<double>(slice + left_in_layer(slice) - 4) - from_entry;
   compiled_for(set, [this, &layers, enters_first, enters_layer] {
-    // So much more than any place is less than zero; what is positive is rounded down by a conversion.
+    // An offset that makes every position positive, because a conversion to integer then rounds down.
     constexpr double kMore = 2.0 * static_cast<double>(kLastOfLayers);
     for (std::size_t i = 0; i < 2; ++i) {
       const std::int32_t from = first[i] - static_cast<std::int32_t>(kMore);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::int32_t kRows = SliceWindows::kHeight;
 constexpr std::int32_t kColumns = SliceWindows::kWidth;
 
-// Rows of a window with as many empty ones on both sides.
+// The rows of a window, padded with empty rows on both sides.
 struct PaddedRows {
   alignas(64) std::array<std::uint32_t, 3 * SliceWindows::kHeight> rows{};
 
@@ -19,7 +19,7 @@ struct PaddedRows {
 
 constexpr std::uint32_t all_if(bool condition) { return condition ? ~std::uint32_t{0} : 0; }
 
-// Into which of the cells beside them, along both axes, rays may go: all bits or none.
+// Directions in which rays may move to the next cell, per axis: all bits set, or none.
 struct Drift {
   std::uint32_t up_u;
   std::uint32_t down_u;
@@ -32,7 +32,8 @@ struct Drift {
   [[nodiscard]] std::uint32_t along_v(const std::uint32_t* row) const { return (row[-1] & up_v) | (row[1] & down_v); }
 };
 
-// The way of a beam through windows. (Numbers for vectors of eight: a slice more than there are counts.)
+// The way of a beam through the slices of windows. (The arrays hold eight slices to fill vectors; the fifth is used
+// as the end of the fourth.)
 struct Course {
   template <class T>
   using PerSlice = std::array<T, 8>;
@@ -50,10 +51,10 @@ struct Course {
 };
 static_assert(SliceWindows::kMost < std::tuple_size_v<Course::PerSlice<int>>);
 
-// A ray that goes less askew than this may be measured to go the other way.
+// A ray with a slope smaller than this may, after rounding, appear to move in the other direction.
 constexpr double kStraight = SliceBeam::kRounding;
 
-// Where rays enter and pass slices from `first` on.
+// Computes the columns and rows in which rays enter and pass the slices from `first` on.
 void place_beam(const SliceBeam& beam, const SlicePlace& place, std::int64_t first, InstructionSet set,
                 Course& course) {
   compiled_for(set, [&beam, &course, enters_first = static_cast<double>(first) - beam.from_entry,
@@ -91,7 +92,7 @@ void place_beam(const SliceBeam& beam, const SlicePlace& place, std::int64_t fir
   });
 }
 
-// Bits of the numbers from `first` to the one before `end`, as far as there are so many.
+// Bit mask of the integers in [first, end) that also lie in [0, count).
 std::uint32_t bits_within(std::int32_t first, std::int32_t end, std::int32_t count) {
   first = std::max(first, 0);
   end = std::min(end, count);
@@ -114,8 +115,8 @@ void place_box(const VoxelBox& box, const SliceBeam& beam, const SlicePlace& pla
       place.up ? bits_within(lo - along, hi - along, kSlices) : bits_within(along + 1 - hi, along + 1 - lo, kSlices);
 }
 
-// From the cells in which rays enter the first slice to those in which they leave the last. Returns whether there are
-// any.
+// Propagates `cells`, in which rays enter the first slice, to the cells in which they leave the last one. `met`
+// receives the cells of the box that may stop a ray. Returns whether any ray may be left.
 inline bool flood(const SliceWindows& windows, const Course& course, WindowRows& cells, WindowCells& met) {
   PaddedRows padded_open;
   PaddedRows padded_beside;
@@ -156,7 +157,7 @@ inline bool flood(const SliceWindows& windows, const Course& course, WindowRows&
 
 constexpr __mmask16 kAllRows = 0xFFFF;
 
-// As Drift.
+// As Drift, in vector registers.
 struct Drift512 {
   __m512i up_u;
   __m512i down_u;
@@ -180,7 +181,7 @@ VANTAGE_TARGET_AVX512 inline __m512i without(__m512i cells, __m512i others) {
   return _mm512_maskz_andnot_epi32(kAllRows, others, cells);
 }
 
-// The same with a window in a register.
+// The same as `flood`, with the 16 rows of a window in one register.
 VANTAGE_TARGET_AVX512 bool flood_avx512(const SliceWindows& windows, const Course& course, WindowRows& rows,
                                         WindowCells& met) {
   const auto all = [](std::uint32_t value) { return static_cast<std::int32_t>(value); };
@@ -214,7 +215,7 @@ VANTAGE_TARGET_AVX512 bool flood_avx512(const SliceWindows& windows, const Cours
 }  // namespace
 
 bool SliceFlood::begin(const SliceBeam& beam) {
-  // In a slice, a ray that goes more askew may be measured to cross two faces across the same axis.
+  // A steeper ray may, after rounding, appear to cross two faces of the same axis in one slice.
   constexpr double kMostAskew = 1.0 - 1e-5;
   beam_ = beam;
   is_full_ = true;
@@ -222,7 +223,8 @@ bool SliceFlood::begin(const SliceBeam& beam) {
          beam.most[1] <= kMostAskew;
 }
 
-// To the slice `first`, in the window of `place`.
+// Moves the set of cells to the slice `first` and to the window of `place`. Between the slices the set grows by the
+// spread of the beam.
 void SliceFlood::move(std::int64_t first, const SlicePlace& place) {
   const std::array<std::int32_t, 2> before{std::exchange(first_u_, place.first_u),
                                            std::exchange(first_v_, place.first_v)};

@@ -10,23 +10,28 @@
 
 namespace vantage {
 
-/// Follows all rays that may be in a beam through slices at once, whichever they are: not where each of them is, but
-/// in which cells there may be one. A ray of the beam meets no cell but those that it says may be met.
+/// Flood (glossary in view_walk.hpp): follows a whole beam through slices as a set of cells, without looking at
+/// single rays. The set is an upper bound: no ray of the beam meets a cell outside it.
 ///
-/// In a slice, a ray crosses at most one face across each lateral axis, in the direction in which it goes. So from
-/// the cells in which rays enter the slice they may come, if those do not stop them, to the next along the one axis,
-/// the other, or one after the other, as far as the beam is wide; and of those that do not stop them they enter the
-/// next slice. What stops rays hides what is behind it.
+/// In one slice, a ray crosses at most one face across each lateral axis, in the direction of its slope. From the
+/// cell where it enters the slice it can reach the next cell along u, the next along v, or both, one after the other.
+/// A step:
+///
+///     entered cells --> keep those that do not stop rays --> add the neighbours along u, along v, and along both
+///     (cut off by the edges of the beam) --> those that do not stop rays enter the next slice
+///
+/// Cells that stop rays are recorded as met and hide what is behind them.
 class SliceFlood {
  public:
-  /// Of beams that are to meet cells of `box`.
+  /// For beams that look for cells of `box`.
   SliceFlood(const VoxelBox& box, InstructionSet set) : box_(box), set_(set) {}
 
-  /// Turns to a beam. False: its rays go so far askew that nothing is certain.
+  /// Starts a new beam. Returns false if its slopes are too close to 1 for a certain result; the flood then must not
+  /// be used.
   [[nodiscard]] bool begin(const SliceBeam& beam);
-  /// Follows the rays through the slices of windows that hold them there, from the slice `first` on; no cell has
-  /// stopped any since the last ones. `met` gets the cells of the box that they may meet. Returns
-  /// whether there may be rays that are not stopped.
+  /// Follows the beam through consecutive slices, given by windows that contain it, from slice `first` on. No cell
+  /// may stop a ray between the last call and this one. `met` receives the cells of the box that rays may meet.
+  /// Returns whether any ray may be left.
   [[nodiscard]] bool pass(const SliceWindows& windows, const SlicePlace& place, std::int64_t first, WindowCells& met);
 
  private:
@@ -36,10 +41,10 @@ class SliceFlood {
   InstructionSet set_;
   SliceBeam beam_;
   bool is_full_ = true;       // rays may be anywhere in the beam
-  std::int64_t slice_ = 0;    // which they enter next
-  std::int32_t first_u_ = 0;  // where cells_ lie
+  std::int64_t slice_ = 0;    // the slice that the rays enter next
+  std::int32_t first_u_ = 0;  // window position of cells_
   std::int32_t first_v_ = 0;
-  alignas(64) WindowRows cells_{};  // in which they do
+  alignas(64) WindowRows cells_{};  // the cells in which rays may enter that slice
 };
 
 }  // namespace vantage

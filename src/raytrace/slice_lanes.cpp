@@ -12,13 +12,13 @@ namespace vantage {
 namespace {
 
 constexpr int kBits = static_cast<int>(SliceLanes::kBits);
-// A place is near the edge of a cell if these bits of it, kDoubt added, are all zero.
+// A position is near an edge between cells if all these bits of the position plus kDoubt are zero.
 constexpr std::int32_t kAfterPoint = (SliceLanes::kCell - 1) & ~(2 * SliceLanes::kDoubt - 1);
-// Of two faces, the products that compare the times at which they are crossed may be as wrong as this: each the doubt
-// of a place and the rounding of single precision times a step of at most a cell.
+// Largest error of the product difference that tells which of two faces is crossed first. Each product has the error
+// of a position and the rounding of single precision, times a step of at most one cell.
 constexpr auto kDoubtOfOrder = static_cast<float>(std::int64_t{4} * SliceLanes::kDoubt * SliceLanes::kCell);
 
-// A place in a slice, and what is to be known of it.
+// A position in a slice: its cell, and whether it is near an edge.
 struct Place {
   Place(std::int32_t u, std::int32_t v)
       : column(u >> kBits),
@@ -41,7 +41,8 @@ First first_crossed(const Place& from, const Place& to, std::int32_t u, std::int
   return v_later >= kDoubtOfOrder ? First::U : v_later <= -kDoubtOfOrder ? First::V : First::Unsure;
 }
 
-// One ray after the other: the definition of the vectorised walks below, and what runs where there is neither.
+// Walks one ray after the other. This is the reference for the vectorised versions below, and the fallback without
+// them.
 void walk_baseline(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits) {
   for (; active != 0; active &= active - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(active));
@@ -96,7 +97,7 @@ void walk_baseline(const SliceLanes& lanes, const SliceWindows& windows, std::ui
 
 #if defined(__x86_64__)
 
-// All lanes. (Where all are meant, the forms without a mask make g++ 12 warn of values that are never used.)
+// All lanes. (With the intrinsics without a mask, g++ 12 warns about unused values.)
 constexpr __mmask16 kAll = 0xFFFF;
 
 VANTAGE_TARGET_AVX512 inline __m512i cell_of(__m512i place) { return _mm512_maskz_srai_epi32(kAll, place, kBits); }
@@ -108,18 +109,20 @@ VANTAGE_TARGET_AVX512 inline __mmask16 near_edge(__m512i u, __m512i v) {
                                 _mm512_testn_epi32_mask(_mm512_add_epi32(v, doubt), after_point));
 }
 
-// Whether the bits of these columns are set in these rows. (A rotation: lanes that are not active may be anywhere.)
+// Whether the bits of these columns are set in these rows. (It rotates instead of shifting, because the column of an
+// inactive lane may have any value.)
 VANTAGE_TARGET_AVX512 inline __mmask16 is_set(__m512i rows, __m512i columns) {
   return _mm512_test_epi32_mask(_mm512_maskz_rorv_epi32(kAll, rows, columns), _mm512_set1_epi32(1));
 }
 
-// How far the face between two cells is from a place in one of them.
+// Distance from a position to the face between its cell and the other cell.
 VANTAGE_TARGET_AVX512 inline __m512 until_face(__m512i from, __m512i to, __m512i place) {
   const __m512i face = _mm512_maskz_slli_epi32(kAll, _mm512_maskz_max_epi32(kAll, from, to), kBits);
   return _mm512_maskz_cvtepi32_ps(kAll, _mm512_maskz_abs_epi32(kAll, _mm512_sub_epi32(face, place)));
 }
 
-// Of rays on their way to another column and another row: which of them cross the face to which first, for certain.
+// For rays that change both column and row: the lanes that certainly cross the face across u first, or across v
+// first.
 struct Order16 {
   __mmask16 u_first;
   __mmask16 v_first;
@@ -140,7 +143,7 @@ VANTAGE_TARGET_AVX512 inline __m512i stopped_at(__m512i where, __mmask16 stopped
   return _mm512_mask_mov_epi32(where, stopped, cell);
 }
 
-// Whether any of the cells in these columns of these rows is set.
+// Whether any of the four cells in these two columns and two rows is set.
 VANTAGE_TARGET_AVX512 inline __mmask16 any_is_set(__m512i row, __m512i other_row, __m512i column, __m512i other) {
   const __m512i in_row = _mm512_maskz_or_epi32(kAll, _mm512_maskz_rorv_epi32(kAll, row, column),
                                                _mm512_maskz_rorv_epi32(kAll, row, other));
@@ -170,7 +173,8 @@ VANTAGE_TARGET_AVX512 void walk_avx512(const SliceLanes& lanes, const SliceWindo
     const __m512i to_row = cell_of(to_v);
     const __m512i there = _mm512_maskz_permutexvar_epi32(kAll, to_row, window);
     auto unsure = near_edge(to_u, to_v);
-    if (((unsure | any_is_set(here, there, column, to_column)) & active) != 0) {  // else nothing happens to any
+    // otherwise nothing happens to any ray
+    if (((unsure | any_is_set(here, there, column, to_column)) & active) != 0) {
       const auto at_once = static_cast<__mmask16>(is_set(here, column) & active);
       where = stopped_at(where, at_once, row, column, slice);
       active = static_cast<__mmask16>(active & ~at_once);
@@ -209,7 +213,7 @@ VANTAGE_TARGET_AVX512 void walk_avx512(const SliceLanes& lanes, const SliceWindo
   hits.doubtful |= std::uint64_t{doubtful} << first;
 }
 
-// Eight rays at a time; masks are whole lanes.
+// AVX2: eight rays at a time; masks are full lanes.
 VANTAGE_TARGET_AVX2 inline __m256i load(const void* eight) {
   return _mm256_load_si256(static_cast<const __m256i*>(eight));
 }
@@ -218,7 +222,7 @@ VANTAGE_TARGET_AVX2 inline unsigned bits(__m256i lanes) {
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lanes)));
 }
 
-// Lanes of which bits are set, in full.
+// Sets all bits of the lanes whose bit is set.
 VANTAGE_TARGET_AVX2 inline __m256i lanes_of(unsigned bits) {
   const __m256i each = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
   return _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), each), each);
@@ -233,7 +237,7 @@ VANTAGE_TARGET_AVX2 inline unsigned near_edge(__m256i u, __m256i v) {
   return bits(_mm256_or_si256(near_u, near_v));
 }
 
-// A window is two registers of eight rows.
+// The rows of a window, which fills two registers, selected per lane.
 VANTAGE_TARGET_AVX2 inline __m256i rows_of(const std::uint32_t* window, __m256i row) {
   const __m256i low = _mm256_permutevar8x32_epi32(load(window), row);
   const __m256i high = _mm256_permutevar8x32_epi32(load(window + 8), row);

@@ -9,48 +9,48 @@
 
 namespace vantage {
 
-/// Up to four slices of cells, one cell thick each, across the axis along which rays advance fastest: for every slice
-/// a window of 32 x 16 cells in which a bit says that the cell stops a ray.
+/// Windows of up to four consecutive slices. A window is a part of a slice with 32 x 16 cells; a set bit is a cell
+/// that stops rays.
 struct SliceWindows {
-  static constexpr std::int32_t kWidth = 32;   ///< cells along the first lateral axis
-  static constexpr std::int32_t kHeight = 16;  ///< cells along the second
-  static constexpr std::size_t kMost = 4;      ///< slices
+  static constexpr std::int32_t kWidth = 32;   ///< cells along the first lateral axis, u
+  static constexpr std::int32_t kHeight = 16;  ///< cells along the second lateral axis, v
+  static constexpr std::size_t kMost = 4;      ///< maximum number of slices
 
-  alignas(64) std::array<std::array<std::uint32_t, kHeight>, kMost> rows{};  ///< by slice, then second axis
-  std::size_t count = 0;                                                     ///< slices, in the order of the walk
+  alignas(64) std::array<std::array<std::uint32_t, kHeight>, kMost> rows{};  ///< rows[slice][v], bit u
+  std::size_t count = 0;  ///< number of slices, in the order of the walk
 };
 
-/// Cells of such a window, and of all the slices.
+/// A set of cells of one window, and of the windows of all slices.
 using WindowRows = std::array<std::uint32_t, SliceWindows::kHeight>;
 using WindowCells = std::array<WindowRows, SliceWindows::kMost>;
 
-/// 64 rays from one origin that walk through slices of cells together.
+/// 64 rays from one origin that walk through slices together, one SIMD lane each.
 ///
-/// A ray advances fastest along the major axis, so it crosses at most one face across each of the two lateral axes
-/// while it is in one slice: there are at most three cells to look at, and no branches. Places are fixed-point
-/// numbers in the window, so that 16 rays fit a register; where a ray passes too near an edge between cells for them
-/// to say which cells it passes, it is said to be doubtful, and VoxelRay is to decide.
+/// A ray advances fastest along the major axis, so within a slice it crosses at most one face across each lateral
+/// axis. At most three cells must be tested per slice, without branches. Positions are fixed-point numbers relative
+/// to the window, so that 16 rays fit into a register. If a ray passes too close to an edge between cells for this
+/// precision, it is marked doubtful, and an exact walk (SingleWalk) must decide.
 struct SliceLanes {
-  static constexpr unsigned kBits = 25;                       ///< after the point
-  static constexpr std::int32_t kCell = 1 << kBits;           ///< the width of a cell
-  static constexpr std::int32_t kDoubt = 1 << (kBits - 19U);  ///< places may be as wrong as this: 2e-6 cells
+  static constexpr unsigned kBits = 25;                       ///< fractional bits
+  static constexpr std::int32_t kCell = 1 << kBits;           ///< width of a cell
+  static constexpr std::int32_t kDoubt = 1 << (kBits - 19U);  ///< error bound of a position, 2e-6 cells
 
-  alignas(64) RayBlock::PerRay<std::int32_t> u{};       ///< where rays enter the first slice, first lateral axis
-  alignas(64) RayBlock::PerRay<std::int32_t> v{};       ///< and second
-  alignas(64) RayBlock::PerRay<std::int32_t> step_u{};  ///< how far they go on their way through a slice,
-  alignas(64) RayBlock::PerRay<std::int32_t> step_v{};  ///< at most a cell
+  alignas(64) RayBlock::PerRay<std::int32_t> u{};       ///< position along u where a ray enters the first slice
+  alignas(64) RayBlock::PerRay<std::int32_t> v{};       ///< position along v
+  alignas(64) RayBlock::PerRay<std::int32_t> step_u{};  ///< movement along u per slice, at most one cell
+  alignas(64) RayBlock::PerRay<std::int32_t> step_v{};  ///< movement along v
 };
 
-/// What became of rays in a few slices.
+/// Result of a walk through a few slices.
 struct SliceHits {
-  std::uint64_t stopped = 0;   ///< a bit for each ray that met a cell that stops it
-  std::uint64_t doubtful = 0;  ///< a bit for each of which that is not certain
-  /// Of a stopped ray: column in the window of the cell that stops it + 32 * row + 512 * number of the slice.
+  std::uint64_t stopped = 0;   ///< bit mask of the rays that met a cell that stops them
+  std::uint64_t doubtful = 0;  ///< bit mask of the rays for which this is not certain
+  /// For a stopped ray, its cell: column in the window + 32 * row + 512 * index of the slice.
   alignas(64) RayBlock::PerRay<std::int32_t> where{};
 };
 
-/// Walks the `active` rays through the slices, wherever they end. While they are in a slice they must be in its
-/// window.
+/// Walks the `active` rays through all slices; the ends of the rays are ignored. The rays must be inside the window
+/// of each slice. `hits.where` changes only for stopped rays.
 void walk_slices(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
                  InstructionSet set);
 

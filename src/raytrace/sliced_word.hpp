@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// Swaps two bits of the number of every bit of a word: a transposition.
+/// Permutes the bits of a word: swaps two binary digits of the index of every bit. This is a transposition.
 template <unsigned kLow, unsigned kHigh>
 inline std::uint64_t swap_index_bits(std::uint64_t word) {
   constexpr std::uint64_t kMoving = [] {
@@ -21,8 +21,7 @@ inline std::uint64_t swap_index_bits(std::uint64_t word) {
   return word ^ differing ^ differing << kShift;
 }
 
-/// The cells of a word (of 4 x 4 x 4 cells, x running fastest) with those of one slice side by side: u runs fastest,
-/// then v, then the major axis.
+/// Reorders the cells of a word (4 x 4 x 4, x fastest) by slices: u fastest, then v, then the major axis.
 [[nodiscard]] inline std::uint64_t in_slices(std::uint64_t word, std::size_t major) {
   if (major == 0) {
     word = swap_index_bits<0, 2>(swap_index_bits<1, 3>(word));

@@ -20,7 +20,7 @@ void TileHits::take(const SliceHits& hits, const SlicePlace& place) {
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       const std::int32_t at = where[i];
-      const std::int32_t is_new = ~(at >> 31);  // all bits or none
+      const std::int32_t is_new = ~(at >> 31);  // all bits set, or none
       cell_m[i] ^= (cell_m[i] ^ (along + step * (at >> 9))) & is_new;
       cell_u[i] ^= (cell_u[i] ^ (first_u + (at & (SliceWindows::kWidth - 1)))) & is_new;
       cell_v[i] ^= (cell_v[i] ^ (first_v + (at >> 5 & (SliceWindows::kHeight - 1)))) & is_new;
@@ -35,7 +35,7 @@ void TileHits::take(std::size_t ray, const VoxelIndex& by) {
   cell[2][ray] = by.z;
 }
 
-// Neighbours meet the same cells: of those side by side, one is enough.
+// Neighbouring rays stop at the same cell, so only the first ray of a run is used.
 void CellStamps::take(const SliceHits& hits, const SlicePlace& place) {
   const auto first_slice = static_cast<std::uint32_t>(place.along & 3);
   std::uint32_t touched = 0;

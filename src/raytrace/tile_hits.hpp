@@ -10,17 +10,17 @@
 
 namespace vantage {
 
-/// Where the windows of a few slices lie in the world.
+/// Position of the windows of a few slices in the map.
 struct SlicePlace {
-  std::size_t major = 0;     ///< axis across which the slices are
-  std::size_t u = 1;         ///< the lateral axes
-  std::size_t v = 2;         ///< and the second
-  bool up = true;            ///< whether the next slice is the higher one
-  std::int32_t along = 0;    ///< first slice, as a coordinate of cells
-  std::int32_t first_u = 0;  ///< cell of the first column of the windows, that of a word
-  std::int32_t first_v = 0;  ///< cell of their first row, that of a word
+  std::size_t major = 0;     ///< axis across the slices
+  std::size_t u = 1;         ///< first lateral axis
+  std::size_t v = 2;         ///< second lateral axis
+  bool up = true;            ///< whether the walk goes towards larger coordinates
+  std::int32_t along = 0;    ///< coordinate of the first slice along the major axis
+  std::int32_t first_u = 0;  ///< coordinate of the first column of the windows, a multiple of 4
+  std::int32_t first_v = 0;  ///< coordinate of the first row of the windows, a multiple of 4
 
-  /// A cell, or a word, by its coordinates along these axes.
+  /// Converts coordinates along (major, u, v) to (x, y, z), for cells or words.
   [[nodiscard]] VoxelIndex at(std::int32_t m, std::int32_t of_u, std::int32_t of_v) const {
     return major == 0   ? VoxelIndex{m, of_u, of_v}
            : major == 1 ? VoxelIndex{of_u, m, of_v}
@@ -28,14 +28,14 @@ struct SlicePlace {
   }
 };
 
-/// Takes what the rays of a tile meet.
+/// Receives the cells that stop the rays of a tile.
 class HitSink {
  public:
   HitSink() = default;
   virtual ~HitSink() = default;
-  /// Rays that were stopped in slices.
+  /// Adds the rays stopped in slices. The value of `hits.where` must be -1 for rays that are not stopped.
   virtual void take(const SliceHits& hits, const SlicePlace& place) = 0;
-  /// One that was stopped by a cell.
+  /// Adds a single ray stopped by `cell`.
   virtual void take(std::size_t ray, const VoxelIndex& cell) = 0;
 
  protected:
@@ -45,27 +45,27 @@ class HitSink {
   HitSink& operator=(HitSink&&) = default;
 };
 
-/// Where rays were stopped.
+/// Stores for each ray the cell that stops it.
 class TileHits final : public HitSink {
  public:
   explicit TileHits(InstructionSet set) : set_(set) {}
   void take(const SliceHits& hits, const SlicePlace& place) override;
   void take(std::size_t ray, const VoxelIndex& cell) override;
 
-  /// The cell that stopped a ray.
+  /// The cell that stops a ray.
   [[nodiscard]] VoxelIndex cell_at(std::size_t ray) const { return {cell[0][ray], cell[1][ray], cell[2][ray]}; }
 
-  std::uint64_t stopped = 0;                                         ///< a bit for each ray that was
-  alignas(64) std::array<RayBlock::PerRay<std::int32_t>, 3> cell{};  ///< by which cell
+  std::uint64_t stopped = 0;                                         ///< bit mask of the stopped rays
+  alignas(64) std::array<RayBlock::PerRay<std::int32_t>, 3> cell{};  ///< coordinates of their cells, per axis
 
  private:
   InstructionSet set_;
 };
 
-/// The cells that stopped rays, each once, whichever rays those were.
+/// Collects the distinct cells that stop rays.
 class CellStamps final : public HitSink {
  public:
-  /// Of a box; into `seen`, which must outlive it.
+  /// Adds the cells to `seen`, which must outlive the object. Cells outside its box are dropped.
   CellStamps(CellSet& seen, InstructionSet set) : seen_(&seen), set_(set) {}
   void take(const SliceHits& hits, const SlicePlace& place) override;
   void take(std::size_t ray, const VoxelIndex& cell) override;
@@ -73,7 +73,7 @@ class CellStamps final : public HitSink {
  private:
   CellSet* seen_;
   InstructionSet set_;
-  // Of the windows, which hold 8 x 4 words, the cells that stopped rays, by slices; zero between calls.
+  // The stopping cells of the current windows, as 8 x 4 words ordered by slices. All zero between calls.
   std::array<std::uint64_t, 32> words_{};
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kRays = RayBlock::kRays;
 
-// The slices of a word (in_slices) in the opposite order.
+// Reverses the order of the slices in a word (see in_slices).
 inline std::uint64_t reversed(std::uint64_t slices) {
   slices = slices << 32U | slices >> 32U;
   return (slices & 0x0000FFFF0000FFFFU) << 16U | (slices >> 16U & 0x0000FFFF0000FFFFU);
@@ -70,7 +70,7 @@ void TileWalk::measure(const RayBlock& block) {
   });
 }
 
-// Those of the rays that advance fastest along the same axis, in the same direction, as the first of them.
+// Selects the rays of the same class as the first one, and sets the axes to that class.
 std::uint64_t TileWalk::take_class(std::uint64_t rays) {
   const double* const extent_x = extent_[0].data();
   const double* const extent_y = extent_[1].data();
@@ -127,7 +127,7 @@ void TileWalk::walk_class(std::uint64_t rays, HitSink& hits) {
   follow(rays, free_cells > 0.0 ? first : 0, hits);
 }
 
-// The rays of a class as one beam from this slice on.
+// Follows the rays of a class as one beam from slice `beam` on.
 void TileWalk::follow(std::uint64_t active, std::int64_t beam, HitSink& hits) {
   const std::int64_t last = last_slice();
   Spread spread = spread_of(active);
@@ -153,7 +153,7 @@ void TileWalk::follow(std::uint64_t active, std::int64_t beam, HitSink& hits) {
       }
       return;
     }
-    count = beam == 0 ? 1 : count;  // the way through the first slice is shorter
+    count = beam == 0 ? 1 : count;  // rays start inside slice 0, so they pass only a part of it
     if (fill_windows(window, beam, static_cast<std::size_t>(count)) && cross(active, beam, hits)) {
       spread = spread_of(active);
     }
@@ -161,7 +161,7 @@ void TileWalk::follow(std::uint64_t active, std::int64_t beam, HitSink& hits) {
   }
 }
 
-// Takes rays through the windows; false: none has left the beam.
+// Walks the rays through the windows. Returns whether any ray has left the beam.
 bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, HitSink& hits) {
   const double enters = entered_at(slice);
   const double leaves = entered_at(slice + static_cast<std::int64_t>(windows_.count));
@@ -184,8 +184,8 @@ bool TileWalk::cross(std::uint64_t& active, std::int64_t slice, HitSink& hits) {
   return active != before;
 }
 
-// Rays that end in the slices have been walked as if they did not: what they met behind their end counts for nothing,
-// and what they met in the slice of their end is doubtful.
+// The walk ignores the ends of rays. So a hit behind the end is removed, and a hit in the slice of the end is
+// doubtful.
 void TileWalk::end_rays(std::uint64_t ending, std::int64_t slice, SliceHits& of_slices) const {
   for (ending &= of_slices.stopped; ending != 0; ending &= ending - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(ending));
@@ -211,7 +211,7 @@ void TileWalk::walk_singly(const RayBlock& block, std::uint64_t rays, HitSink& h
   }
 }
 
-// The last slice in which a ray may still meet a cell that is asked for.
+// The last slice in which a ray may meet a cell of interest.
 std::int64_t TileWalk::last_slice() const {
   const std::int32_t first = first_cell_[place_.major];
   const std::array<std::int32_t, 3> lo{within_.lo.x, within_.lo.y, within_.lo.z};
@@ -221,7 +221,7 @@ std::int64_t TileWalk::last_slice() const {
   return std::min(of_box, static_cast<std::int64_t>(furthest_end_ + from_entry_ + SliceBeam::kRounding));
 }
 
-// The rays that end within this many cells along the major axis.
+// The rays that end within this distance, in cells along the major axis.
 std::uint64_t TileWalk::ending_by(double distance) const {
   const double* const extent = extent_[place_.major].data();
   RayBlock::PerRay<std::int32_t> flags;
@@ -235,12 +235,13 @@ std::uint64_t TileWalk::ending_by(double distance) const {
   return equal_to(flags, 1, set_);
 }
 
-// How far from the origin along the major axis rays enter a slice, in cells.
+// Distance from the origin, in cells along the major axis, at which rays enter a slice.
 double TileWalk::entered_at(std::int64_t slice) const {
   return std::max(static_cast<double>(slice) - from_entry_, 0.0);
 }
 
-// Puts all rays where they are `enters` cells from the origin, going `through` cells in each slice.
+// Places all rays at the distance `enters` from the origin; they advance `through` cells per slice (both in cells
+// along the major axis).
 void TileWalk::place_lanes(double enters, double through) {
   const std::array<std::size_t, 2> axes{place_.u, place_.v};
   for (std::size_t lateral = 0; lateral < 2; ++lateral) {
@@ -249,7 +250,7 @@ void TileWalk::place_lanes(double enters, double through) {
     std::int32_t* const at = (lateral == 0 ? lanes_.u : lanes_.v).data();
     std::int32_t* const step = (lateral == 0 ? lanes_.step_u : lanes_.step_v).data();
     const double from = within_first_[axis] + (first_cell_[axis] - (lateral == 0 ? place_.first_u : place_.first_v));
-    // Rays that are not active may be anywhere.
+    // Clamped, because inactive rays may be anywhere.
     const Clamped places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
     const Clamped steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
     compiled_for(set_, [=, first = from * SliceLanes::kCell, by = enters * SliceLanes::kCell,
@@ -269,7 +270,7 @@ TileWalk::Spread TileWalk::spread_of(std::uint64_t active) const {
   return {{least_u, least_v}, {most_u, most_v}};
 }
 
-// The lateral cells that rays of this spread may be in from the first to the last slice.
+// The lateral cells in which rays of this spread may be, from the first to the last slice.
 TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, std::int64_t last) const {
   const double enters = entered_at(first);
   const double leaves = entered_at(last + 1);
@@ -287,8 +288,8 @@ TileWalk::Window TileWalk::window_of(const Spread& spread, std::int64_t first, s
   return window;
 }
 
-// How many layers of words, from this one on, stop nothing wherever rays may go from these words of it: no ray gets
-// further sideways than forwards.
+// Number of layers, from this one on, that rays can cross freely after they have entered these words. It relies on
+// the fact that no ray moves further sideways than forwards.
 std::int32_t TileWalk::free_layers(const Window& words, std::int32_t along) {
   std::int32_t layers = BlockingGrid::kFurthest;
   for (std::int32_t v = words.lo[1]; v <= words.hi[1]; ++v) {
@@ -302,8 +303,8 @@ std::int32_t TileWalk::free_layers(const Window& words, std::int32_t along) {
   return layers;
 }
 
-// Makes the windows of `count` slices of one layer of words; false: no cell in which rays may be stops them. (Rows
-// of words beside these are left as they are: no ray comes there.)
+// Fills the windows of `count` slices of one layer. Returns false if none of the cells in which rays may be stops a
+// ray. (Rows beyond these words keep old values, but no ray gets there.)
 bool TileWalk::fill_windows(const Window& window, std::int64_t slice, std::size_t count) {
   const std::int32_t along = first_cell_[place_.major] + static_cast<std::int32_t>(place_.up ? slice : -slice);
   const VoxelIndex lo = place_.at(along >> 2, window.lo[0] >> 2, window.lo[1] >> 2);

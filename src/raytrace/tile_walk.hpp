@@ -8,26 +8,25 @@
 
 namespace vantage {
 
-/// Follows neighbouring rays from one origin to the first cells that stop them: together as one beam while all that
-/// it may pass is free, then in slices (SliceLanes), and one by one where they lie too far apart for that, where they
-/// end, or where they pass too near an edge between cells. The cells are those of VoxelRay, whatever the instruction
-/// set.
+/// Follows the rays of a tile to the first cells that stop them. The rays of a class go as one beam through free
+/// layers, and as lanes (SliceLanes) through slices where a cell may stop them. Single rays are walked exactly
+/// (SingleWalk) if they spread too far, end there, or pass too close to an edge between cells. The resulting cells
+/// equal those of VoxelRay for every instruction set. (Glossary in view_walk.hpp.)
 class TileWalk {
  public:
   TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin, InstructionSet set);
 
-  /// Walks `rays` of a block, of which the ends are placed and which start at the origin. They may be left where they
-  /// can no longer meet a cell of `within`: what they meet behind is not told. Nothing stops them in the first
-  /// `free_share` of their way, of which 1 is all.
+  /// Walks the selected `rays` of a block. They start at the origin, and their ends must be placed. Hits outside
+  /// `within` may be missing. No cell may stop a ray within the first `free_share` of its length, in [0, 1].
   void walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, double free_share, HitSink& hits);
 
  private:
-  /// Lateral cells that rays may be in, first and last.
+  /// The lateral cells in which rays may be; both bounds included.
   struct Window {
     std::array<std::int32_t, 2> lo;
     std::array<std::int32_t, 2> hi;
   };
-  /// Least and largest lateral cells per cell along the major axis.
+  /// The range of slopes: lateral cells per cell along the major axis.
   struct Spread {
     std::array<double, 2> least;
     std::array<double, 2> most;
@@ -55,23 +54,24 @@ class TileWalk {
   InstructionSet set_;
   Eigen::Vector3d origin_;
   VoxelIndex first_;
-  std::array<std::int32_t, 3> first_cell_;  // the same
-  std::array<double, 3> within_first_;      // place of the origin in its cell, in [0, 1]
+  std::array<std::int32_t, 3> first_cell_;  // same as first_
+  std::array<double, 3> within_first_;      // position of the origin in its cell, in [0, 1]
   VoxelBox within_;
 
   double free_share_ = 0.0;
 
-  // Of the class of rays that is being walked.
-  SlicePlace place_;          // major axis: along which they advance fastest
-  double from_entry_ = 0.0;   // of the origin, to where it would have entered its slice, in cells
-  double nearest_end_ = 0.0;  // of rays, along the major axis
+  // State of the class that is being walked.
+  SlicePlace place_;          // axes of the class, and the current windows
+  double from_entry_ = 0.0;   // distance from the face through which rays would enter slice 0 to the origin, in cells
+  double nearest_end_ = 0.0;  // shortest length of a ray along the major axis, in cells
   double furthest_end_ = 0.0;
-  std::uint64_t singly_ = 0;  // rays that only a walk of their own can tell of
+  std::uint64_t singly_ = 0;  // rays that need an exact walk
 
   SliceLanes lanes_;
   SliceWindows windows_;
-  alignas(64) std::array<RayBlock::PerRay<double>, 3> extent_{};  // of rays, in cells
-  alignas(64) std::array<RayBlock::PerRay<double>, 2> slope_{};   // lateral cells per cell along the major axis
+  alignas(64) std::array<RayBlock::PerRay<double>, 3> extent_{};  // lengths of the rays per axis, in cells
+  // slopes: lateral cells per cell along the major axis
+  alignas(64) std::array<RayBlock::PerRay<double>, 2> slope_{};
 };
 
 }  // namespace vantage

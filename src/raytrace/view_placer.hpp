@@ -7,17 +7,18 @@
 
 namespace vantage {
 
-/// Puts the rays of one view into the world, tile by tile: each ends where a ray of a scan without a return ends.
+/// Transforms the rays of a view into the world frame, tile by tile. Each ray reaches as far as a ray of
+/// Scan::no_return.
 class ViewPlacer {
  public:
-  /// Throws std::invalid_argument if the pose is not rigid or rays cannot be addressed.
+  /// Throws std::invalid_argument if the pose is not rigid or a ray is not addressable.
   ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame);
 
-  /// From the directions of a tile to the ends of its rays.
+  /// Computes the ends of the rays of a tile from their directions.
   void place_ends(const RayTile& tile, RayBlock& block) const {
     placer_.place_ends(tile.directions, tile.stretch, block);
   }
-  /// From the ends of rays to their cells.
+  /// Computes the cells of the ends.
   void place_cells(RayBlock& block) const { placer_.place_cells(block); }
 
  private:

@@ -15,11 +15,11 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kSide = 8;               // rays of a tile
-constexpr std::size_t kGroupSide = 4 * kSide;  // and of a group
+constexpr std::size_t kSide = 8;               // rays along the side of a tile
+constexpr std::size_t kGroupSide = 4 * kSide;  // rays along the side of a group
 static_assert(kGroupSide * kGroupSide == TileHulls::kTiles * RayTile::kRays);
 
-// Column and row in a tile of the place `place`: its even and its odd bits.
+// Column of a place in a tile: the even bits of `place`. The row is `column_of(place >> 1)`, the odd bits.
 std::size_t column_of(std::size_t place) { return (place & 1U) | (place >> 1U & 2U) | (place >> 2U & 4U); }
 
 RayCone cone_around(std::span<const RayTile> tiles) {
@@ -32,28 +32,29 @@ RayCone cone_around(std::span<const RayTile> tiles) {
   };
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for_each_direction([&](const Eigen::Vector3d& direction) { sum += direction; });
-  // Directions all around have no mean: their cone is all of space, whatever its axis.
+  // Directions all around have no mean. Their cone then covers all directions, so its axis does not matter.
   constexpr double kLeastMean = 1e-6;
   RayCone cone;
   cone.axis = sum.norm() < kLeastMean ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(sum.normalized());
   double least = 1.0;
   for_each_direction([&](const Eigen::Vector3d& direction) { least = std::min(least, cone.axis.dot(direction)); });
-  constexpr double kRounding = 1e-7;  // of directions in single precision
+  constexpr double kRounding = 1e-7;  // error of directions in single precision
   cone.cos_half_angle = std::max(least - kRounding, -1.0);
   cone.sin_half_angle = std::sqrt(1.0 - cone.cos_half_angle * cone.cos_half_angle);
   return cone;
 }
 
-// Corners of the smallest rectangle around the directions of a tile in a plane that all of them meet; none, if there
-// is no such plane.
+// Corners of the smallest rectangle that contains the directions of a tile, projected onto a plane in front of it.
+// nullopt if some ray does not meet such a plane.
 std::optional<std::array<Eigen::Vector3f, 4>> corners_of(const RayTile& tile, const RayCone& cone) {
-  constexpr double kFlattest = 0.1;  // cosine of the angle to the axis of the plane
+  constexpr double kFlattest = 0.1;  // smallest cosine of the angle between a ray and the normal of the plane
   if (cone.cos_half_angle < kFlattest) {
     return std::nullopt;
   }
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
   for (std::size_t place = 0; place < RayTile::kRays; ++place) {
-    if (tile.direction(place).cast<double>().normalized().z() < kFlattest) {  // not as an image has them
+    // a direction that an image plane at z = 1 cannot hold
+    if (tile.direction(place).cast<double>().normalized().z() < kFlattest) {
       frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), cone.axis).toRotationMatrix();
       break;
     }
@@ -65,7 +66,7 @@ std::optional<std::array<Eigen::Vector3f, 4>> corners_of(const RayTile& tile, co
     least = least.min(direction.head<2>().array() / direction.z());
     most = most.max(direction.head<2>().array() / direction.z());
   }
-  constexpr double kRounding = 1e-6;  // more than that of corners to single precision
+  constexpr double kRounding = 1e-6;  // larger than the rounding of the corners to single precision
   const double slack = kRounding * (1.0 + least.abs().maxCoeff() + most.abs().maxCoeff());
   least -= slack;
   most += slack;

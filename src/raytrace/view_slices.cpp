@@ -12,14 +12,14 @@
 namespace vantage {
 namespace {
 
-constexpr std::int32_t kColumn = 32;  // cells from one column of rows to the next
+constexpr std::int32_t kColumn = 32;  // stride in cells between the starts of neighbouring columns of rows
 
-// Of a window: where it lies in rows, and which of its cells count.
+// How to cut a window out of rows, and which of its cells count.
 struct Cut {
-  unsigned shift;   // of its first column
-  std::int32_t lo;  // rows, first and last
+  unsigned shift;   // bit of the first column
+  std::int32_t lo;  // first and last row that count
   std::int32_t hi;
-  std::uint32_t columns;  // a bit for each
+  std::uint32_t columns;  // bit mask of the columns that count
 };
 
 bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint64_t columns) {
@@ -30,7 +30,7 @@ bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint64_t co
   return (any & columns) != 0;
 }
 
-// Copies a window; returns whether any of its cells that count stops a ray.
+// Copies a window. Returns whether any of the cells that count stops a ray.
 inline bool cut_window(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
   std::uint32_t any = 0;
   for (std::int32_t row = 0; row < SliceWindows::kHeight; ++row) {
@@ -70,7 +70,7 @@ VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, c
 
 }  // namespace
 
-// A beam, which must not be empty, is widest where it ends.
+// A beam is widest at its end. It must not be empty.
 bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
   beam_ = beam;
   layers_.clear();
@@ -80,7 +80,7 @@ bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
   if (std::max(widest.extent(0), widest.extent(1)) > kWidest) {
     return false;
   }
-  constexpr std::size_t kOftenRead = 16;  // layers
+  constexpr std::size_t kOftenRead = 16;  // estimate of the number of layers to be read, to reserve memory
   const std::int32_t columns = widest.extent(0) / kColumn + 1;
   const std::int32_t rows = widest.extent(1) + SliceWindows::kHeight;
   rows_.reserve(kOftenRead * kPlanes * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -119,7 +119,7 @@ std::int32_t ViewSlices::free_from(const Layer& layer, std::int32_t along) {
   return free;
 }
 
-// False: no cell stops a ray.
+// Returns false if no cell of the layer stops a ray.
 bool ViewSlices::read_rows(const Layer& layer, std::int32_t along) {
   constexpr std::int32_t kWords = kColumn / 4;
   std::array<std::uint64_t, kWords> words{};
@@ -167,7 +167,7 @@ bool ViewSlices::any_stops(std::int64_t slice, const LateralCells& cells) const 
   const std::int32_t lo = cells.lo[0] - layer.first_u - column * kColumn;
   const std::int32_t hi = lo + cells.extent(0) - 1;
   if (hi >= 2 * kColumn) {
-    return true;  // as far as one row can tell
+    return true;  // wider than one row of 64 cells, so the answer is not known
   }
   const std::uint64_t* const rows = rows_of(layer, column, kAny) + (cells.lo[1] - layer.first_v);
   const std::uint64_t columns = ~std::uint64_t{0} << lo & ~std::uint64_t{0} >> (63 - hi);
@@ -190,7 +190,7 @@ ViewSlices::Slices ViewSlices::cut(std::int64_t first, std::int64_t end, const L
                     ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
   Slices stopping{end, first - 1};
   const auto cut_all = [&](const auto& cut_one) {
-    std::size_t count = 0;  // those in front of the first that stops a ray are overwritten
+    std::size_t count = 0;  // windows before the first one that stops a ray are overwritten
     for (std::int64_t slice = first; slice < end; ++slice) {
       const std::uint64_t* const from = rows_of(layer, column, beam_.along(slice) & 3) + from_row;
       if (cut_one(from, windows.rows[count].data())) {

@@ -11,51 +11,56 @@
 
 namespace vantage {
 
-/// The cells that stop rays of a view, slice by slice, wherever rays may be that meet its box: what the windows of
-/// all tiles are cut from. A layer, four slices of words, is read when it is first asked for.
+/// The cells that stop the rays of one class of a view, slice by slice, inside the beam that leads to the box. All
+/// tiles of the class cut their windows out of it. A layer (the four slices of a sheet of words) is read when it is
+/// first needed.
 class ViewSlices {
  public:
-  /// The grid must outlive it.
+  /// The grid must outlive the object.
   ViewSlices(const BlockingGrid& grid, InstructionSet set) : reader_(grid), set_(set) {}
 
-  /// From now on, of rays of this beam up to slice `last`. False: they lie too far apart, and there is nothing.
+  /// Starts a new beam that reaches up to slice `last`. Returns false if the beam is too wide; the slices must then
+  /// not be used.
   bool begin(const SliceBeam& beam, std::int64_t last);
 
-  /// How many layers, from that of this slice on, stop nothing.
+  /// Number of layers, from that of this slice on, in which no cell stops a ray.
   [[nodiscard]] std::int32_t free_layers(std::int64_t slice) { return layer_of(slice).free; }
-  /// Whether all of these cells belong to the layer of this slice.
+  /// Whether the layer of this slice covers all these cells.
   [[nodiscard]] bool hold(std::int64_t slice, const LateralCells& cells) {
     const Layer& layer = layer_of(slice);
     return cells.lo[0] >= layer.first_u && cells.hi[0] < layer.end_u && cells.lo[1] >= layer.first_v &&
            cells.hi[1] < layer.end_v;
   }
-  /// Some slices of a layer.
+  /// A range of slices of a layer, both ends included.
   struct Slices {
     std::int64_t first = 0;
     std::int64_t last = -1;
   };
-  /// Whether one of these cells stops a ray in a slice of this layer, which holds them and is not free; or whether
-  /// there are so many that one may.
+  /// Whether one of these cells stops a ray in a slice of this layer. Also true if the cells are too many to tell.
+  /// The layer must cover the cells and must not be free.
   [[nodiscard]] bool any_stops(std::int64_t slice, const LateralCells& cells) const;
-  /// Windows that begin with the cells of `place`, those of words, and hold `cells`, of the slices [first, end) of
-  /// such a layer: from the first to the last in which one of `cells` stops a ray. None: `last` is less than `first`.
+  /// Cuts windows that start at the word of `place` and contain `cells`, from the slices [first, end) of a layer.
+  /// Only the slices from the first to the last one in which one of `cells` stops a ray are kept; the result names
+  /// them. If there is none, `last` is less than `first`. Preconditions as any_stops.
   Slices cut(std::int64_t first, std::int64_t end, const LateralCells& cells, const SlicePlace& place,
              SliceWindows& windows) const;
 
  private:
-  static constexpr std::size_t kAny = 4;  // after four slices, the cells that stop rays in any of them
+  // plane after those of the four slices: the cells that stop rays in any of them
+  static constexpr std::size_t kAny = 4;
   static constexpr std::size_t kPlanes = 5;
 
-  // A row of 64 cells begins at every 32nd column, so that any window is cut from one column of rows.
+  // Rows are stored as columns of 64 cells that start every 32 cells. So every window, 32 cells wide, lies inside one
+  // column.
   struct Layer {
     bool is_read = false;
     std::int32_t free = 0;
-    std::int32_t first_u = 0;  // cells, those of words
+    std::int32_t first_u = 0;  // the covered cells, aligned to words
     std::int32_t first_v = 0;
     std::int32_t end_u = 0;
     std::int32_t end_v = 0;
-    std::size_t rows = 0;   // of a column, with those that windows of the last stick out by
-    std::size_t first = 0;  // of its rows
+    std::size_t rows = 0;   // rows per column, with padding so that the last window fits
+    std::size_t first = 0;  // index of its first row
   };
 
   [[nodiscard]] const Layer& layer_of(std::int64_t slice) {
@@ -69,7 +74,7 @@ class ViewSlices {
     const std::int32_t words = (beam_.along(slice) >> 2) - (beam_.first_along >> 2);
     return static_cast<std::size_t>(beam_.axes.up ? words : -words);
   }
-  // Rows of a column in a plane.
+  // The rows of a column in a plane.
   template <class Plane>
   [[nodiscard]] const std::uint64_t* rows_of(const Layer& layer, std::int32_t column, Plane plane) const {
     return &rows_[layer.first +

@@ -9,10 +9,10 @@ namespace {
 
 constexpr int kFewRays = 4;
 
-// The lateral spread of all that a box shows to the origin of a beam; as wide as a class of rays is, if it is not all
-// in front.
+// Limits the slopes of a beam to the directions in which a box appears from the origin. Without effect if the box is
+// not completely in front of the origin.
 void spread_over(SliceBeam& beam, const VoxelBox& box) {
-  constexpr double kSlack = 1e-4;  // more than rounding and what culling lets pass
+  constexpr double kSlack = 1e-4;  // larger than rounding and the tolerance of the culling
   const VoxelIndex origin = beam.axes.at(beam.first_along, beam.first[0], beam.first[1]);
   const VoxelIndex lo = box.lo - origin;
   const VoxelIndex hi = box.hi - origin;
@@ -67,7 +67,7 @@ void ViewWalk::enter(const TileGroup& group, const TileHulls& hulls) {
   part_ = kParts;
 }
 
-// What lies on the way of all of these tiles, from this slice on.
+// Finds and records what lies on the way of all these tiles, from slice `from` on.
 ViewWalk::Known ViewWalk::survey(std::uint64_t tiles, std::int64_t from) {
   std::array<double, 2> least{1.0, 1.0};
   std::array<double, 2> most{-1.0, -1.0};
@@ -87,7 +87,8 @@ ViewWalk::Known ViewWalk::survey(std::uint64_t tiles, std::int64_t from) {
   return record(*of_group_, stop);
 }
 
-// From the slopes of their corners, of which one kind is side by side.
+// Computes the slopes of each tile from those of its four corners. Equal corners of all tiles are stored side by
+// side.
 void ViewWalk::spread_tiles() {
   compiled_for(set_, [this] {
     constexpr std::size_t kTiles = TileHulls::kTiles;
@@ -112,7 +113,7 @@ void ViewWalk::spread_tiles() {
   });
 }
 
-// Makes a beam of this class and this spread, but no wider than the box is.
+// Sets the current beam to these slopes, limited to the beam of the class.
 void ViewWalk::turn_to(const Class& of, const std::array<double, 2>& least, const std::array<double, 2>& most) {
   beam_ = of.beam;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -152,14 +153,14 @@ std::uint64_t ViewWalk::walk(const RayTile& tile, std::size_t number, std::uint6
   if (std::popcount(rays) < kFewRays) {
     return rays;
   }
-  // Rays that are not in the beam meet no cell of the box.
+  // Rays outside the beam meet no cell of the box.
   if (known_ == Known::Nothing) {
     return follow(*of_group_, rays & measure(tile.directions, beam_), stop_, hits);
   }
   return follow_recorded(rays & measure(tile.directions, beam_), hits);
 }
 
-// Class by class.
+// Walks a tile whose rays belong to several classes, class by class.
 std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits) {
   std::uint64_t others = 0;
   while (rays != 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How rays and beams of a view go on through slices.
+// ViewWalk, second part: rays and beams move through slices.
 #include <algorithm>
 #include <bit>
 #include <raytrace/clamped.hpp>
@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-// Whether a window that begins with a word holds these cells.
+// Whether a window that starts at a word boundary can contain these cells.
 bool is_in_window(const LateralCells& cells) {
   return cells.hi[0] - (cells.lo[0] & ~3) < SliceWindows::kWidth &&
          cells.hi[1] - (cells.lo[1] & ~3) < SliceWindows::kHeight;
@@ -18,7 +18,7 @@ bool is_in_window(const LateralCells& cells) {
 
 }  // namespace
 
-// Slopes of all rays of a tile. Returns those that are in this beam.
+// Computes the slopes of all rays of a tile. Returns those inside this beam.
 std::uint64_t ViewWalk::measure(const std::array<RayBlock::PerRay<float>, 3>& directions, const SliceBeam& beam) {
   RayBlock::PerRay<std::int32_t> flags;
   const float* const x = directions[0].data();
@@ -46,7 +46,7 @@ std::uint64_t ViewWalk::measure(const std::array<RayBlock::PerRay<float>, 3>& di
   return equal_to(flags, 1, set_);
 }
 
-// How far all rays go on their way through a slice, of `through` cells.
+// Sets how far all rays move per slice; in a slice they advance `through` cells along the major axis.
 void ViewWalk::place_steps(double through) {
   const Clamped steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
   const double* const slope_u = slope_[0].data();
@@ -62,14 +62,14 @@ void ViewWalk::place_steps(double through) {
   });
 }
 
-// Puts the beam around these rays.
+// Shrinks the beam to these rays.
 void ViewWalk::tighten(std::uint64_t active) {
   for (std::size_t i = 0; i < 2; ++i) {
     std::tie(beam_.least[i], beam_.most[i]) = range_of(slope_[i], active, set_);
   }
 }
 
-// Where something may first stop a ray of the beam, from this slice on.
+// The first slices, from this one on, in which a cell may stop a ray of the beam.
 ViewWalk::Stop ViewWalk::next_stop(Class& of, std::int64_t slice) const {
   const auto stop_in = [&of](std::int64_t first, std::int64_t next,
                              const LateralCells& cells) -> std::optional<Stop> {
@@ -82,7 +82,7 @@ ViewWalk::Stop ViewWalk::next_stop(Class& of, std::int64_t slice) const {
       slice += beam_.left_in_layer(slice) + std::int64_t{4} * (free - 1);
       continue;
     }
-    if (slice == 0) {  // of which they pass a part
+    if (slice == 0) {  // rays start inside slice 0, so they pass only a part of it
       if (const std::optional<Stop> stop = stop_in(0, 1, beam_.cells_in(0, 0))) {
         return *stop;
       }
@@ -103,7 +103,7 @@ ViewWalk::Stop ViewWalk::next_stop(Class& of, std::int64_t slice) const {
   return {slice};
 }
 
-// What lies on the way of the beam, from this stop on.
+// Records the passages of the beam, from this stop on.
 ViewWalk::Known ViewWalk::record(Class& of, Stop stop) {
   passages_.clear();
   bool tells = flood_.begin(beam_);
@@ -177,7 +177,7 @@ std::uint64_t ViewWalk::follow_recorded(std::uint64_t active, HitSink& hits) {
   return others;
 }
 
-// Cuts the windows of a stop, which holds and fits them. Returns the first of their slices.
+// Cuts the windows of a stop that `held` and is_in_window allow. Returns the first of their slices.
 std::int64_t ViewWalk::cut(const Class& of, const Stop& stop, SliceWindows& windows) {
   place_ = beam_.axes;
   place_.first_u = stop.cells.lo[0] & ~3;
@@ -189,7 +189,7 @@ std::int64_t ViewWalk::cut(const Class& of, const Stop& stop, SliceWindows& wind
 
 void ViewWalk::walk_windows(const SliceWindows& windows, std::int64_t first, std::uint64_t active, SliceHits& met) {
   place_lanes(beam_.entered_at(first));
-  if (first == 0) {  // of which they pass a part
+  if (first == 0) {  // rays start inside slice 0, so they pass only a part of it
     place_steps(beam_.entered_at(1));
   }
   walk_slices(lanes_, windows, active, met, set_);
@@ -198,7 +198,7 @@ void ViewWalk::walk_windows(const SliceWindows& windows, std::int64_t first, std
   }
 }
 
-// Follows rays of the beam from this stop on; returns those that are left to others.
+// Follows rays of the beam from this stop on. Returns those that must be walked otherwise.
 std::uint64_t ViewWalk::follow(Class& of, std::uint64_t active, Stop stop, HitSink& hits) {
   std::uint64_t others = 0;
   place_steps(1.0);
@@ -246,7 +246,7 @@ std::uint64_t ViewWalk::follow_quarters(Class& of, std::uint64_t active, std::in
   return others;
 }
 
-// Puts all rays where they are `enters` cells from the origin.
+// Places all rays at the distance `enters` from the origin, in cells along the major axis.
 void ViewWalk::place_lanes(double enters) {
   const Clamped places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
   const double from_u = (beam_.within[0] + (beam_.first[0] - place_.first_u)) * SliceLanes::kCell;

@@ -8,11 +8,11 @@
 
 namespace vantage {
 
-/// Rows of cells of four slices, four rows of each slice.
+/// The rows of four slices, four rows per slice.
 using WordRows = std::array<std::uint32_t, 16>;
 
-/// Up to eight words side by side, their slices one after the other (in_slices), as rows of cells: word i gives
-/// columns 4 i to 4 i + 3.
+/// Converts up to eight adjacent words, ordered by slices (in_slices), to rows of cells. Word i gives the columns 4 i
+/// to 4 i + 3.
 [[nodiscard]] WordRows rows_of_words(std::span<const std::uint64_t> words, InstructionSet set);
 
 }  // namespace vantage

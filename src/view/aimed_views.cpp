@@ -27,7 +27,7 @@ std::vector<CellFace> visible_faces(const RayCaster& caster, const CellSet& soug
 std::optional<Pose> view_of(const CellFace& face, const RayCaster& caster, const AimedViewOptions& options,
                             Dice& dice) {
   constexpr int kDraws = 64;
-  constexpr double kIntoFreeCell = 0.5 + 1e-3;  // of a cell: just across the face
+  constexpr double kIntoFreeCell = 0.5 + 1e-3;  // in cells, from the centre of the cell: just beyond the face
   const Eigen::Vector3d normal(face.normal.x, face.normal.y, face.normal.z);
   const Eigen::Vector3d on_face =
       caster.frame().centre_of(face.cell) + kIntoFreeCell * caster.frame().size_m * normal;

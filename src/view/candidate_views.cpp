@@ -23,7 +23,7 @@ std::vector<Face> icosahedron() {
       corners.insert(corners.end(), {{0.0, a, b}, {a, b, 0.0}, {b, 0.0, a}});
     }
   }
-  // Corners of a face are an edge, 2, apart.
+  // The corners of a face are one edge length, 2, apart.
   const auto neighbours = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return (p - q).norm() < 2.1; };
   std::vector<Face> faces;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -39,7 +39,7 @@ std::vector<Face> icosahedron() {
   return faces;
 }
 
-// Calls `look(place, direction drawn)` for places of a workspace.
+// Creates views at random positions of a workspace. `look(position, random direction)` returns the viewing direction.
 template <class Look>
 std::vector<Pose> drawn_views(const Box& workspace, std::size_t count, std::uint64_t seed, const Look& look) {
   if (workspace.empty() || !workspace.min.allFinite() || !workspace.max.allFinite()) {

@@ -9,13 +9,13 @@
 namespace vantage {
 namespace {
 
-// Cells by number, and which view sees which of them.
+// Which views see which cells; cells are numbered.
 struct Incidence {
   std::vector<std::vector<std::uint32_t>> views_of_cell;
   std::vector<std::vector<std::uint32_t>> cells_of_view;
 };
 
-// Of the wanted cells that any view sees, those that fewest see.
+// The wanted cells that are seen by the fewest views, but by at least one.
 std::vector<VoxelIndex> rarest_cells(std::span<const CellSet> seen, const CellSet& wanted, std::size_t most_cells) {
   std::unordered_map<VoxelIndex, std::size_t> views;
   for (const CellSet& one : seen) {
@@ -65,9 +65,9 @@ std::vector<double> loads(const Incidence& incidence, const std::vector<double>&
 
 double fewest_views_bound(std::span<const CellSet> seen, const CellSet& wanted, std::size_t rounds,
                           std::size_t most_cells) {
-  constexpr double kFirstStep = 0.1;  // of the weight of a cell, and how much smaller steps become
+  constexpr double kFirstStep = 0.1;  // initial relative decrease of a weight, and how fast it shrinks
   constexpr double kSteps = 20.0;
-  constexpr std::size_t kAnew = 64;  // rounds after which loads are added up anew, free of what rounding left
+  constexpr std::size_t kAnew = 64;  // the loads are recomputed after so many rounds to remove rounding errors
   const std::vector<VoxelIndex> cells = rarest_cells(seen, wanted, most_cells);
   if (cells.empty()) {
     return 0.0;

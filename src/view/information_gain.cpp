@@ -20,7 +20,7 @@
 namespace vantage {
 namespace {
 
-// Nats.
+// In nats.
 double entropy_of(double probability) {
   const double other = 1.0 - probability;
   return probability <= 0.0 || other <= 0.0 ? 0.0 : -probability * std::log(probability) - other * std::log(other);
@@ -41,8 +41,8 @@ bool meets_a_rear_side(std::span<const RayCell> ray) {
          ray[ray.size() - 2].occupancy == Occupancy::Unknown;
 }
 
-// Squared distances along one line of cells, in cells, from what they are at its own cells: the lower envelope of
-// parabolas of Felzenszwalb & Huttenlocher 2012.
+// One-dimensional squared distance transform along a line of cells, in units of cells: the lower envelope of
+// parabolas (Felzenszwalb & Huttenlocher 2012).
 class SquaredDistances {
  public:
   static constexpr double kNone = 1e20;
@@ -84,7 +84,7 @@ class SquaredDistances {
   std::vector<double> from_;
 };
 
-// Of every cell of the box to its nearest occupied cell, metres.
+// Distance from every cell of the box to its nearest occupied cell, metres.
 VoxelGrid<double> distances_to_surface(const OccupancyMap& map, const VoxelBox& box) {
   VoxelGrid<double> distances(box, SquaredDistances::kNone);
   for_each_cell(box, [&](const VoxelIndex& cell) {
@@ -111,7 +111,7 @@ VoxelGrid<double> distances_to_surface(const OccupancyMap& map, const VoxelBox& 
   return distances;
 }
 
-// A ray may touch the box; a little too often is no harm.
+// Conservative: may report a ray that only comes close to the box.
 bool may_meet(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   double enters = 0.0;
   double leaves = 1.0;

@@ -36,7 +36,7 @@ SensingConstraint measurable(const OccupancyMap& map, const VoxelBox& object, co
   if (options.max_incidence_rad < std::numbers::pi / 2) {
     normals = std::make_shared<VoxelGrid<Eigen::Vector3f>>(object, Eigen::Vector3f::Zero());
     for_each_cell(object, [&](const VoxelIndex& cell) {
-      // Sight comes in through a face.
+      // A ray enters a cell through a face, so one face neighbour must be free.
       const bool can_be_seen = map.at(cell) != Occupancy::Free &&
                                std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                                            [&](const auto& step) { return map.at(cell + step) == Occupancy::Free; });

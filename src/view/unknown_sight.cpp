@@ -11,12 +11,12 @@
 namespace vantage {
 namespace {
 
-// Chances below this are as good as none.
+// Smaller probabilities are neglected.
 constexpr double kLeastChance = 0.01;
 
 }  // namespace
 
-// One that ends in an unknown cell, and how it would go on.
+// A ray that ends in an unknown cell, with its continuation.
 struct UnknownSight::Ray {
   Eigen::Vector3d sensor;
   Eigen::Vector3d direction;
@@ -24,7 +24,7 @@ struct UnknownSight::Ray {
   double range_m;
 };
 
-// The best chance of every cell, in steps fine enough to add up.
+// The best probability of every cell, as a 16-bit fixed-point number.
 class UnknownSight::Chances {
  public:
   Chances(const VoxelBox& box, const Eigen::Vector3d& sensor, double min_range_m, const VoxelFrame& frame)
@@ -43,7 +43,7 @@ class UnknownSight::Chances {
       raised_[offset / row_length_] = 1;
     }
   }
-  // Nearer surfaces give no return.
+  // Surfaces within the minimum range give no return.
   [[nodiscard]] bool in_range(const VoxelIndex& cell) const {
     return min_range_m_ <= 0.0 || (frame_.centre_of(cell) - sensor_).norm() >= min_range_m_;
   }
@@ -57,12 +57,12 @@ class UnknownSight::Chances {
     return seen;
   }
 
-  // Of one ray.
+  // A wanted cell on a ray.
   struct Passed {
     VoxelIndex cell;
-    double reached;  // the chance that the ray comes to it
+    double reached;  // probability that the ray reaches it
   };
-  std::vector<Passed> on_ray;  // scratch
+  std::vector<Passed> on_ray;  // scratch memory of `follow`
 
  private:
   static constexpr double kWhole = 65535.0;
@@ -81,7 +81,7 @@ class UnknownSight::Chances {
 
   VoxelGrid<std::uint16_t> best_;
   std::size_t row_length_;
-  std::vector<std::uint8_t> raised_;  // the rows along x in which any cell has a chance
+  std::vector<std::uint8_t> raised_;  // per row along x: whether a cell has a probability
   Eigen::Vector3d sensor_;
   double min_range_m_;
   VoxelFrame frame_;
@@ -147,7 +147,7 @@ void UnknownSight::follow(const Ray& ray, Chances& chances) const {
     }
   };
   pass(ray.end, contents_[ray.end]);
-  // Depth never falls along a ray: so the walk may start anywhere before the cell behind its end.
+  // The depth of the cells increases along a ray, so the walk may start anywhere before the cell behind the end.
   const auto depth_of = [&](const VoxelIndex& cell) {
     return ray.direction.dot(frame_.centre_of(cell) - ray.sensor);
   };
@@ -161,7 +161,7 @@ void UnknownSight::follow(const Ray& ray, Chances& chances) const {
       continue;
     }
     if (!contents_.contains(cell) || reached < kLeastChance) {
-      break;  // the map is a box
+      break;  // the ray has left the bounding box of the map, or its probability is negligible
     }
     const Content content = contents_[cell];
     if (content == Content::Surface) {
@@ -174,7 +174,7 @@ void UnknownSight::follow(const Ray& ray, Chances& chances) const {
     pass(cell, content);
   }
   for (const Chances::Passed& one : passed) {
-    // It gets through all of the rest with `reached` / one.reached.
+    // Without a return, the cell is observed only if the ray stops in it or behind it.
     chances.raise(one.cell, returns ? one.reached : one.reached - reached);
   }
 }

@@ -13,15 +13,15 @@ namespace {
 constexpr std::uint8_t kFaces = 0x3F;
 constexpr std::uint8_t kTakenForFree = 0x40;
 
-// A view has looked at faces that are turned away from it by this much as well: they approximate a slanted surface
-// that it sees. What it is expected to see is turned towards it more clearly.
+// Faces that are turned away slightly also count as observed, because they approximate a slanted surface that is
+// visible. For predictions a face must be turned towards the sensor more clearly.
 constexpr double kLookedAtCosine = -0.1;
 constexpr double kExpectedCosine = 0.2;
 
-// Of the cells beside known surface which nobody has looked into, so many are supposed to go on with it.
+// Probability that an unobserved cell beside known surface is occupied.
 constexpr double kChanceBesideSurface = 0.4;
 
-// Calls `visit(face)` for the faces of a cell that are turned towards the sensor: by more than this cosine.
+// Calls `visit(face)` for the faces whose normal has a cosine to the direction of the sensor above `least_cosine`.
 template <class Visit>
 void for_each_face_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
   const double least = least_cosine * back.norm();
@@ -35,7 +35,7 @@ void for_each_face_towards(const Eigen::Vector3d& back, double least_cosine, con
   }
 }
 
-// A number in [0, 1) that belongs to the cell.
+// A pseudo-random number in [0, 1) that is fixed for each cell.
 double draw_of(const VoxelIndex& cell) {
   std::uint64_t h = static_cast<std::uint32_t>(cell.x) * 0x9E3779B97F4A7C15ULL ^
                     static_cast<std::uint32_t>(cell.y) * 0xC2B2AE3D27D4EB4FULL ^
@@ -57,7 +57,8 @@ UnseenSurface::UnseenSurface(const OccupancyMap& map, const VoxelBox& object)
 void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays) {
   caster_.update();
   pass_rays(map, world_from_sensor, rays);
-  // First as the sensor may have met it: all that is unknown stops rays but what is taken for free.
+  // First assume that all unknown cells stop rays, except those treated as free. Then the visible cells are those
+  // that the sensor may have met.
   CellSet stopping(looked_.box());
   for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
     if (map.at(cell) == Occupancy::Unknown && (looked_[cell] & kTakenForFree) == 0) {
@@ -77,7 +78,7 @@ void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor,
   suppose(map);
 }
 
-// What lies before known surface on a ray, or on one that meets none, was passed.
+// Marks unknown cells that a ray has passed: those before known surface, or on a ray that meets none.
 void UnseenSurface::pass_rays(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays) {
   const Eigen::Vector3d from = world_from_sensor.translation();
   const Box box = frame_.box_of(looked_.box());
@@ -88,7 +89,7 @@ void UnseenSurface::pass_rays(const OccupancyMap& map, const Pose& world_from_se
       const auto place = static_cast<std::size_t>(std::countr_zero(left));
       const Eigen::Vector3d reach =
           world_from_sensor.linear() * (tile.direction(place).cast<double>() * tile.stretch[place]);
-      // Where it is in the box.
+      // The part of the ray inside the box.
       double enters = 0.0;
       double leaves = 1.0;
       for (int axis = 0; axis < 3; ++axis) {

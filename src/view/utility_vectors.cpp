@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kCorners = 7;
 
-// Of how many frontier cells one has its lines.
+// The stride n: only every n-th frontier cell gets rays.
 std::size_t stride_for(std::span<const FrontierVoid> frontier_voids, std::size_t most) {
   std::size_t lines = 0;
   for (const FrontierVoid& one : frontier_voids) {
@@ -47,7 +47,7 @@ AccumulatedUtility accumulate_utility(const OccupancyMap& map, const ReachableSp
                                       std::span<const UtilityVector> vectors, double min_range_m,
                                       double max_range_m) {
   const VoxelFrame& frame = map.frame();
-  // No further than the known part of the map can reach: a sensor's range may be without bound.
+  // Rays need not go beyond the known part of the map. The range of a sensor may be infinite.
   const double furthest_m = std::min(max_range_m, frame.box_of(map.bounds()).extent().norm() + frame.size_m);
   AccumulatedUtility utility{std::vector<std::uint64_t>(reachable.size(), 0)};
   for (const UtilityVector& vector : vectors) {

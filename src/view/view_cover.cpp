@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-// What a set still adds, as last counted: it can only have become less.
+// Number of new cells of a view at its last count. It can only decrease, so it is an upper bound (lazy greedy).
 struct Gain {
   std::size_t cells;
   std::size_t view;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Amazon Picking Challenge data of Zeng et al. 2017: a RealSense on an arm, all numbers in one text file.
+// Data of the Amazon Picking Challenge (Zeng et al. 2017): a RealSense on an arm; all numbers are in one text file.
 #include <fstream>
 #include <map>
 #include <optional>
@@ -18,7 +18,7 @@ constexpr const char* kPoseTitle = "Camera-to-world extrinsic matrix (camera pos
 
 using Blocks = std::map<std::string, std::vector<double>, std::less<>>;
 
-// "# title" and the numbers below it.
+// Reads blocks of "# title" and the numbers below it.
 Blocks blocks_in(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) {
@@ -44,8 +44,8 @@ Blocks blocks_in(const std::filesystem::path& file) {
   return blocks;
 }
 
-// Decoded images are registered to the colour camera, the driver's own are in the pixels of the depth camera: seen in
-// what neighbouring frames measure of the same place, which agrees to 3 mm and 4 mm so and to 6 mm the other way.
+// Decoded images are registered to the colour camera; raw images are in the pixels of the depth camera. This was
+// measured: with these assumptions, neighbouring frames agree to 3 mm and 4 mm, otherwise only to 6 mm.
 DepthCamera camera_of(const std::filesystem::path& file, const Blocks& blocks, bool registered) {
   const auto block = [&](const char* title, std::size_t size) -> const std::vector<double>& {
     const auto found = blocks.find(title);
@@ -65,7 +65,7 @@ DepthCamera camera_of(const std::filesystem::path& file, const Blocks& blocks, b
     }
     camera.posed_from_depth = *colour_from_depth;
   }
-  camera.min_range_m = 0.2;  // what a RealSense F200 measures well
+  camera.min_range_m = 0.2;  // reliable range of a RealSense F200
   camera.max_range_m = 1.2;
   return camera;
 }
@@ -94,7 +94,7 @@ Recording open_apc(RecordingReader reader) {
                 .depth = depth,
                 .colour = std::filesystem::exists(colour) ? colour : std::filesystem::path()});
   }
-  // Tenths of millimetres; the driver wrote them with three bits rotated.
+  // The unit is 0.1 mm. The driver writes raw values rotated by three bits.
   reader.read_depth_png_as({.units_per_m = 10000.0, .rotated_bits = decoded ? 0 : 3});
   return reader.finish(camera_of(info, blocks, decoded));
 }

@@ -10,8 +10,8 @@
 namespace vantage::drawing {
 namespace {
 
-constexpr int kFine = 3;   // the sheet is this much finer than the picture
-constexpr int kShift = 4;  // OpenCV's fixed point coordinates: sixteenths of a pixel
+constexpr int kFine = 3;   // supersampling: resolution of the sheet relative to the picture
+constexpr int kShift = 4;  // fractional bits of OpenCV's fixed-point coordinates
 
 cv::Scalar scalar(Colour colour) { return {double(colour.red), double(colour.green), double(colour.blue)}; }
 
@@ -37,7 +37,7 @@ std::string printable(const std::string& words) {
   for (const char c : words) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x80 && byte < 0xC0) {
-      continue;  // the rest of a character already shown as '?'
+      continue;  // continuation byte of a UTF-8 character that is already shown as '?'
     }
     ascii += byte < 0x20 || byte >= 0x7F ? '?' : c;
   }

@@ -20,21 +20,21 @@ inline constexpr Colour kGridLine{228, 231, 236};
 inline constexpr Colour kFreeSpace{252, 252, 250};
 inline constexpr Colour kUnknownSpace{183, 189, 199};
 inline constexpr Colour kOccupiedSpace{29, 32, 40};
-inline constexpr Colour kPartlyOccupiedSpace{128, 130, 134};  // half-way: a column of cells both free and occupied
+inline constexpr Colour kPartlyOccupiedSpace{128, 130, 134};  // the average of free and occupied
 inline constexpr Colour kStart{22, 145, 84};
 inline constexpr Colour kEnd{206, 43, 55};
 
-/// A colour between two: 0 is `a`, 1 is `b`.
+/// Interpolates between two colours: 0 is `a`, 1 is `b`.
 [[nodiscard]] Colour mix(Colour a, Colour b, double share_of_b);
-/// From the first (0) to the last (1) of a journey: blue, magenta, orange.
+/// Colour scale for a sequence, from the first (0) to the last (1): blue, magenta, orange.
 [[nodiscard]] Colour journey_colour(double share);
-/// From low (0) to high (1): the viridis scale.
+/// Colour scale from low (0) to high (1): viridis.
 [[nodiscard]] Colour level_colour(double share);
 
 enum class Align : std::uint8_t { Left, Centre, Right };
 
-/// A sheet drawn three times as fine as it comes out, so that every edge is smooth. Coordinates are pixels of the
-/// finished picture, fractions allowed, y down.
+/// A drawing sheet with threefold supersampling for smooth edges. Coordinates are pixels of the finished picture,
+/// with fractions; y points down.
 class Canvas {
  public:
   Canvas(double width, double height);
@@ -48,15 +48,15 @@ class Canvas {
   void polyline(std::span<const cv::Point2d> points, Colour colour, double thickness);
   void polygon(std::span<const cv::Point2d> points, Colour fill);
   void disc(cv::Point2d centre, double radius, Colour fill);
-  /// An arrow of the given length centred on `middle`, along `direction` (in picture axes, any length).
+  /// Draws an arrow of the given length, centred on `middle`, along `direction` (picture axes, any length).
   void arrow(cv::Point2d middle, cv::Point2d direction, double length, Colour colour, double thickness);
-  /// Lays `image` (RGB) over `area`: whole pixels of it stay sharp squares where it is enlarged.
+  /// Draws `image` (RGB) into `area`. Enlarged pixels stay sharp squares.
   void image(const cv::Mat& image, const cv::Rect2d& area);
-  /// Text whose capitals are `size` high; `at` is on the baseline. Characters outside ASCII show as '?'.
+  /// Draws text with capitals of height `size`. `at` is on the baseline. Non-ASCII characters are shown as '?'.
   void text(cv::Point2d at, const std::string& words, double size, Colour colour, Align align = Align::Left,
             bool bold = false);
   [[nodiscard]] static double text_width(const std::string& words, double size, bool bold = false);
-  /// The same with a halo of paper around it, for text over a picture.
+  /// Draws text with a white outline, for use over a picture.
   void label(cv::Point2d at, const std::string& words, double size, Colour colour, Align align = Align::Left);
 
   [[nodiscard]] Picture finish() const;

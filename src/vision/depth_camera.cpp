@@ -14,7 +14,7 @@ namespace {
 
 using detail::require_option;
 
-// Drops what hangs between an edge and its background.
+// Drops flying pixels between an edge and its background.
 class EdgeFilter {
  public:
   EdgeFilter(const DepthImage& depth, const DepthCamera& camera) : depth_(depth), camera_(camera) {}
@@ -28,7 +28,7 @@ class EdgeFilter {
     constexpr std::array<std::pair<int, int>, 4> kAcross{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
     int support = 0;
     for (const auto& [dx, dy] : kAcross) {
-      const float a = step_to(column, row, dx, dy) - z;  // NaN beyond the rim and where nothing was measured
+      const float a = step_to(column, row, dx, dy) - z;  // NaN outside the image and where nothing was measured
       const float b = step_to(column, row, -dx, -dy) - z;
       support += (std::abs(a) <= gap ? 1 : 0) + (std::abs(b) <= gap ? 1 : 0);
       if ((a > gap && b < -gap) || (a < -gap && b > gap)) {
@@ -61,7 +61,7 @@ double DepthNoise::range_for(double sigma_m) const {
     return 0.0;
   }
   const double left = sigma_m - constant_m;
-  if (quadratic_per_m > 0.0) {  // of the two roots the positive one, in the form that does not cancel
+  if (quadratic_per_m > 0.0) {  // the positive root, in a form without cancellation
     return 2.0 * left / (linear + std::sqrt(linear * linear + 4.0 * quadratic_per_m * left));
   }
   return linear > 0.0 ? left / linear : std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ using drawing::MapSheet;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kFrontier{226, 38, 45};
 
-/// One layer of the field: phi, NaN where there is none, and its rank in [0, 1].
+/// One layer of the field: phi (NaN outside the field) and its rank in [0, 1].
 struct Slice {
   VoxelGrid<double> phi;
   std::vector<double> sorted;
@@ -73,7 +73,7 @@ cv::Mat image_of(const OccupancyMap& map, const FieldContent& content, const Sli
   return image;
 }
 
-// Downhill at a cell by differences of its neighbours in the layer; where there is none, the face is closed.
+// The negative gradient at a cell from its neighbours in the layer. Missing neighbours are closed faces.
 Eigen::Vector2d downhill(const Slice& slice, const VoxelIndex& cell) {
   const double here = slice.phi[cell];
   const auto phi = [&](std::int32_t dx, std::int32_t dy) {

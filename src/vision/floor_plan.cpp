@@ -36,7 +36,7 @@ void draw_path(MapSheet& sheet, const std::vector<Eigen::Vector3d>& travelled) {
   for (std::size_t i = 1; i < travelled.size(); ++i) {
     length_m += (travelled[i] - travelled[i - 1]).norm();
   }
-  // A light edge first, all along, so that crossings stay readable.
+  // A light outline below the whole path keeps crossings readable.
   for (std::size_t i = 1; i < travelled.size(); ++i) {
     sheet.canvas().line(sheet.at(travelled[i - 1]), sheet.at(travelled[i]), drawing::kPaper, 4.6);
   }

@@ -27,7 +27,7 @@ void draw_moment(Canvas& canvas, const GrowthMoment& moment, const VoxelBox& cel
     return cv::Point2d(area.x + scale * (point.x() - shown.min.x()), area.y + scale * (shown.max.y() - point.y()));
   };
   const std::vector<Eigen::Vector3d>& way = moment.travelled;
-  for (const double width : {4.0, 2.0}) {  // a light edge first
+  for (const double width : {4.0, 2.0}) {  // light outline first
     for (std::size_t i = 1; i < way.size(); ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(way.size());
       canvas.line(at(way[i - 1]), at(way[i]), width > 3.0 ? drawing::kPaper : drawing::journey_colour(share), width);

@@ -42,7 +42,7 @@ std::uint32_t number_at(const Bytes& bytes, std::size_t at) {
          (std::uint32_t{bytes[at + 2]} << 8U) | bytes[at + 3];
 }
 
-// CRC-32 as PNG has it (ISO 3309).
+// CRC-32 of PNG (ISO 3309).
 std::uint32_t check_sum(const unsigned char* from, const unsigned char* to) {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> made{};
@@ -66,7 +66,7 @@ bool is_png(const Bytes& bytes) {
   return bytes.size() >= kPngStart.size() && std::equal(kPngStart.begin(), kPngStart.end(), bytes.begin());
 }
 
-// Chunks: length, name of four letters, content, check sum of name and content; the last one is IEND.
+// Each chunk has a length, a name of four letters, content, and a checksum of name and content. The last is IEND.
 void check_png(const std::filesystem::path& file, const Bytes& bytes) {
   constexpr std::size_t kAroundContent = 12;
   std::size_t at = kPngStart.size();
@@ -89,7 +89,7 @@ void check_png(const std::filesystem::path& file, const Bytes& bytes) {
   }
 }
 
-// Bits per channel and kind of colour stand at fixed places of the first chunk.
+// Bit depth and colour type have fixed positions in the first chunk.
 void check_depth_png(const std::filesystem::path& file, const Bytes& bytes) {
   constexpr std::size_t kBits = 24;
   constexpr std::size_t kColourKind = 25;
@@ -109,8 +109,8 @@ struct PixelSize {
   std::uint64_t height = 0;
 };
 
-// The first frame header (SOF) tells the size; one that was cut off has no end (EOI) after where the pixels begin
-// (SOS).
+// The size is in the first frame header (SOF). A truncated file has no end marker (EOI) after the start of the pixel
+// data (SOS).
 std::optional<PixelSize> jpeg_size(const Bytes& bytes) {
   const auto short_at = [&](std::size_t at) { return std::uint64_t{bytes[at]} << 8U | bytes[at + 1]; };
   constexpr std::size_t kFrameHeader = 9;  // bytes from the marker to the end of the width
@@ -135,7 +135,7 @@ std::optional<PixelSize> jpeg_size(const Bytes& bytes) {
   return std::nullopt;
 }
 
-// "P5 width height ..." and its kin, with comments between.
+// Reads a header such as "P5 width height ...", which may contain comments.
 std::optional<PixelSize> pnm_size(const Bytes& bytes) {
   std::istringstream in(
       std::string(bytes.begin() + 2, bytes.begin() + std::min<std::ptrdiff_t>(4096, std::ssize(bytes))));
@@ -151,9 +151,9 @@ std::optional<PixelSize> pnm_size(const Bytes& bytes) {
   return width && height ? std::optional(PixelSize{*width, *height}) : std::nullopt;
 }
 
-// As the header has it; none where it is no PNG, JPEG or PNM.
+// Image size from the header; nullopt if it is not a complete PNG, JPEG or PNM.
 std::optional<PixelSize> size_of(const Bytes& bytes) {
-  constexpr std::size_t kPngHeader = 24;  // bytes to the end of the height
+  constexpr std::size_t kPngHeader = 24;  // bytes up to the end of the height
   if (is_png(bytes)) {
     return bytes.size() < kPngHeader ? std::nullopt
                                      : std::optional(PixelSize{number_at(bytes, 16), number_at(bytes, 20)});
@@ -164,7 +164,7 @@ std::optional<PixelSize> size_of(const Bytes& bytes) {
   return bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' ? pnm_size(bytes) : std::nullopt;
 }
 
-// Before anybody makes room for the pixels.
+// Checked before memory for the pixels is allocated.
 void check_size(const std::filesystem::path& file, const Bytes& bytes) {
   constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;  // 8192 x 8192
   const std::optional<PixelSize> size = size_of(bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KITTI's odometry sequences, Geiger et al. 2012: rectified pairs from a car, posed by a laser and satellites.
+// KITTI odometry sequences (Geiger et al. 2012): rectified stereo pairs from a car, with poses from laser and GPS.
 #include <memory>
 #include <stdexcept>
 #include <string>

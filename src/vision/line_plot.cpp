@@ -23,7 +23,7 @@ using drawing::Colour;
 constexpr double kPanelWidth = 640.0;
 constexpr double kPanelHeight = 460.0;
 constexpr double kLeft = 82.0;
-constexpr double kRight = 78.0;  // holds the values at the ends of the curves
+constexpr double kRight = 78.0;  // space for the last values of the curves
 constexpr double kTop = 88.0;
 constexpr double kBottom = 66.0;
 constexpr double kText = 10.0;
@@ -55,7 +55,7 @@ struct Range {
   }
 };
 
-/// Where the points of one plot go on the sheet.
+/// Maps points of a plot to the sheet.
 struct Frame {
   cv::Rect2d area;
   Range x;
@@ -109,7 +109,7 @@ void draw_axes(Canvas& canvas, const LinePlot& plot, const Frame& frame) {
   canvas.text({0.5 * (frame.area.x + right), below + 50.0}, plot.x_label, kText + 0.5, drawing::kInk, Align::Centre);
 }
 
-// What is written of the end of a curve, and at which height.
+// The text at the end of a curve, and its height.
 struct EndValue {
   double y;
   std::string text;
@@ -146,8 +146,8 @@ std::optional<EndValue> draw_series(Canvas& canvas, const LinePlot& plot, const 
   return EndValue{end.y, drawing::write_number(series.y[*last], 0.1) + plot.value_unit, colour};
 }
 
-// In one column to the right of the plot, each at the height of its curve's end or as near to it as the others let
-// it.
+// Draws the end values in a column to the right of the plot, as close as possible to the ends of their curves without
+// overlaps.
 void draw_end_values(Canvas& canvas, const Frame& frame, std::vector<EndValue> values) {
   std::stable_sort(values.begin(), values.end(), [](const EndValue& a, const EndValue& b) { return a.y < b.y; });
   double room_below = frame.area.y + frame.area.height;

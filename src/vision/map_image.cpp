@@ -17,9 +17,9 @@ struct Column {
   std::uint32_t occupied = 0;
 };
 
-constexpr std::int32_t kMostColumns = 2000;  // along a side; a picture has fewer pixels than that
+constexpr std::int32_t kMostColumns = 2000;  // maximum number of columns along a side; a picture has fewer pixels
 
-// Occupied cells of a usual column over open floor: the floor and the ceiling, which a plan leaves out.
+// Median number of occupied cells of a column over open floor: floor and ceiling, which a plan leaves out.
 std::uint32_t usual_slabs(const std::vector<Column>& columns) {
   std::vector<std::uint32_t> occupied;
   for (const Column& column : columns) {
@@ -41,7 +41,7 @@ Colour column_colour(Column column, double height, std::uint32_t slabs) {
   const double occupied = column.occupied / height;
   const double free = column.free / height;
   const Colour open = mix(kUnknownSpace, kFreeSpace, free / std::max(1e-9, 1.0 - occupied));
-  // Half a column occupied is a wall to everybody: windows and door frames must not pale.
+  // A column that is half occupied is still a wall to a viewer, for example below a window or above a door.
   return mix(open, kOccupiedSpace, 1.8 * occupied);
 }
 
@@ -78,7 +78,7 @@ cv::Mat map_from_above(const OccupancyMap& map, const VoxelBox& cells) {
   cv::Mat image(height, width, CV_8UC3);
   for (std::int32_t y = 0; y < height; ++y) {
     for (std::int32_t x = 0; x < width; ++x) {
-      // The last bins may be cut off by the edge.
+      // The last bins may be cut off by the border.
       const double cells_in_bin = static_cast<double>(std::min(bin, extent.x - x * bin)) *
                                   static_cast<double>(std::min(bin, extent.y - y * bin)) * extent.z;
       const std::size_t at =

@@ -11,7 +11,7 @@ namespace vantage::drawing {
 namespace {
 
 constexpr double kMapSide = 880.0;    // pixels of the longer side of the map
-constexpr double kShortSide = 330.0;  // at least this much for the shorter one, or the legend would hang below
+constexpr double kShortSide = 330.0;  // minimum for the shorter side, so that the legend fits
 constexpr double kLeft = 72.0;
 constexpr double kTop = 84.0;
 constexpr double kBottom = 62.0;

@@ -18,7 +18,7 @@ bool is_whole(const Picture& picture) {
   return picture.width > 0 && picture.height > 0 && picture.rgb.size() == 3 * picture.width * picture.height;
 }
 
-// The same bytes, not copied; OpenCV only reads them.
+// A view of the same bytes, without a copy. OpenCV only reads them.
 cv::Mat mat_of(const Picture& picture) {
   return {static_cast<int>(picture.height), static_cast<int>(picture.width), CV_8UC3,
           const_cast<std::uint8_t*>(picture.rgb.data())};  // NOLINT(cppcoreguidelines-pro-type-const-cast)
@@ -30,7 +30,7 @@ void check_pictures(const char* what, std::span<const Picture> pictures, std::si
   }
 }
 
-// Rounded alike for all pictures that are to have a side in common.
+// Rounding is the same for all pictures, so scaled pictures share one side length.
 cv::Mat scaled_by(const Picture& picture, double scale) {
   const auto side = [scale](std::size_t pixels) {
     return std::max(1, static_cast<int>(std::lround(scale * static_cast<double>(pixels))));
@@ -41,7 +41,7 @@ cv::Mat scaled_by(const Picture& picture, double scale) {
   return scaled;
 }
 
-// All of them with this side of the same length.
+// Scales all pictures so that this side has the given length.
 std::vector<cv::Mat> scaled_alike(const char* what, std::span<const Picture> pictures, std::size_t Picture::*side,
                                   std::size_t length) {
   check_pictures(what, pictures, length);

@@ -11,28 +11,29 @@
 
 namespace vantage::detail {
 
-/// The numbers of a text, between blanks, tabs, commas and line ends; none if something else is among them. "nan" and
-/// "inf" are numbers here.
+/// Parses numbers separated by blanks, tabs, commas or line ends. nullopt if the text contains anything else. "nan"
+/// and "inf" count as numbers.
 [[nodiscard]] std::optional<std::vector<double>> numbers_in(std::string_view text);
 
-/// All lines of a text file but empty ones and those that begin with '#', each with its number in the file. Throws
-/// std::runtime_error if it cannot be opened.
+/// Reads all lines of a text file, with their numbers, except empty lines and lines that start with '#'. Throws
+/// std::runtime_error if the file cannot be opened.
 struct TextLine {
   std::size_t number = 0;
   std::string text;
 };
 [[nodiscard]] std::vector<TextLine> lines_of(const std::filesystem::path& file);
 
-/// The rigid transform that rows of 3 x 4 or 4 x 4 numbers give, freed from what rounding has done to it. None if one
-/// is not finite or the linear part is not within 0.01 of a rotation.
+/// The rigid transform given by 3 x 4 or 4 x 4 numbers in row-major order, corrected for rounding. nullopt if a
+/// number is not finite or the linear part is not within 0.01 of a rotation.
 [[nodiscard]] std::optional<Pose> pose_of_rows(const std::vector<double>& rows);
 
-/// The transform of a translation and a quaternion x, y, z, w, which is normalised. None if one of the numbers is not
-/// finite or the quaternion is (nearly) zero. `was_off` tells whether its length was off 1 by more than 0.001.
+/// The transform given by a translation and a quaternion x, y, z, w, which is normalised. nullopt if a number is not
+/// finite or the quaternion is nearly zero. `was_off` is set to whether its length differed from 1 by more than
+/// 0.001.
 [[nodiscard]] std::optional<Pose> pose_of_quaternion(const Eigen::Matrix<double, 7, 1>& numbers, bool& was_off);
 
-/// From the axes of a level camera (x right, y down, z forward), which some recordings take for their world, to axes
-/// with +z up: x forward, y left.
+/// Rotation from the axes of a level camera (x right, y down, z forward), which some recordings use as their world,
+/// to axes with x forward, y left and z up.
 [[nodiscard]] Pose upright_from_camera_axes();
 
 }  // namespace vantage::detail

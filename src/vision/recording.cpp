@@ -92,7 +92,7 @@ Recording RecordingReader::finish(DepthCamera camera, bool sized) {
                                       recording_.skipped_.front().reason;
     throw std::runtime_error(folder_.string() + ": there is no frame to read in it" + why);
   }
-  std::string unread;  // the first frame's file may be the damaged one
+  std::string unread;  // the first file may be damaged, so the next ones are tried too
   for (std::size_t i = 0; i < recording_.frames_.size() && !sized; ++i) {
     try {
       const DepthImage first = read_depth_(recording_.frames_[i]);

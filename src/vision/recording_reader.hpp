@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// What the readers of the formats fill in.
+/// Collects the frames of a recording; filled by the reader of each format.
 class RecordingReader {
  public:
   RecordingReader(std::filesystem::path folder, RecordingOptions options)
@@ -23,14 +23,15 @@ class RecordingReader {
     recording_.skipped_.push_back({std::move(name), std::move(reason)});
   }
   void count_normalised() { ++recording_.normalised_; }
-  /// How a frame becomes a reading, where it is not by a depth image.
+  /// Sets how a frame is read, if it is not a depth image.
   void read_by(std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read) {
     recording_.read_ = std::move(read);
   }
   void read_depth_by(std::function<DepthImage(const RecordedFrame&)> read);
-  /// Depth images as PNG files.
+  /// Frames are depth images in PNG files.
   void read_depth_png_as(DepthEncoding encoding);
-  /// The camera, whose size the first frame's image decides unless `sized`; options override what it says.
+  /// Completes the recording. Unless `sized` is true, the size of the camera is taken from the first readable image.
+  /// Options override the values of `camera`.
   [[nodiscard]] Recording finish(DepthCamera camera, bool sized = false);
 
  private:
@@ -46,10 +47,10 @@ class RecordingReader {
 [[nodiscard]] Recording open_kitti_stereo(RecordingReader reader);
 [[nodiscard]] Recording open_stanford(RecordingReader reader);
 
-/// Files of the folder whose names end with `ending`, by name.
+/// The files of a folder whose names end with `ending`, sorted by name.
 [[nodiscard]] std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,
                                                               const std::string& ending);
-/// A file name without `ending`.
+/// The file name without `ending`.
 [[nodiscard]] std::string name_without(const std::filesystem::path& file, const std::string& ending);
 
 }  // namespace vantage

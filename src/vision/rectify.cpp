@@ -57,8 +57,7 @@ std::pair<cv::Mat, cv::Mat> rectify(const StereoRig& rig, const cv::Mat& left, c
           undistorted(rig.rectification->right, turn.r2, turn.p2, right)};
 }
 
-// Corners with texture both ways, on a lattice so that all of the image has a say; each is searched for in a wide
-// strip of the other image.
+// Selects well-textured corners distributed over the image, and searches each in a wide strip of the other image.
 double rows_apart_px(const cv::Mat& left, const cv::Mat& right) {
   constexpr int kHalf = 10;
   constexpr int kAcross = 12;

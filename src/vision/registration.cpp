@@ -24,8 +24,8 @@ namespace {
 using detail::require_option;
 using Points = std::vector<Eigen::Vector3f>;
 
-constexpr int kNeighbours = 12;            // of a point, for its plane
-constexpr std::size_t kFewestPoints = 50;  // no plane, no pose from fewer
+constexpr int kNeighbours = 12;            // number of neighbours used to estimate the plane of a point
+constexpr std::size_t kFewestPoints = 50;  // fewer points determine neither planes nor a pose
 
 void check(const RegistrationOptions& options, const Pose& guess) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
@@ -45,7 +45,7 @@ void check(const RegistrationOptions& options, const Pose& guess) {
   }
 }
 
-// The first point in every cube, moved by `pose`.
+// Transforms points by `pose` and keeps the first one in every cube.
 Points thinned(std::span<const Eigen::Vector3f> points, const Pose& pose, double spacing_m) {
   const VoxelFrame cubes{spacing_m};
   std::unordered_set<VoxelIndex> taken;
@@ -59,7 +59,7 @@ Points thinned(std::span<const Eigen::Vector3f> points, const Pose& pose, double
   return result;
 }
 
-// Points with normals, as OpenCV wants them: one row of x y z nx ny nz each, about `middle`.
+// Points with normals in OpenCV's layout: rows of x y z nx ny nz, relative to `middle`.
 cv::Mat with_normals(const Points& points, const Eigen::Vector3d& middle) {
   cv::Mat rows(static_cast<int>(points.size()), 3, CV_32F);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -80,7 +80,7 @@ Eigen::Vector3d vector_at(const cv::Mat& rows, std::size_t row, int first) {
           static_cast<double>(values[first + 2])};
 }
 
-// Finds the nearest of some points within a distance.
+// Finds the nearest point within a distance.
 class NearestWithin {
  public:
   NearestWithin(const cv::Mat& rows, double gap_m) : rows_(rows), gap_m_(gap_m), cubes_{gap_m} {
@@ -89,7 +89,7 @@ class NearestWithin {
           static_cast<std::size_t>(i));
     }
   }
-  // rows.rows if there is none.
+  // Index of the nearest row; rows.rows if there is none.
   [[nodiscard]] std::size_t find(const Eigen::Vector3d& point) const {
     auto best = static_cast<std::size_t>(rows_.rows);
     double least = gap_m_ * gap_m_;
@@ -121,7 +121,7 @@ class NearestWithin {
   std::unordered_map<VoxelIndex, std::vector<std::size_t>> in_cube_;
 };
 
-// How well moved points lie on the planes of others; fills overlap, rms and covariance.
+// Measures how well transformed points lie on the planes of others: fills overlap, rms and covariance.
 void judge(const cv::Mat& scan, const cv::Mat& known, const Pose& pose, double gap_m, Registration& result) {
   const NearestWithin nearest(known, gap_m);
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
@@ -144,7 +144,7 @@ void judge(const cv::Mat& scan, const cv::Mat& known, const Pose& pose, double g
   result.overlap = static_cast<double>(partners) / std::max(1.0, static_cast<double>(scan.rows));
   result.rms_m = std::sqrt(squares / std::max(1.0, static_cast<double>(partners)));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(information);
-  Eigen::Matrix<double, 6, 1> inverse;  // what nothing holds has a large variance, not an infinite one
+  Eigen::Matrix<double, 6, 1> inverse;  // bounded, so that unconstrained directions get a large but finite variance
   for (Eigen::Index i = 0; i < 6; ++i) {
     inverse[i] = 1.0 / std::max(solver.eigenvalues()[i], 1e-9);
   }
@@ -154,7 +154,7 @@ void judge(const cv::Mat& scan, const cv::Mat& known, const Pose& pose, double g
 
 std::string percent(double share) { return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %"; }
 
-// Why a result is not to be believed; empty if it is.
+// Why a result is rejected; empty if it is accepted.
 std::string doubt(const Registration& result, const Pose& correction, const Eigen::Vector3d& middle,
                   const RegistrationOptions& options) {
   const double moved_m = (correction * middle - middle).norm();
@@ -171,7 +171,7 @@ std::string doubt(const Registration& result, const Pose& correction, const Eige
   return "";
 }
 
-// Rows of points and normals, moved.
+// Transforms rows of points and normals.
 cv::Mat moved(const cv::Mat& rows, const Pose& pose) {
   cv::Mat result = rows.clone();
   for (int i = 0; i < rows.rows; ++i) {
@@ -186,7 +186,7 @@ cv::Mat moved(const cv::Mat& rows, const Pose& pose) {
   return result;
 }
 
-// OpenCV's correction of points about the origin; identity where it finds none that is rigid.
+// One run of OpenCV's ICP; identity if the result is not rigid.
 Pose corrected_by_icp(const cv::Mat& scan, const cv::Mat& known, const RegistrationOptions& options) {
   constexpr float kTolerance = 0.005F;
   constexpr float kRejection = 2.5F;
@@ -207,8 +207,8 @@ Pose corrected_by_icp(const cv::Mat& scan, const cv::Mat& known, const Registrat
   return correction;
 }
 
-// ICP again from where it has come to, as long as more of the scan finds its place: from a poor guess the first round
-// only gets near. `result` gets how well the best round fits.
+// Repeats ICP from the last result while the overlap increases, because after a poor guess the first run only comes
+// close. `result` receives the fit of the best run.
 Pose best_correction(const cv::Mat& scan, const cv::Mat& known, const RegistrationOptions& options,
                      Registration& result) {
   constexpr int kMostRounds = 5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "7-Scenes", Shotton et al. 2013: a Kinect, its frames posed by KinectFusion.
+// "7-Scenes" (Shotton et al. 2013): Kinect frames with poses from KinectFusion.
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -25,7 +25,7 @@ std::vector<double> rows_in(const std::filesystem::path& file) {
   return rows;
 }
 
-// None where it is no rigid transform of 4 rows of 4 numbers.
+// nullopt if the file is not a rigid transform of 4 rows of 4 numbers.
 std::optional<Pose> pose_in(const std::filesystem::path& file) {
   std::vector<double> rows;
   for (const detail::TextLine& line : detail::lines_of(file)) {
@@ -49,9 +49,9 @@ DepthCamera camera_in(const std::filesystem::path& folder) {
     camera.fy = rows[4];
     camera.cy = rows[5];
   }
-  camera.max_range_m = 4.0;  // what a Kinect measures well
+  camera.max_range_m = 4.0;  // reliable range of a Kinect
   camera.min_range_m = 0.4;
-  camera.noise = {.constant_m = 0.0012, .quadratic_per_m = 0.0019};  // Nguyen, Izadi & Lovell 2012, axial
+  camera.noise = {.constant_m = 0.0012, .quadratic_per_m = 0.0019};  // axial noise, Nguyen, Izadi & Lovell 2012
   return camera;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Range scans as the Stanford 3D Scanning Repository keeps them: points of a laser scanner that stood still before an
-// object, and a list of how each scan lies in the object's frame.
+// Range scans of the Stanford 3D Scanning Repository: points of a stationary laser scanner, and a list with the pose
+// of each scan in the frame of the object.
 #include <zlib.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 namespace vantage {
 namespace {
 
-// The scanner's rays are nearly parallel. A camera stands in for it, as far off as such scanners stand: before the
-// middle of the platform on which the object turned, looking along -z of the scan, whose y axis points up.
+// The rays of the scanner are nearly parallel. They are approximated by a camera at a typical distance, in front of
+// the centre of the turntable. It looks along -z of the scan, whose y axis points up.
 const Eigen::Vector3d kEye(0.0, 0.1, 0.7);
 constexpr std::size_t kPixels = 200;
 constexpr double kAngleRad = 0.35;
@@ -30,14 +30,14 @@ Pose scan_from_sensor() {
   return pose;
 }
 
-// From axes with +y up, which these scans have, to axes with +z up.
+// Rotation from the +y up axes of the scans to +z up.
 Pose upright_from_scans() {
   Pose pose = Pose::Identity();
   pose.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   return pose;
 }
 
-// A file that may be packed.
+// Reads a file that may be compressed.
 std::string unpacked_text(const std::filesystem::path& file) {
   gzFile_s* const in = gzopen(file.c_str(), "rb");
   if (in == nullptr) {
@@ -58,10 +58,10 @@ std::string unpacked_text(const std::filesystem::path& file) {
 
 struct ScanHeader {
   std::size_t vertices = 0;
-  std::size_t properties = 0;  // of a vertex, x y z the first
+  std::size_t properties = 0;  // per vertex; x y z come first
 };
 
-// Throws for anything but text with vertices that begin with x, y and z.
+// Throws unless the file is an ASCII PLY whose vertices start with x, y and z.
 ScanHeader header_in(std::istream& in, const std::filesystem::path& file) {
   ScanHeader header;
   std::string axes;
@@ -111,7 +111,7 @@ std::vector<Eigen::Vector3f> points_in(const std::filesystem::path& file) {
   return points;
 }
 
-// What the camera that stands in for the scanner would see, for a person to look at.
+// What the approximating camera would see; for display.
 DepthImage depth_image_of(const std::vector<Eigen::Vector3f>& points, const DepthCamera& camera) {
   DepthImage image{camera.width, camera.height,
                    std::vector<float>(camera.width * camera.height, std::numeric_limits<float>::quiet_NaN())};
@@ -150,7 +150,7 @@ Recording open_stanford(RecordingReader reader) {
     RecordedFrame frame;
     words >> kind >> frame.name;
     if (kind != "bmesh" && kind != "mesh") {
-      continue;  // "camera" is how a viewer showed it
+      continue;  // "camera" lines describe a viewer
     }
     const auto numbers = detail::numbers_in(line.text.substr(line.text.find(frame.name) + frame.name.size()));
     bool was_off = false;
@@ -170,7 +170,8 @@ Recording open_stanford(RecordingReader reader) {
     if (was_off) {
       reader.count_normalised();
     }
-    // The list's quaternions turn the object's frame into the scan's, its translations lead the other way.
+    // The quaternions of the list rotate from the object frame to the scan frame, but its translations lead from scan
+    // to object.
     Pose object_from_scan = *listed;
     object_from_scan.linear() = listed->linear().transpose();
     frame.world_from_posed = upright_from_scans() * object_from_scan * scan_from_sensor();

@@ -18,7 +18,7 @@ namespace {
 
 using detail::require_option;
 
-constexpr int kSubpixel = 16;  // OpenCV's disparities are in sixteenths of a pixel
+constexpr int kSubpixel = 16;  // OpenCV stores disparities in sixteenths of a pixel
 constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
 
 void check(const StereoOptions& options) {
@@ -45,7 +45,7 @@ cv::Ptr<cv::StereoMatcher> matcher_of(const StereoOptions& options) {
     block->setMinDisparity(options.least_disparity_px);
     block->setUniquenessRatio(options.uniqueness_percent);
     block->setDisp12MaxDiff(options.left_right_px);
-    block->setTextureThreshold(0);  // least_texture instead, the same for both methods
+    block->setTextureThreshold(0);  // replaced by least_texture, which works for both methods
     return block;
   }
   const int area = options.window_px * options.window_px;
@@ -54,7 +54,7 @@ cv::Ptr<cv::StereoMatcher> matcher_of(const StereoOptions& options) {
                                 cv::StereoSGBM::MODE_SGBM);
 }
 
-// The matchers leave out as many columns as there are disparities: a border to the left gives them back.
+// The matchers skip as many columns on the left as there are disparities. A border on the left avoids this.
 cv::Mat disparities(const cv::Mat& left, const cv::Mat& right, const StereoOptions& options) {
   const int border = std::max(0, options.least_disparity_px + options.disparities_px);
   cv::Mat wide_left;
@@ -76,7 +76,7 @@ cv::Mat disparities(const cv::Mat& left, const cv::Mat& right, const StereoOptio
   return result;
 }
 
-// Mean absolute slope of brightness along the row over the window, grey values per pixel.
+// Mean absolute horizontal brightness gradient in the window, grey values per pixel.
 cv::Mat texture_of(const cv::Mat& image, int window_px) {
   cv::Mat slope;
   cv::filter2D(image, slope, CV_32F, cv::Mat(cv::Matx13f(-0.5F, 0.0F, 0.5F)));

@@ -21,7 +21,7 @@ using detail::require_option;
   throw std::runtime_error(file.string() + ": " + what);
 }
 
-// As validate, but the file is to blame.
+// Same as validate, but reports an error of the file.
 StereoRig checked(const StereoRig& rig, const std::filesystem::path& file) {
   try {
     rig.validate();
@@ -52,7 +52,7 @@ cv::FileStorage storage_of(const std::filesystem::path& file) {
     if (storage.isOpened()) {
       return storage;
     }
-  } catch (const cv::Exception&) {  // said below in words of our own
+  } catch (const cv::Exception&) {  // replaced by a clearer message
     refuse(file, "is not a file of OpenCV matrices (YAML or XML)");
   }
   refuse(file, "cannot be opened");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The TUM RGB-D benchmark's folders, Sturm et al. 2012: lists of time-stamped files and poses.
+// TUM RGB-D benchmark folders (Sturm et al. 2012): lists of time-stamped files and poses.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -13,7 +13,7 @@ namespace {
 
 struct StampedFile {
   double stamp_s = 0.0;
-  std::string stamp;  // as written
+  std::string stamp;  // as written in the file
   std::filesystem::path file;
 };
 
@@ -67,7 +67,7 @@ std::vector<StampedPose> poses_in(const std::filesystem::path& list, RecordingRe
   return poses;
 }
 
-// The one of `stamped`, sorted by time, that is nearest to a time; null if that is further off than `most_s`.
+// The entry of `stamped`, which is sorted by time, nearest to a time; null if it is more than `most_s` away.
 template <class Stamped>
 const Stamped* nearest(const std::vector<Stamped>& stamped, double stamp_s, double most_s) {
   const auto after = std::lower_bound(stamped.begin(), stamped.end(), stamp_s,

@@ -29,7 +29,7 @@ Colour utility_colour(double share) {
   return share < 0.5 ? drawing::mix(kLow, kMedium, 2.0 * share) : drawing::mix(kMedium, kHigh, 2.0 * share - 1.0);
 }
 
-// A layer over the map from above, of as many pixels as its image has.
+// An overlay on the map from above, at the resolution of its image.
 class Overlay {
  public:
   Overlay(const OccupancyMap& map, const VoxelBox& cells)
@@ -53,7 +53,7 @@ class Overlay {
   cv::Mat image_;
 };
 
-// How many of some cells every column has.
+// The number of given cells in every column.
 VoxelGrid<std::uint32_t> columns_of(std::span<const VoxelIndex> cells, const VoxelBox& shown) {
   VoxelGrid<std::uint32_t> columns({shown.lo, {shown.hi.x, shown.hi.y, shown.lo.z + 1}}, 0);
   for (const VoxelIndex& cell : cells) {
@@ -64,11 +64,11 @@ VoxelGrid<std::uint32_t> columns_of(std::span<const VoxelIndex> cells, const Vox
   return columns;
 }
 
-// The outline of an ellipsoid seen from above: that of the upper left block of its shape matrix.
+// Draws the outline of an ellipsoid seen from above. It is given by the upper left 2 x 2 block of its shape matrix.
 void draw_outline(MapSheet& sheet, const Ellipsoid& ellipsoid) {
   const Eigen::Matrix3d half = ellipsoid.axes * ellipsoid.semi_axes_m.asDiagonal();
   const Eigen::Matrix2d shape = (half * half.transpose()).topLeftCorner<2, 2>();
-  // A factor of it by Cholesky: shape = f f^T.
+  // Cholesky factor: shape = f f^T.
   const double f00 = std::sqrt(shape(0, 0));
   const double f10 = shape(1, 0) / f00;
   const double f11 = std::sqrt(std::max(shape(1, 1) - f10 * f10, 0.0));
@@ -110,7 +110,7 @@ void legend_pose(MapSheet& sheet, Colour colour, const std::string& words) {
       words);
 }
 
-// What both pictures end with.
+// The common last part of both pictures.
 Picture finish(MapSheet& sheet, const VoidContent& content) {
   draw_pose(sheet, content.sensor, drawing::kStart);
   legend_pose(sheet, drawing::kStart, "sensor");

@@ -21,77 +21,86 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Where an Arm stands and how it moves.
 struct ArmOptions {
-  Pose world_from_base = Pose::Identity();  ///< where the base stands; it does not move
-  /// Unknown cells whose centres lie in one of these boxes (metres, world) do not stand in the way: what the host
-  /// knows to be clear. What the map knows to be occupied does, everywhere.
+  Pose world_from_base = Pose::Identity();  ///< pose of the base, which does not move
+  /// Boxes (world frame, metres) that the host knows to be clear. Unknown cells whose centre lies in one of them are
+  /// not obstacles. Occupied cells always are.
   std::vector<Box> declared_clear = {};
-  double margin_m = 0.0;         ///< the body is thought this much thicker, >= 0
-  double joint_step_rad = 0.03;  ///< a motion is tested at configurations at most so far apart in each joint, > 0
-  double pose_step_rad = 0.15;   ///< poses of a path are at most so far apart in each joint, > 0
-  std::size_t path_iterations = 1'000;  ///< of RRT-Connect before a path is given up, > 0
-  std::size_t guesses = 8;              ///< configurations that inverse kinematics starts from at most, > 0
-  /// Of the postures drawn once, which the capability map and the guesses come from.
+  double margin_m = 0.0;  ///< safety margin added to the radius of the body, >= 0
+  /// largest step of a joint between collision tests of a motion, > 0; metres for sliding joints
+  double joint_step_rad = 0.03;
+  double pose_step_rad = 0.15;  ///< largest step of a joint between poses of a path, > 0; metres for sliding joints
+  std::size_t path_iterations = 1'000;  ///< iterations of RRT-Connect before a search for a path fails, > 0
+  std::size_t guesses = 8;              ///< maximum number of start configurations for inverse kinematics, > 0
+  /// Options of the postures that are sampled once. The capability map and the start configurations are taken from
+  /// them.
   CapabilityMapOptions capability = {};
-  std::uint64_t seed = 1;  ///< of the search for paths
+  std::uint64_t seed = 1;  ///< seed of the path search
 };
 
-/// A sensor at the end of a kinematic chain whose base stands still: a robot's arm.
+/// A sensor at the end of a kinematic chain with a fixed base: a robot arm.
 ///
-/// Its body, the capsules of the chain, must keep to cells that are clear (OccupancyMap::is_clear) or declared so;
-/// unknown ones are obstacles. Capsules of the base itself are exempt: it stands where it stands. A pose of the
-/// sensor stands for one configuration of the joints, always the same (`configuration`): so a host that follows the
-/// paths of an Arm has its joints where the next path begins.
+/// The body is the set of capsules of the chain. It must stay in cells that are clear (OccupancyMap::is_clear) or
+/// declared clear; other unknown cells are obstacles. Capsules of the base itself are not tested. Each sensor pose
+/// belongs to a unique joint configuration (see `configuration`). So if a host follows the paths of an Arm, its
+/// joints are where the next path starts.
 ///
 ///     const auto chain = KinematicChain::from_urdf("arm.urdf", "base_link", "sensor");
 ///     const auto arm = std::make_shared<Arm>(chain, ArmOptions{.declared_clear = {around_the_robot}});
 ///     const auto planner = make_planner("frontier-void", {.sensor = sensor, .platform = arm});
 class Arm final : public Platform {
  public:
-  /// Draws the postures. Throws std::invalid_argument naming the option at fault, or as CapabilityMap.
+  /// Samples the postures. Throws std::invalid_argument, which names the invalid option, or as CapabilityMap.
   explicit Arm(const KinematicChain& chain, const ArmOptions& options = {});
 
-  /// The links and joints.
+  /// The kinematic chain.
   [[nodiscard]] const KinematicChain& chain() const { return chain_; }
-  /// The options it was made with.
+  /// The options that were passed to the constructor.
   [[nodiscard]] const ArmOptions& options() const { return options_; }
-  /// Where the sensor can be and look, by what was drawn, in the base's frame; self-collisions left out.
+  /// Where the sensor can be and look, estimated from the sampled postures, in the frame of the base. Postures in
+  /// self-collision are excluded.
   [[nodiscard]] const CapabilityMap& capability() const;
 
-  /// The pose of the sensor at these joints, `world_from_sensor`. Throws std::invalid_argument for a wrong number.
+  /// Pose of the sensor for these joint values, `world_from_sensor`. Throws std::invalid_argument if the number of
+  /// values is wrong.
   [[nodiscard]] Pose sensor_pose(std::span<const double> joints) const;
-  /// The configuration that a pose stands for: the first that inverse kinematics reaches, within the joints' ranges
-  /// and not touching itself, from drawn postures near the pose, the nearest first. None if there is none.
+  /// The joint configuration that belongs to a pose. Inverse kinematics starts from sampled postures near the pose,
+  /// the nearest first, and the first solution within the joint ranges and without self-collision is returned.
+  /// nullopt if there is none.
   [[nodiscard]] std::optional<Joints> configuration(const Pose& world_from_sensor) const;
-  /// Whether the body, at these joints, is in their ranges, does not touch itself, and touches clear cells only.
+  /// Whether the joint values are within their ranges, and the body touches neither itself nor any cell that is not
+  /// clear.
   [[nodiscard]] bool admits_joints(const OccupancyMap& map, std::span<const double> joints) const;
-  /// The way of the joints from the configuration of one pose to that of the other, both included: straight from each
-  /// to the next, and admitted all the way, but for cells that the body touches at `from` already. The straight way
-  /// if that is admitted, else what RRT-Connect (OMPL) finds and shortcuts leave of it. The same input gives the same
-  /// way.
+  /// A path in joint space from the configuration of `from` to that of `to`, both included, as a polyline that is
+  /// collision-free everywhere. Cells that the body already touches at `from` are not obstacles. It is the straight
+  /// line if possible, otherwise the result of RRT-Connect (OMPL) after shortcutting. nullopt if no path is found.
+  /// Deterministic for equal inputs.
   [[nodiscard]] std::optional<std::vector<Joints>> joint_path(const OccupancyMap& map, const Pose& from,
                                                               const Pose& to) const;
-  /// The poses of all drawn postures that the map admits: as good as everywhere, for searches that leave nothing out.
+  /// The poses of all sampled postures that are free of collisions in the map: a dense sample, for exhaustive
+  /// searches.
   [[nodiscard]] std::vector<Pose> admitted_poses(const OccupancyMap& map) const;
 
-  /// Whether the configuration of the pose is admitted.
+  /// Whether the configuration of the pose exists and is free of collisions.
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
-  /// Whether the cell is clear and the map admits a drawn posture with the sensor in the same cell of the capability
-  /// map: quick, and right but for the size of such a cell. `admits` has the last word.
+  /// Whether the cell is clear, and a sampled posture with the sensor in the same cell of the capability map is free
+  /// of collisions. This is a fast approximation with the resolution of the capability map; use `admits` for the
+  /// exact answer.
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
-  /// Whether the joints may go straight from the configuration of one pose to that of the other or, where it has
-  /// none, to one that brings the sensor there but for its turn about the optical axis.
+  /// Whether the joints can move on a straight line from the configuration of `from` to that of `to`. If `to` has no
+  /// configuration, a rotation of the sensor about its optical axis is allowed at the end.
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
-  /// The pose there that looks along `direction`, turned about it as the arm can; else along the nearest direction of
-  /// the drawn postures that it can look along there; without roll where it cannot be at all.
+  /// A pose at `position_m` that looks along `direction`, with the roll that the arm can reach. If the arm cannot do
+  /// this, it looks along the direction of the nearest sampled posture that the arm can reach at this position. If
+  /// the arm cannot reach the position at all, the pose looks along `direction` without roll.
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
-  /// The straight distance: the least the sensor must move.
+  /// The straight-line distance, a lower bound on the path of the sensor.
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
-  /// The poses along `joint_path`, near enough to each other to follow.
+  /// Poses along `joint_path`, with at most `pose_step_rad` between them in each joint.
   [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from,
                                                       const Pose& to) const override;
-  /// A cube about the sensor: around the largest ball there that is all body of the last link. What the rest of the
-  /// arm needs free, a host declares.
+  /// A cube around the sensor: half its edge is the radius of the largest ball around the sensor inside a capsule of
+  /// the last link. The free space that the rest of the arm needs must be declared by the host.
   [[nodiscard]] Box body_box(const Pose& pose) const override;
   [[nodiscard]] bool can_tilt() const override { return true; }
 
@@ -110,7 +119,7 @@ class Arm final : public Platform {
   KinematicChain chain_;
   ArmOptions options_;
   std::shared_ptr<const Postures> postures_;
-  std::shared_ptr<Memory> memory_;  // tells sooner what would be told without
+  std::shared_ptr<Memory> memory_;  // caches results; does not change them
 };
 
 }  // namespace vantage

@@ -16,89 +16,92 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Values of the joints of a chain, from the base outwards: radians, or metres where a joint slides.
+/// Joint values of a chain, from the base outwards: radians, or metres for a sliding joint.
 using Joints = std::vector<double>;
 
-/// A piece of a robot's body: all points within `radius_m` of a segment that is fixed to a link.
+/// A capsule of a robot's body: all points within `radius_m` of a segment that is fixed to a link.
 struct Capsule {
-  std::size_t link = 0;                              ///< position in KinematicChain::link_poses
-  Eigen::Vector3d from_m = Eigen::Vector3d::Zero();  ///< one end of the segment, in the frame of the link
-  Eigen::Vector3d to_m = Eigen::Vector3d::Zero();    ///< its other end
+  std::size_t link = 0;                              ///< index into KinematicChain::link_poses
+  Eigen::Vector3d from_m = Eigen::Vector3d::Zero();  ///< start of the segment, in the frame of the link
+  Eigen::Vector3d to_m = Eigen::Vector3d::Zero();    ///< end of the segment, in the frame of the link
   double radius_m = 0.0;                             ///< > 0
 };
 
-/// A joint and the link behind it after Denavit & Hartenberg (rotate about z, go along z, go along x, rotate about
-/// x).
+/// Denavit-Hartenberg parameters of a joint and the link behind it: rotate about z, move along z, move along x,
+/// rotate about x.
 struct DhRow {
-  double a_m = 0.0;        ///< along x
-  double alpha_rad = 0.0;  ///< about x
-  double d_m = 0.0;        ///< along z; what a sliding joint adds to
-  double theta_rad = 0.0;  ///< about z; what a turning joint adds to
-  JointRange range = {};   ///< of the joint
-  bool slides = false;     ///< whether it slides along z instead of turning about it
+  double a_m = 0.0;        ///< move along x
+  double alpha_rad = 0.0;  ///< rotate about x
+  double d_m = 0.0;        ///< move along z; the value of a sliding joint is added
+  double theta_rad = 0.0;  ///< rotate about z; the value of a rotating joint is added
+  JointRange range = {};   ///< range of the joint value
+  bool slides = false;     ///< whether the joint slides along z instead of rotating about it
 };
 
-/// How KinematicChain::inverse searches.
+/// Options of KinematicChain::inverse.
 struct InverseOptions {
-  bool free_roll = false;       ///< whether the sensor may be turned about its optical axis
+  bool free_roll = false;       ///< whether the rotation about the optical axis is free
   int max_iterations = 60;      ///< > 0
-  double tolerance_m = 1e-6;    ///< of the position, > 0
-  double tolerance_rad = 1e-6;  ///< of the orientation, > 0
+  double tolerance_m = 1e-6;    ///< tolerance of the position, > 0
+  double tolerance_rad = 1e-6;  ///< tolerance of the orientation, > 0
 };
 
-/// Links and joints in a row from a robot's base to its sensor, and the body around them. Immutable: copies share it,
-/// and any number of threads may ask.
+/// The chain of links and joints from the base of a robot to its sensor, and the body around them. Immutable: copies
+/// share the data, and concurrent use is safe.
 ///
 ///     const auto chain = KinematicChain::from_urdf("arm.urdf", "base_link", "sensor");
 ///     const Pose base_from_sensor = chain.sensor_pose(joints);
 class KinematicChain {
  public:
-  /// The chain between two links of a URDF file. The frame of `sensor_link` must be the sensor's (pose.hpp).
-  /// Collision shapes of the links on the chain, and of links fixed to them, become capsules around them; a box
-  /// becomes the one along its longest edge. Throws std::runtime_error naming the path if the file cannot be read or
-  /// is no URDF, there is no such link or no chain between them, a joint has neither limits nor is continuous, or a
-  /// shape is a mesh.
+  /// Loads the chain between two links of a URDF file. The frame of `sensor_link` must be a sensor frame (pose.hpp).
+  /// The collision shapes of the links on the chain, and of links fixed to them, become enclosing capsules; the
+  /// capsule of a box lies along its longest edge. Throws std::runtime_error, with the path, if the file cannot be
+  /// read or is not a valid URDF, a link is missing, there is no chain between the links, a joint is neither
+  /// continuous nor has limits, or a shape is a mesh.
   [[nodiscard]] static KinematicChain from_urdf(const std::filesystem::path& path, std::string_view base_link,
                                                 std::string_view sensor_link);
-  /// The same from a text; `name` stands for the path in errors.
+  /// The same for a URDF text. `name` replaces the path in error messages.
   [[nodiscard]] static KinematicChain from_urdf_text(const std::string& text, std::string_view base_link,
                                                      std::string_view sensor_link, const std::string& name = "URDF");
-  /// A chain by its Denavit-Hartenberg parameters. Throws std::invalid_argument for no rows, an empty range, or a
-  /// capsule of a link that is not there or without extent.
+  /// Creates a chain from Denavit-Hartenberg parameters. Throws std::invalid_argument if there are no rows, a range
+  /// is not finite or has min > max, or a capsule has an invalid link or radius.
   [[nodiscard]] static KinematicChain from_dh(std::span<const DhRow> rows,
                                               const Pose& last_from_sensor = Pose::Identity(),
                                               std::vector<Capsule> capsules = {});
 
-  /// How many joints move.
+  /// The number of movable joints.
   [[nodiscard]] std::size_t joint_count() const;
-  /// What each joint can do.
+  /// The range of each movable joint.
   [[nodiscard]] const std::vector<JointRange>& ranges() const;
-  /// The names of the moving joints.
+  /// The names of the movable joints.
   [[nodiscard]] const std::vector<std::string>& joint_names() const;
-  /// The body.
+  /// The body, each capsule in the frame of its link.
   [[nodiscard]] const std::vector<Capsule>& capsules() const;
-  /// How many joints move the link at this position of `link_poses`: links with the same number never move against
-  /// each other.
+  /// The number of joints between the base and the link at this index of `link_poses`. Links with equal numbers never
+  /// move relative to each other. Throws std::out_of_range for an invalid index.
   [[nodiscard]] std::size_t joints_before(std::size_t link) const;
-  /// No part of the chain, capsules included, is ever further than this from the base.
+  /// Upper bound on the distance of any part of the chain, capsules included, from the base, metres.
   [[nodiscard]] double reach_m() const;
 
-  /// Whether there is a value for every joint and each is within its range.
+  /// Whether there is one value per joint and each is within its range.
   [[nodiscard]] bool in_range(std::span<const double> joints) const;
-  /// Forward kinematics, `base_from_sensor`. Throws std::invalid_argument if there is not a value for every joint.
+  /// Forward kinematics: returns `base_from_sensor`. Throws std::invalid_argument unless there is one value per
+  /// joint.
   [[nodiscard]] Pose sensor_pose(std::span<const double> joints) const;
-  /// Where all links are, `base_from_link`: the base first, the sensor last. Throws as `sensor_pose`.
+  /// The poses of all links, `base_from_link`, from the base to the sensor. Throws as `sensor_pose`.
   [[nodiscard]] std::vector<Pose> link_poses(std::span<const double> joints) const;
-  /// The body, piece by piece as `capsules`, but in the base's frame. Throws as `sensor_pose`.
+  /// The capsules in the frame of the base, in the order of `capsules`. Throws as `sensor_pose`.
   [[nodiscard]] std::vector<Capsule> body_at(std::span<const double> joints) const;
-  /// Whether pieces of the body that two or more joints move against each other touch.
+  /// Whether the body is in self-collision, given the poses of `link_poses`. Only pairs of capsules with at least two
+  /// joints between them are tested.
   [[nodiscard]] bool touches_itself(std::span<const Pose> base_from_links) const;
-  /// The same of what `body_at` gives.
+  /// The same, given the capsules of `body_at`.
   [[nodiscard]] bool touches_itself(std::span<const Capsule> body) const;
 
-  /// Inverse kinematics: joints within their ranges that put the sensor at this pose, searched from `guess` by damped
-  /// least squares (Levenberg-Marquardt) down to the tolerances. None if the search ends elsewhere; another guess may
-  /// find what this one does not. Throws std::invalid_argument for a guess of the wrong size.
+  /// Inverse kinematics: searches joint values within their ranges that bring the sensor to a pose. The search starts
+  /// at `guess` and uses damped least squares (Levenberg-Marquardt). nullopt if it does not reach the tolerances, or
+  /// if the pose is not rigid; another guess may succeed. Throws std::invalid_argument for a guess of the wrong size
+  /// and for invalid options.
   [[nodiscard]] std::optional<Joints> inverse(const Pose& base_from_sensor, std::span<const double> guess,
                                               const InverseOptions& options = {}) const;
 

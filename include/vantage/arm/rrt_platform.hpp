@@ -9,26 +9,26 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How an RrtPlatform searches.
+/// Options of RrtPlatform.
 struct RrtOptions {
-  double goal_bias = 0.05;          ///< share of the draws that are the goal itself, in [0, 1)
-  double step_m = 0.3;              ///< a branch grows by at most so much, > 0
-  std::size_t iterations = 20'000;  ///< draws before a path is given up, > 0
-  std::uint64_t seed = 1;           ///< of the draws
+  double goal_bias = 0.05;          ///< share of the samples that are the goal itself, in [0, 1)
+  double step_m = 0.3;              ///< maximum length of a new branch, metres, > 0
+  std::size_t iterations = 20'000;  ///< samples before the search fails, > 0
+  std::uint64_t seed = 1;           ///< seed of the samples
 };
 
-/// A platform whose paths are found by a goal-biased rapidly exploring random tree (LaValle & Kuffner 2001) in the
-/// space of the sensor's positions, as the robot of Vasquez-Gomez et al. 2013 finds its own, through OMPL; in all
-/// else it is the platform that it is made from. Where the way there is wide, a tree finds some way sooner than a
-/// search over all cells finds the shortest; where it is narrow, it may find none.
+/// A platform that plans paths with a goal-biased rapidly exploring random tree (RRT, from OMPL) in the space of
+/// sensor positions. In all other respects it behaves like the wrapped platform. In wide spaces an RRT finds a path
+/// faster than a shortest-path search over all cells; through narrow passages it may find none. (LaValle & Kuffner
+/// 2001; used by Vasquez-Gomez et al. 2013.)
 ///
 ///     const auto robot = std::make_shared<RrtPlatform>(std::make_shared<FreeFlyer>(body));
 class RrtPlatform final : public Platform {
  public:
-  /// Throws std::invalid_argument naming the option at fault, or if there is no platform.
+  /// Throws std::invalid_argument, which names the invalid option, or if `platform` is null.
   explicit RrtPlatform(std::shared_ptr<const Platform> platform, const RrtOptions& options = {});
 
-  /// The options it was made with.
+  /// The options that were passed to the constructor.
   [[nodiscard]] const RrtOptions& options() const { return options_; }
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override {
@@ -50,8 +50,8 @@ class RrtPlatform final : public Platform {
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override {
     return platform_->distance_m(from, to);
   }
-  /// Straight if the platform admits that; else what the tree finds, less every corner that a straight admitted
-  /// motion makes needless. Between the ends the sensor looks along its way. The same input gives the same path.
+  /// The straight motion if the platform admits it, otherwise the path of the tree after shortcutting. Between the
+  /// ends the sensor looks along the path. nullopt if no path is found. Deterministic for equal inputs.
   [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from,
                                                       const Pose& to) const override;
   [[nodiscard]] Box body_box(const Pose& pose) const override { return platform_->body_box(pose); }

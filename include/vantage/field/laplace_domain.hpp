@@ -14,73 +14,75 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The cells of a boundary value problem (see LaplaceProblem) as bit planes in sparse bricks of 16 x 8 x 8 cells.
+/// The cells of a Laplace problem (see LaplaceProblem), stored as bit planes in sparse bricks of 16 x 8 x 8 cells.
 ///
 ///     LaplaceDomain domain = known_free_domain(map);
 ///     LaplaceMultigrid field(std::move(domain), sensor_cell);
 ///
-/// Memory and time follow the bricks that hold a cell, never their bounding box: a quarter of a byte per cell of
-/// those.
+/// Memory and time grow with the number of bricks that hold a cell, not with the bounding box. A stored brick needs a
+/// quarter of a byte per cell.
 class LaplaceDomain {
  public:
   static constexpr VoxelIndex kBrickSides{16, 8, 8};  ///< cells of a brick along x, y, z
-  static constexpr std::size_t kRows = 64;            ///< rows of a brick along x: y runs faster than z
+  static constexpr std::size_t kRows = 64;            ///< rows of a brick along x; the row index is z * 8 + y
 
-  /// A brick; bit x of a row is the cell at x, row z * 8 + y.
+  /// A brick. Bit x of row z * 8 + y is cell (x, y, z) of the brick.
   struct Brick {
-    VoxelIndex address;                        ///< in units of bricks
-    std::array<std::uint16_t, kRows> cells{};  ///< what belongs to the domain
-    std::array<std::uint16_t, kRows> sinks{};  ///< a subset of `cells`
+    VoxelIndex address;                        ///< address in units of bricks
+    std::array<std::uint16_t, kRows> cells{};  ///< the cells of the domain
+    std::array<std::uint16_t, kRows> sinks{};  ///< the sinks, a subset of `cells`
   };
-  /// Components that were left out.
+  /// Size of the components that were removed.
   struct Dropped {
-    std::size_t cells = 0;       ///< their cells, sinks included
-    std::size_t components = 0;  ///< how many there were
+    std::size_t cells = 0;       ///< number of cells, sinks included
+    std::size_t components = 0;  ///< number of components
   };
 
   LaplaceDomain() = default;
-  /// The same cells and sinks.
+  /// Copies the cells and sinks of a problem.
   explicit LaplaceDomain(const LaplaceProblem& problem);
 
-  /// Adds a cell; nothing changes if it is there already.
+  /// Adds a cell. No effect if the domain already holds it.
   void insert(const VoxelIndex& cell);
-  /// Adds a cell, if need be, and makes it a sink.
+  /// Adds a cell, if necessary, and makes it a sink.
   void insert_sink(const VoxelIndex& cell);
-  /// The brick at an address, made empty if it was not there. Valid until the next call that adds a brick.
+  /// The brick at an address; an empty one is added if there is none. The reference is valid until another brick is
+  /// added.
   [[nodiscard]] Brick& brick_at(const VoxelIndex& address);
-  /// Whether the cell belongs to the domain.
+  /// Whether the domain holds a cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const;
 
-  /// Its bricks: in the order they came, or in raster order after `keep_component`.
+  /// All bricks, in the order in which they were added; in raster order after `keep_component`.
   [[nodiscard]] const std::vector<Brick>& bricks() const { return bricks_; }
-  /// For each brick the positions of its neighbours in `bricks()`, in the order of kFaceNeighbours; kNone for none.
+  /// The positions in `bricks()` of the six neighbours of each brick, in the order of kFaceNeighbours; kNone if there
+  /// is no neighbour.
   [[nodiscard]] std::vector<std::array<std::uint32_t, 6>> neighbours() const;
-  /// In place of a position: no brick.
+  /// The position of a brick that does not exist.
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  /// Position of the brick of a cell, or kNone.
+  /// Position in `bricks()` of the brick of a cell, or kNone.
   [[nodiscard]] std::uint32_t position_of_brick(const VoxelIndex& cell) const;
 
-  /// Cells, sinks included; counts them.
+  /// Number of cells, sinks included. Linear in the number of bricks.
   [[nodiscard]] std::size_t cell_count() const;
-  /// Sinks; counts them.
+  /// Number of sinks. Linear in the number of bricks.
   [[nodiscard]] std::size_t sink_count() const;
 
-  /// Bytes held, an estimate of the hash nodes included.
+  /// Memory in use in bytes, with an estimate for hash table nodes.
   [[nodiscard]] std::size_t memory_bytes() const;
 
-  /// Keeps the component of `cell`, joined through faces, and the bricks it lies in, in raster order. Throws
-  /// std::invalid_argument if the cell is not in the domain.
+  /// Removes all cells that are not connected to `cell` through faces, removes empty bricks, and sorts the bricks in
+  /// raster order. Throws std::invalid_argument if `cell` is not in the domain.
   Dropped keep_component(const VoxelIndex& cell);
 
-  /// The brick that holds a cell.
+  /// The address of the brick that holds a cell.
   [[nodiscard]] static constexpr VoxelIndex brick_of_cell(const VoxelIndex& cell) {
     return {cell.x >> 4, cell.y >> 3, cell.z >> 3};
   }
-  /// Row of a cell within its brick.
+  /// Row index of a cell within its brick.
   [[nodiscard]] static constexpr std::size_t row_of(const VoxelIndex& cell) {
     return static_cast<std::size_t>(cell.z & 7) * 8 + static_cast<std::size_t>(cell.y & 7);
   }
-  /// Bit of a cell within its row.
+  /// Bit mask of a cell within its row.
   [[nodiscard]] static constexpr std::uint16_t bit_of(const VoxelIndex& cell) {
     return static_cast<std::uint16_t>(1U << static_cast<std::uint32_t>(cell.x & 15));
   }
@@ -92,7 +94,8 @@ class LaplaceDomain {
   std::unordered_map<VoxelIndex, std::uint32_t> positions_;
 };
 
-/// All free cells of a map, its frontier cells (frontiers.hpp) as sinks: the problem of a sensor without a body.
+/// The domain of all free cells of a map, with the frontier cells (frontiers.hpp) as sinks. It assumes a sensor
+/// without a body.
 [[nodiscard]] LaplaceDomain known_free_domain(const OccupancyMap& map);
 
 }  // namespace vantage

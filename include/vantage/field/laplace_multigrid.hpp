@@ -17,24 +17,25 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Options of LaplaceMultigrid.
 struct MultigridOptions {
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
-  double tolerance = 1e-8;  ///< stop when the residual is this share of the source, in the Euclidean norm, in (0, 1)
-  /// A source spread evenly over all unknowns, in total, as a share of the sensor's own, >= 0. Without it there is no
-  /// certificate: phi falls below what a double can tell apart, and is level in dead ends.
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< boundary condition at closed faces
+  double tolerance = 1e-8;  ///< stop when the residual is below this share of the source (Euclidean norm), in (0, 1)
+  /// A small extra source, distributed evenly over all unknowns: its total as a share of the source at the sensor, >=
+  /// 0. Without it the field has no certificate: in dead ends, phi is constant or its differences vanish in double
+  /// precision.
   double uniform_source = 1e-4;
-  std::size_t max_iterations = 400;  ///< of the Krylov method, in all, > 0
-  std::size_t threads = 1;           ///< at most, > 0; never changes a bit of the field
+  std::size_t max_iterations = 400;  ///< total number of Krylov iterations, > 0
+  std::size_t threads = 1;           ///< maximum number of threads, > 0; the field is bitwise independent of it
 
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option.
   void validate() const;
 };
 
-/// Why LaplaceMultigrid stopped.
+/// Why LaplaceMultigrid has stopped.
 enum class MultigridStop : std::uint8_t {
-  Converged,       ///< the residual is small enough, and the certificate holds if there is a uniform source
-  NoSinks,         ///< nothing to solve: phi is 1 everywhere
-  IterationLimit,  ///< it is not, after as many iterations as were allowed
-  Stalled,         ///< it is not, and the residual does not fall any further
+  Converged,       ///< the residual is small enough; with a uniform source, the certificate holds too
+  NoSinks,         ///< there is no sink, so phi is 1 everywhere
+  IterationLimit,  ///< not converged within the allowed iterations
+  Stalled,         ///< not converged, and the residual no longer decreases
 };
 
 [[nodiscard]] constexpr std::string_view to_string(MultigridStop stop) {
@@ -51,63 +52,66 @@ enum class MultigridStop : std::uint8_t {
   return "";
 }
 
-/// What LaplaceMultigrid did.
+/// Statistics of LaplaceMultigrid.
 struct MultigridReport {
-  MultigridStop stop = MultigridStop::IterationLimit;  ///< why it ended
-  bool certified = false;                              ///< every cell but the sinks has a strictly lower neighbour
-  std::size_t stuck_cells = 0;                         ///< cells that have none
-  std::size_t unknowns = 0;                            ///< cells of the sensor's component without its sinks
-  std::size_t sinks = 0;                               ///< frontier cells of that component
+  MultigridStop stop = MultigridStop::IterationLimit;  ///< why the solver has stopped
+  bool certified = false;                              ///< every cell except the sinks has a strictly lower neighbour
+  std::size_t stuck_cells = 0;                         ///< number of cells without one
+  std::size_t unknowns = 0;                            ///< cells of the sensor's component, without sinks
+  std::size_t sinks = 0;                               ///< sinks of that component
   std::size_t dropped_cells = 0;                       ///< cells of other components
-  std::size_t dropped_components = 0;                  ///< how many of those there are
-  std::size_t levels = 0;                              ///< of the multigrid hierarchy
-  std::size_t iterations = 0;                          ///< of the Krylov method
-  std::size_t refinements = 0;                         ///< times the residual was taken in double
-  double residual = 0.0;                               ///< as a share of the source, in the Euclidean norm
+  std::size_t dropped_components = 0;                  ///< number of other components
+  std::size_t levels = 0;                              ///< levels of the multigrid hierarchy
+  std::size_t iterations = 0;                          ///< Krylov iterations
+  std::size_t refinements = 0;  ///< number of times the residual was recomputed in double precision
+  double residual = 0.0;        ///< residual divided by the source, Euclidean norm
   double largest_residual =
-      0.0;                       ///< the largest of all cells where the field is too low, the sensor's source being 1
-  double source_per_cell = 0.0;  ///< the uniform source of one cell, in the same unit: more than that is certain
-  std::size_t memory_bytes = 0;  ///< held by the solver, the field included
-  double setup_seconds = 0.0;    ///< wall time from the domain to the hierarchy
+      0.0;  ///< largest residual of a cell where the field is too low; the source at the sensor is 1
+  /// uniform source of one cell, in the same unit; a smaller largest_residual proves the certificate
+  double source_per_cell = 0.0;
+  std::size_t memory_bytes = 0;  ///< memory of the solver, the field included, bytes
+  double setup_seconds = 0.0;    ///< wall time to build the hierarchy
   double solve_seconds = 0.0;    ///< wall time of the solution, certificate included
 };
 
-/// Solves the problem of Shade & Newman 2011, IV (see LaplaceProblem), by conjugate gradients preconditioned with
-/// multigrid, in time and memory proportional to the number of cells. (NeumannScheme::Mirror, whose operator is not
-/// symmetric, by BiCGSTAB with the same preconditioner, a few times slower.)
+/// Solves the Laplace problem of Shade & Newman 2011, IV (see LaplaceProblem) with conjugate gradients and a
+/// multigrid preconditioner. Time and memory are linear in the number of cells. NeumannScheme::Mirror has an
+/// unsymmetric operator; it is solved by BiCGSTAB with the same preconditioner and takes a few times longer.
 ///
 ///     const LaplaceMultigrid field(known_free_domain(map), sensor_cell);
 ///     if (field.report().certified) ... field.phi(cell) ...
 ///
-/// It solves A u = e_s + eps, A the negative Laplacian with u = 0 at the sinks, e_s a unit source in the sensor's
-/// cell and eps the small uniform one, and gives phi = u / u_s: 1 at the sensor, 0 at the sinks, and elsewhere, but
-/// for eps, harmonic. As eps > 0, a residual below it proves that every cell has a strictly lower neighbour; the
-/// values given are compared to make sure (docs/harmonic.md). Behind the sensor, seen from the sinks, phi rises above
-/// 1 by as little.
+/// Idea: solve A u = e_s + eps, where A is the negative Laplacian with u = 0 at the sinks, e_s a unit source in the
+/// sensor's cell, and eps a small uniform source. Then phi = u / u_s is 1 at the sensor, 0 at the sinks, and, apart
+/// from eps, harmonic elsewhere. Because eps > 0, a residual below eps proves that every cell has a strictly lower
+/// neighbour, so steepest descent from every cell ends at a sink. The returned values are checked for this as well
+/// (docs/harmonic.md). As a side effect of eps, phi slightly exceeds 1 in cells behind the sensor, away from the
+/// sinks.
 ///
-/// The same input gives the same bits on every processor and for any number of threads.
+/// The result is bitwise the same on every processor and for any number of threads.
 class LaplaceMultigrid {
  public:
-  /// Solves on the component of `source`, which must be in the domain and no sink. Throws std::invalid_argument
-  /// naming what does not fit.
+  /// Solves on the component of `source`. Throws std::invalid_argument if an option is invalid, or if `source` is not
+  /// in the domain or is a sink.
   LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source, const MultigridOptions& options = {});
-  /// The same problem, given as a list.
+  /// Solves a problem given as a list of cells. Throws std::invalid_argument if an option is invalid.
   explicit LaplaceMultigrid(const LaplaceProblem& problem, const MultigridOptions& options = {});
   LaplaceMultigrid(const LaplaceMultigrid&) = delete;
   LaplaceMultigrid& operator=(const LaplaceMultigrid&) = delete;
-  /// Moves; what is moved from may only be destroyed or assigned to.
+  /// Takes over the solution. The source of the move may then only be destroyed or assigned to.
   LaplaceMultigrid(LaplaceMultigrid&&) noexcept;
-  /// The same.
+  /// Takes over the solution. The source of the move may then only be destroyed or assigned to.
   LaplaceMultigrid& operator=(LaplaceMultigrid&&) noexcept;
   ~LaplaceMultigrid();
 
-  /// How it went.
+  /// Statistics of the solution.
   [[nodiscard]] const MultigridReport& report() const;
-  /// The sensor's component, its bricks in raster order.
+  /// The component of the source; bricks in raster order.
   [[nodiscard]] const LaplaceDomain& domain() const;
-  /// Potential of a cell; none outside the sensor's component.
+  /// Potential of a cell; nullopt outside the component of the source.
   [[nodiscard]] std::optional<double> phi(const VoxelIndex& cell) const;
-  /// Potential by position in `problem`, whose cells must all be in the sensor's component.
+  /// The potential of every cell of `problem`, by position. Throws std::invalid_argument if a cell is not in the
+  /// component of the source.
   [[nodiscard]] std::vector<double> values(const LaplaceProblem& problem) const;
 
  private:

@@ -12,52 +12,54 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a cell of a LaplaceProblem is held to.
+/// The condition that a cell of a LaplaceProblem must satisfy.
 enum class LaplaceCell : std::uint8_t {
-  Interior,  ///< Laplace's equation holds
-  Sink,      ///< phi = 0: a boundary to explore (Shade & Newman 2011, eq. 3)
-  Source,    ///< phi = 1: the sensor's cell
+  Interior,  ///< Laplace's equation
+  Sink,      ///< phi = 0: a boundary to be explored (Shade & Newman 2011, eq. 3)
+  Source,    ///< phi = 1: the cell of the sensor
 };
 
-/// The boundary value problem of Shade & Newman 2011, IV: find phi with zero Laplacian over a set of cells, 0 at the
-/// sinks, 1 at the source, and no flow through any face behind which there is no cell of the set (eq. 4, 5).
+/// A Laplace boundary value problem: find phi with zero Laplacian on a set of cells, phi = 0 at the sinks, phi = 1 at
+/// the source, and zero flow through every closed face, that is a face without a cell of the set behind it.
 ///
 ///     const LaplaceProblem problem(std::move(reachable_cells), frontier_cells, sensor_cell);
 ///     const LaplaceSolution solution = relax_laplace(problem);
 ///
-/// The domain is a list, so memory follows the number of cells and never their bounding box: each cell knows the
-/// positions of its six neighbours in the list. Only the component of the source counts; other cells are dropped and
-/// counted. A plane of cells makes the two-dimensional problem: the faces above and below are closed like any other.
+/// The domain is a list of cells, so memory grows with the number of cells and not with the bounding box. Each cell
+/// stores the positions of its six neighbours in the list. Only the component of the source is kept; other cells are
+/// dropped and counted. A single layer of cells gives the two-dimensional problem, because the faces above and below
+/// are closed. (Shade & Newman 2011, IV, eq. 3-5.)
 class LaplaceProblem {
  public:
-  /// Number of a cell of the problem, in [0, size()).
+  /// Index of a cell in the problem, in [0, size()).
   using Position = std::int32_t;
-  /// In place of a neighbour: there is none, the face is closed.
+  /// Stands for a missing neighbour: the face is closed.
   static constexpr Position kClosed = -1;
 
-  /// `cells` in any order, each once; `sinks` and `source` among them, `source` no sink. Throws std::invalid_argument
-  /// naming what does not fit. There may be no sinks at all (phi is then 1 everywhere).
+  /// `cells` in any order, without duplicates. `sinks` and `source` must be among them, and `source` must not be a
+  /// sink. Without sinks, phi is 1 everywhere. Throws std::invalid_argument, which names the cell at fault,
+  /// otherwise.
   LaplaceProblem(std::vector<VoxelIndex> cells, std::span<const VoxelIndex> sinks, const VoxelIndex& source);
 
-  /// How many cells the problem has.
+  /// The number of cells.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
-  /// The domain, ordered by z, then y, then x.
+  /// The cells, ordered by z, then y, then x.
   [[nodiscard]] const std::vector<VoxelIndex>& cells() const { return cells_; }
-  /// What the cell at this position is.
+  /// The condition of the cell at this position.
   [[nodiscard]] LaplaceCell kind(Position position) const { return kinds_[static_cast<std::size_t>(position)]; }
-  /// Positions of the neighbours in the order of kFaceNeighbours, kClosed where the face is closed.
+  /// Positions of the six neighbours in the order of kFaceNeighbours; kClosed at closed faces.
   [[nodiscard]] const std::array<Position, 6>& neighbours(Position position) const {
     return neighbours_[static_cast<std::size_t>(position)];
   }
   /// The cell at this position.
   [[nodiscard]] const VoxelIndex& cell(Position position) const { return cells_[static_cast<std::size_t>(position)]; }
-  /// Where a cell is in the list; none if it is not in the domain. Logarithmic.
+  /// Position of a cell; nullopt if it is not in the domain. Logarithmic.
   [[nodiscard]] std::optional<Position> position_of(const VoxelIndex& cell) const;
-  /// Position of the sensor's cell, where the potential is 1.
+  /// Position of the source cell.
   [[nodiscard]] Position source() const { return source_; }
-  /// How many frontier cells the problem has, where the potential is 0.
+  /// The number of sinks.
   [[nodiscard]] std::size_t sink_count() const { return sink_count_; }
-  /// Cells given that are not joined to the source through faces.
+  /// The number of given cells that are not connected to the source through faces.
   [[nodiscard]] std::size_t dropped_cells() const { return dropped_; }
 
  private:

@@ -15,83 +15,85 @@ namespace VANTAGE_EXPORT vantage {
 
 /// How a closed face enters the difference equation of its cell.
 enum class NeumannScheme : std::uint8_t {
-  FiniteVolume,  ///< the face drops out: what flows into a cell flows out of it, and the operator is symmetric
-  Mirror,        ///< the value behind the face mirrors the one opposite (Shade & Newman 2011, eq. 9): not symmetric
+  FiniteVolume,  ///< the face is left out, so the flow is conserved and the operator is symmetric
+  /// the value behind the face equals that of the opposite neighbour; not symmetric (Shade & Newman 2011, eq. 9)
+  Mirror,
 };
 
-/// In which order a sweep visits the cells.
+/// The order in which a sweep visits the cells.
 enum class SweepOrder : std::uint8_t {
   Lexicographic,  ///< z, then y, then x
-  RedBlack,       ///< all cells of even x + y + z, then all odd ones: updates within a colour are independent
+  RedBlack,  ///< first the cells with even x + y + z, then the odd ones; updates within one colour are independent
 };
 
-/// Options of LaplaceRelaxation; the defaults are the paper's method.
+/// Options of LaplaceRelaxation. The defaults give the paper's method, except for the Neumann scheme.
 struct RelaxationOptions {
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
-  SweepOrder order = SweepOrder::Lexicographic;         ///< in which order the cells are visited
-  double tolerance = 1e-4;          ///< stop when the largest relative change of a sweep is below it (eq. 10), > 0
-  std::size_t max_sweeps = 100000;  ///< give up after so many, > 0
-  double over_relaxation = 1.0;     ///< in (0, 2); 1 is Gauss-Seidel, more goes further (SOR)
-  /// A source spread evenly over the interior cells, in total, >= 0; 0 is Laplace's equation as in the paper. With it
-  /// every cell that nearly solves its equation has a strictly lower neighbour, where phi would else be level.
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< boundary condition at closed faces
+  SweepOrder order = SweepOrder::Lexicographic;         ///< order of a sweep
+  double tolerance = 1e-4;          ///< stop when the largest relative change in a sweep is below this (eq. 10), > 0
+  std::size_t max_sweeps = 100000;  ///< limit on the number of sweeps, > 0
+  double over_relaxation = 1.0;     ///< relaxation factor, in (0, 2); 1 is Gauss-Seidel, larger values are SOR
+  /// Total of an extra source, distributed evenly over the interior cells, >= 0; the paper's Laplace equation has 0.
+  /// With an extra source, every cell that nearly solves its equation has a strictly lower neighbour, even where phi
+  /// would otherwise be constant.
   double uniform_source = 0.0;
 
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option.
   void validate() const;
 };
 
-/// Why a solver stopped.
+/// Why the solver has stopped.
 enum class LaplaceStop : std::uint8_t { Converged, SweepLimit };
 
 [[nodiscard]] constexpr std::string_view to_string(LaplaceStop stop) {
   return stop == LaplaceStop::Converged ? "converged" : "sweep limit";
 }
 
-/// What a solver did.
+/// Statistics of the solver.
 struct LaplaceReport {
-  LaplaceStop stop = LaplaceStop::SweepLimit;  ///< why it ended
-  std::size_t sweeps = 0;                      ///< passes over all cells
+  LaplaceStop stop = LaplaceStop::SweepLimit;  ///< why it has stopped
+  std::size_t sweeps = 0;                      ///< number of sweeps
   double last_change = 0.0;                    ///< largest relative change in the last sweep (eq. 10)
-  std::uint64_t cell_updates = 0;              ///< cells computed anew, over all sweeps
+  std::uint64_t cell_updates = 0;              ///< total number of cell updates
   double seconds = 0.0;                        ///< wall time
 };
 
-/// The field and how it was found.
+/// The field and the statistics of its solution.
 struct LaplaceSolution {
-  std::vector<double> phi;  ///< by position in the problem
-  LaplaceReport report;     ///< how the solution came about
+  std::vector<double> phi;  ///< potential by position in the problem
+  LaplaceReport report;     ///< statistics
 };
 
-/// The finite difference relaxation of Shade & Newman 2011, IV-C: each interior cell in turn takes the mean of its
-/// neighbours (eq. 8), the latest values used as soon as they are there (Gauss-Seidel).
+/// Finite difference relaxation (Gauss-Seidel): sets each interior cell in turn to the mean of its neighbours (eq.
+/// 8), using new values immediately. It is the paper's solver and the reference for LaplaceMultigrid.
 ///
-/// The stop rule of the paper (eq. 10) bounds the change of a sweep, not the error, and it leaves cells without a
-/// lower neighbour: check what you follow (streamline.hpp). Starting from zero or from the same guess gives the same
-/// bits.
+/// The stopping rule (eq. 10) limits the change per sweep and not the error, and it may leave cells without a lower
+/// neighbour. Check the field before you follow it (streamline.hpp). A run from the same start always gives the same
+/// bits. (Shade & Newman 2011, IV-C.)
 class LaplaceRelaxation {
  public:
-  /// Keeps a reference to `problem`. Throws std::invalid_argument naming the option at fault.
+  /// Keeps a reference to `problem`. Throws std::invalid_argument, which names the invalid option.
   explicit LaplaceRelaxation(const LaplaceProblem& problem, const RelaxationOptions& options = {});
 
-  /// Starts from `phi` (by position) instead of zero; values at sinks and source are replaced by 0 and 1. Throws
-  /// std::invalid_argument unless there is one finite value per cell.
+  /// Starts from `phi` (by position) instead of zero. The values at sinks and source are ignored; they stay 0 and 1.
+  /// Throws std::invalid_argument unless there is one finite value per cell.
   void start_from(std::span<const double> phi);
-  /// Visits every interior cell once; returns the largest relative change (eq. 10).
+  /// Visits every interior cell once. Returns the largest relative change (eq. 10).
   double sweep();
-  /// Sweeps until a rule stops it.
+  /// Sweeps until it has converged or reached `max_sweeps`.
   void run();
-  /// Sweeps `count` more times, whatever the changes.
+  /// Sweeps `count` more times, without a stopping rule.
   void run(std::size_t count);
 
-  /// By position in the problem.
+  /// The potential, by position in the problem.
   [[nodiscard]] std::span<const double> phi() const { return {values_.data(), problem_->size()}; }
-  /// How the solution came about.
+  /// Statistics of the sweeps so far.
   [[nodiscard]] const LaplaceReport& report() const { return report_; }
-  /// Largest |mean of the neighbours - phi| over the interior cells: 0 where the equations hold exactly.
+  /// Largest |mean of the neighbours - phi| over the interior cells; 0 for an exact solution.
   [[nodiscard]] double largest_defect() const;
 
  private:
-  struct Row {  // phi[self] = weight * (sum of phi[neighbours] + source)
+  struct Row {  // equation of a cell: phi[self] = weight * (sum of phi[neighbours] + source)
     std::array<LaplaceProblem::Position, 6> neighbours;
     LaplaceProblem::Position self;
     double weight;
@@ -102,12 +104,12 @@ class LaplaceRelaxation {
   const LaplaceProblem* problem_;
   RelaxationOptions options_;
   double source_per_cell_ = 0.0;
-  std::vector<Row> rows_;       // the interior cells in sweep order
-  std::vector<double> values_;  // one more than there are cells: the last is 0 and stands behind closed faces
+  std::vector<Row> rows_;       // the interior cells, in sweep order
+  std::vector<double> values_;  // one value more than cells: the last is 0 and stands for closed faces
   LaplaceReport report_;
 };
 
-/// One-shot use: relax from `start` (zero if empty).
+/// One-shot version: relaxes from `start`, or from zero if it is empty. Errors as LaplaceRelaxation.
 [[nodiscard]] LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options = {},
                                             std::span<const double> start = {});
 

@@ -11,28 +11,30 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The open neighbour that lies lowest, if it lies strictly lower than the cell itself; the first in the order of
-/// kFaceNeighbours among equals. `phi` is by position in the problem, here and below.
+/// The neighbour with the lowest phi, if that is strictly lower than phi at `from`; among equals, the first in the
+/// order of kFaceNeighbours. nullopt if there is none. Here and below, `phi` is indexed by position in the problem.
 [[nodiscard]] std::optional<LaplaceProblem::Position> steepest_neighbour(const LaplaceProblem& problem,
                                                                          std::span<const double> phi,
                                                                          LaplaceProblem::Position from);
 
-/// Cells other than sinks that have no strictly lower neighbour. A field with none is certified: steepest descent
-/// from every cell ends at a sink. A small tolerance does not give that, for phi is level in dead ends.
+/// The number of cells, sinks excluded, without a strictly lower neighbour. If it is 0, the field is certified:
+/// steepest descent from every cell ends at a sink. A small solver tolerance does not guarantee this, because phi is
+/// nearly constant in dead ends.
 [[nodiscard]] std::size_t count_stuck_cells(const LaplaceProblem& problem, std::span<const double> phi);
 
-/// Steepest descent from cell to cell. Phi falls strictly along it, so it always ends.
+/// A path of steepest descent from cell to cell. Phi decreases strictly along it, so it always ends.
 struct Descent {
-  std::vector<LaplaceProblem::Position> cells;  ///< the start first
-  bool reaches_sink = false;                    ///< else it is stuck at the last cell
+  std::vector<LaplaceProblem::Position> cells;  ///< the visited cells, the start first
+  bool reaches_sink = false;  ///< whether it ends at a sink; otherwise its last cell has no lower neighbour
 };
 [[nodiscard]] Descent descend(const LaplaceProblem& problem, std::span<const double> phi,
                               LaplaceProblem::Position from);
 
-/// The streamline of steepest descent from `from_m` (Shade & Newman 2011, IV-D): a curve through the negative
-/// gradient, differences at the cell centres interpolated linearly between them, in steps of half a cell. Ends in a
-/// sink's cell; every point lies in a cell of the problem. None if it leaves them or comes to rest before that, which
-/// a discrete field allows: descend() is then the way that is certain. `from_m` must lie in a cell of the problem.
+/// A smooth path of steepest descent from `from_m` (world frame, metres) to a sink: a curve along the negative
+/// gradient in steps of half a cell. The gradient is taken by central differences at the cell centres and
+/// interpolated linearly. Every point lies in a cell of the problem, and the last in a sink. nullopt if the curve
+/// leaves the cells or gets stuck, which can happen in a discrete field; then use descend(), which always works on a
+/// certified field. `from_m` must lie in a cell of the problem. (Shade & Newman 2011, IV-D.)
 [[nodiscard]] std::optional<std::vector<Eigen::Vector3d>> streamline(const LaplaceProblem& problem,
                                                                      std::span<const double> phi,
                                                                      const VoxelFrame& frame,

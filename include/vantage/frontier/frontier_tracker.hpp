@@ -12,36 +12,38 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The frontier cells of a map and their clusters, kept up to date from the map's change log.
+/// The frontier cells of a map and their clusters, updated incrementally from the map's change log.
 ///
 ///     FrontierTracker frontiers(map);
 ///     map.insert(scan);
-///     frontiers.update();  // costs what the scan changed
+///     frontiers.update();  // cost depends on what the scan has changed
 ///
-/// At every moment it holds what `frontier_cells` and `frontier_clusters` would find in the map of the last update,
-/// whatever the way by which the map came there. Cells cost the bricks that changed and their neighbours; clusters
-/// cost, besides, the bricks of every cluster that lost or gained a cell, for it may have fallen apart. The map must
-/// outlive the tracker.
+/// After each update it holds exactly the result of `frontier_cells` and `frontier_clusters`, whatever the history of
+/// the map. Updating the cells costs time for the changed bricks and their neighbours. Updating the clusters also
+/// costs time for all bricks of every cluster that gained or lost a cell, because the cluster may have split. The map
+/// must outlive the tracker.
 class FrontierTracker {
  public:
-  /// Takes the map as it is now.
+  /// Computes the frontier of the map as it is now.
   explicit FrontierTracker(const OccupancyMap& map, Connectivity connectivity = Connectivity::Corner26);
 
-  /// Follows the changes of the map since the last call. Returns in how many bricks the frontier has changed.
+  /// Applies the changes of the map since the last call. Returns the number of bricks in which the frontier has
+  /// changed.
   std::size_t update();
 
-  /// How many frontier cells there are.
+  /// The number of frontier cells.
   [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
-  /// Whether a cell is one of them.
+  /// Whether a cell is a frontier cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const;
-  /// All of them, in raster order: `frontier_cells` of the map.
+  /// All frontier cells in raster order (z, then y, then x), as `frontier_cells`.
   [[nodiscard]] std::vector<VoxelIndex> cells() const;
 
-  /// How many clusters there are.
+  /// The number of clusters.
   [[nodiscard]] std::size_t cluster_count() const { return clusters_.size() - unused_clusters_.size(); }
-  /// How many cells the cluster of a frontier cell has; 0 for any other cell.
+  /// The number of cells in the cluster of a frontier cell; 0 for any other cell.
   [[nodiscard]] std::size_t cluster_size(const VoxelIndex& cell) const;
-  /// Cells in raster order within a cluster, clusters by their first cells: `frontier_clusters` of the cells.
+  /// All clusters, as `frontier_clusters`: cells in raster order within a cluster, clusters ordered by their first
+  /// cell.
   [[nodiscard]] std::vector<std::vector<VoxelIndex>> clusters() const;
 
  private:
@@ -50,10 +52,10 @@ class FrontierTracker {
     std::uint32_t piece;
     friend bool operator==(const PieceNumber&, const PieceNumber&) = default;
   };
-  // A connected part of the frontier cells of one brick: what clusters are made of.
+  // A connected component of the frontier cells of one brick. A cluster is a set of connected pieces.
   struct Piece {
     BrickPlane cells{};
-    std::vector<PieceNumber> touching;  // in other bricks
+    std::vector<PieceNumber> touching;  // the adjacent pieces in other bricks
     std::uint32_t cluster = 0;
   };
   struct BrickFrontier {
@@ -84,11 +86,12 @@ class FrontierTracker {
 
   const OccupancyMap* map_;
   Connectivity connectivity_;
-  std::vector<VoxelIndex> steps_;  // to the neighbours of a cell
+  std::vector<VoxelIndex> steps_;  // offsets from a cell to its neighbours
   OccupancyMap::Revision revision_ = 0;
   std::size_t cell_count_ = 0;
 
-  std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // of the bricks that hold frontier cells
+  // index in `bricks_` of each brick that holds frontier cells
+  std::unordered_map<VoxelIndex, std::uint32_t> numbers_;
   std::vector<BrickFrontier> bricks_;
   std::vector<std::uint32_t> unused_bricks_;
   std::vector<Cluster> clusters_;

@@ -9,16 +9,16 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The convex hull of the centres of the map's occupied cells, in units of cells: the centre of cell (x, y, z) is the
-/// point (x, y, z), so the coordinates are exact.
+/// The convex hull of the centres of the occupied cells, in units of cells: cell (x, y, z) is the point (x, y, z).
+/// Integer coordinates make the hull exact.
 [[nodiscard]] ConvexHull occupied_hull(const OccupancyMap& map);
 
-/// The void cells of the map: unknown, inside its region, and with the centre inside (or on) the hull of the occupied
-/// cells (Dornhege & Kleiner 2011, IV-B), in raster order (z, then y, then x). None where that hull is empty, and
-/// none further from all that is known than VoidTiles tells.
+/// The void cells of the map in raster order (z, then y, then x). A void cell is unknown, lies inside the region, and
+/// has its centre inside or on `occupied_hull`. Cells outside VoidTiles, far from everything known, are left out.
+/// Empty if the hull is empty. (Dornhege & Kleiner 2011, IV-B.)
 [[nodiscard]] std::vector<VoxelIndex> void_cells(const OccupancyMap& map);
 
-/// How many void cells the map has.
+/// The number of void cells of the map.
 [[nodiscard]] std::size_t count_void_cells(const OccupancyMap& map);
 
 }  // namespace vantage

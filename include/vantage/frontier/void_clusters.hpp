@@ -13,47 +13,47 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How well an ellipsoid stands for the void cells of a cluster, Dornhege & Kleiner 2011, eq. 2.
+/// How well an ellipsoid fits the void cells of a cluster (Dornhege & Kleiner 2011, eq. 2).
 enum class FitScore : std::uint8_t {
-  /// The volume of the cells inside the ellipsoid over that of the ellipsoid, 1 at best: eq. 2 with the half axes in
-  /// the place of lambda, which is what makes it a ratio of volumes.
+  /// Volume of the cells inside the ellipsoid, divided by the volume of the ellipsoid. The best value is 1. This is
+  /// eq. 2 with the half axes used for lambda, which makes it a ratio of volumes.
   VolumeRatio,
-  /// Eq. 2 to the letter, with the eigenvalues of the covariance (m^2) in the place of half axes. It is a ratio per
-  /// cubic metre and falls as a cluster grows, whatever its shape: a bound on the size more than on the fit.
+  /// Eq. 2 as printed, with the eigenvalues of the covariance (m^2) used for lambda. Its unit is 1/m^3, and it falls
+  /// as a cluster grows, whatever the shape. It limits the size of a cluster more than its misfit.
   Literal,
 };
 
 /// How void cells are clustered.
 struct VoidClusterOptions {
-  FitScore score = FitScore::VolumeRatio;  ///< what tells how well an ellipsoid fits
-  /// A cluster grows while its score is at least this, > 0 (the paper names no value). A box scores 0.79 whatever its
-  /// sides, a ball 1, two boxes that form an L about 0.6.
+  FitScore score = FitScore::VolumeRatio;  ///< measure of the fit
+  /// A cluster grows while its score is at least this, > 0 (the paper gives no value). VolumeRatio is 0.79 for any
+  /// box, 1 for a ball, and about 0.6 for two boxes that form an L.
   double min_score = 0.5;
-  std::uint64_t seed = 1;  ///< of the places where clusters start
+  std::uint64_t seed = 1;  ///< seed of the random start cells
 };
 
-/// A void: a cluster of void cells and the ellipsoid that stands for it.
+/// A void: a cluster of void cells and the ellipsoid fitted to it.
 struct VoidCluster {
   VoxelIndex start;      ///< the cell from which it grew
-  std::size_t size = 0;  ///< how many cells it has
-  Ellipsoid ellipsoid;   ///< with the centroid and covariance of its cells
-  double score = 0.0;    ///< how well that fits
+  std::size_t size = 0;  ///< number of cells
+  Ellipsoid ellipsoid;   ///< has the centroid and the covariance of the cells
+  double score = 0.0;    ///< fit of the ellipsoid, see FitScore
 };
 
-/// A partition of void cells into clusters.
+/// A partition of the void cells into clusters.
 class VoidClusters {
  public:
-  /// The number of what is no void cell.
+  /// The cluster number of a cell that is not a void cell.
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
   VoidClusters() = default;
-  /// From the cluster of each cell, numbered as `clusters`; kNone elsewhere.
+  /// Takes the clusters and the cluster number of each cell: an index into `clusters`, or kNone.
   VoidClusters(std::vector<VoidCluster> clusters, BrickGrid<std::uint32_t> numbers)
       : clusters_(std::move(clusters)), numbers_(std::move(numbers)) {}
 
-  /// The clusters, in the order in which they were started.
+  /// The clusters, in the order of their creation.
   [[nodiscard]] const std::vector<VoidCluster>& clusters() const { return clusters_; }
-  /// The cluster that holds a cell, as a position in `clusters()`; kNone where the cell is none of the void cells.
+  /// The cluster that holds a cell, as an index into `clusters()`; kNone if the cell is not a void cell.
   [[nodiscard]] std::uint32_t number_at(const VoxelIndex& cell) const { return numbers_[cell]; }
 
   /// Calls `visit(VoxelIndex)` for every void cell.
@@ -73,13 +73,13 @@ class VoidClusters {
   BrickGrid<std::uint32_t> numbers_{kNone};
 };
 
-/// Clusters void cells as Dornhege & Kleiner 2011, IV-B, after Pauling et al. 2009: from a cell drawn at random among
-/// those that have no cluster yet, a region grows by one cell on every side at a time (steps along x, y and z,
-/// through faces) until the ellipsoid of its cells would fit worse than asked for, and so on until every cell has its
-/// cluster.
+/// Clusters void cells by region growing. A region starts at a random cell that has no cluster yet. It grows by one
+/// layer of cells in all directions (steps along x, y and z, through faces) until the fit of its ellipsoid would fall
+/// below `min_score`. This repeats until every cell has a cluster.
 ///
-/// Cells may come in any order; each counts once. Every cluster is connected through faces. The same cells and seed
-/// give the same clusters. Throws std::invalid_argument naming the option at fault.
+/// The order of `cells` does not matter, and duplicates count once. Every cluster is connected through faces. Equal
+/// cells and an equal seed give equal clusters. Throws std::invalid_argument if `min_score` is not positive.
+/// (Dornhege & Kleiner 2011, IV-B, after Pauling et al. 2009.)
 [[nodiscard]] VoidClusters cluster_void_cells(std::span<const VoxelIndex> cells, const VoxelFrame& frame,
                                               const VoidClusterOptions& options = {});
 

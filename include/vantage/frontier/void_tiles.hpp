@@ -8,28 +8,28 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Where cells of a map may be void: the tiles of 8 x 8 x 8 bricks (64 cells along an edge) that hold a brick of the
-/// map, and the 26 around each of them. So a void cell is nowhere further than two tiles from what the map holds,
-/// every cell of the hull within one tile of it may be void, and looking for voids costs what is known, however far
-/// apart it lies: a hull may span a thousand times as much.
+/// The parts of space that are searched for void cells. Space is divided into tiles of 8 x 8 x 8 bricks (64 cells
+/// along an edge). The searched tiles are those that hold a brick of the map, and the 26 tiles around each of them.
+/// So a void cell is at most two tiles away from a brick of the map. The cost depends on the known volume and not on
+/// the convex hull, which may be a thousand times larger.
 class VoidTiles {
  public:
-  /// No tiles.
+  /// Creates an empty set of tiles.
   VoidTiles() = default;
-  /// Those of a map.
+  /// Creates the tiles of a map.
   explicit VoidTiles(const OccupancyMap& map);
 
-  /// Adds those that a brick of the map brings.
+  /// Adds the tile of a brick of the map, and the tiles around it.
   void add(const VoxelIndex& brick);
-  /// All of them, by address: in the order in which they were added.
+  /// The addresses of all tiles (in units of tiles), in the order in which they were added.
   [[nodiscard]] const std::vector<VoxelIndex>& tiles() const { return tiles_; }
-  /// The bricks of a tile.
+  /// The bricks of a tile, as a box in units of bricks.
   [[nodiscard]] static VoxelBox bricks_of(const VoxelIndex& tile) {
     return {{tile.x * 8, tile.y * 8, tile.z * 8}, {tile.x * 8 + 8, tile.y * 8 + 8, tile.z * 8 + 8}};
   }
 
  private:
-  VoxelTable<bool> held_;  // tiles that hold a brick
+  VoxelTable<bool> held_;  // tiles that hold a brick of the map
   VoxelTable<bool> near_;
   std::vector<VoxelIndex> tiles_;
 };

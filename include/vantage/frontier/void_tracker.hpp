@@ -12,40 +12,40 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The void cells of a map, kept up to date from what changed in it alone (Dornhege & Kleiner 2011, IV-B).
+/// The void cells of a map, updated incrementally from the map's change log.
 ///
 ///     VoidTracker voids(map);
 ///     map.insert(scan);
-///     voids.update();  // costs what the scan changed
+///     voids.update();  // cost depends on what the scan has changed
 ///
-/// At every moment it holds what `void_cells` would find in the map of the last update, whatever the way by which the
-/// map came there. The hull grows by the occupied cells that a change has put outside it; where a corner of it is no
-/// longer occupied it shrinks to the corners that are left and grows from there. Of the cells, only those are asked
-/// again that lie beyond a plane which bounded the hull before, or does now, but not both. The map must outlive the
-/// tracker.
+/// After each update it holds exactly the result of `void_cells`, whatever the history of the map. The hull grows by
+/// new occupied cells outside it. If a corner of the hull is no longer occupied, the hull shrinks to the remaining
+/// corners and grows again from there. A cell is tested again only if it lies beyond a plane that bounds only one of
+/// the old and the new hull. The map must outlive the tracker. (Dornhege & Kleiner 2011, IV-B.)
 class VoidTracker {
  public:
-  /// Takes the map as it is now.
+  /// Computes the void cells of the map as it is now.
   explicit VoidTracker(const OccupancyMap& map);
 
-  /// Follows the changes of the map since the last call. Returns whether the hull has changed.
+  /// Applies the changes of the map since the last call. Returns whether the hull may have changed; false means that
+  /// it has not.
   bool update();
 
-  /// The hull of the occupied cells, as `occupied_hull`.
+  /// The convex hull of the occupied cells, as `occupied_hull`.
   [[nodiscard]] const LatticeHull& hull() const { return hull_; }
-  /// How many void cells there are.
+  /// The number of void cells.
   [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
-  /// Whether a cell is one of them.
+  /// Whether a cell is a void cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const;
-  /// All of them, in raster order: `void_cells` of the map.
+  /// All void cells in raster order (z, then y, then x), as `void_cells`.
   [[nodiscard]] std::vector<VoxelIndex> cells() const;
-  /// The same in no particular order, sooner.
+  /// All void cells in no particular order; faster than `cells`.
   [[nodiscard]] std::vector<VoxelIndex> unordered_cells() const;
 
  private:
   struct BrickVoids {
     VoxelIndex address;
-    BrickPlane inside{};  // the hull
+    BrickPlane inside{};  // cells inside the hull
     BrickPlane voids{};
   };
 
@@ -61,11 +61,11 @@ class VoidTracker {
   const OccupancyMap* map_;
   OccupancyMap::Revision revision_ = 0;
   LatticeHull hull_;
-  std::vector<LatticeHull::Plane> planes_;  // of the hull
-  std::vector<VoxelIndex> corners_;         // of the hull
+  std::vector<LatticeHull::Plane> planes_;  // of `hull_`, ascending
+  std::vector<VoxelIndex> corners_;         // of `hull_`
   VoidTiles tiles_;
   std::size_t cell_count_ = 0;
-  std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // of the bricks that the hull reaches into
+  std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // index in `bricks_` of each brick that the hull reaches
   std::vector<BrickVoids> bricks_;
 };
 

@@ -10,32 +10,34 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Centroid and covariance of a body made of cells, kept while it grows or shrinks (Dornhege & Kleiner 2011, eq. 1).
+/// Centroid and covariance of a body made of cells, updated as cells are added and removed.
 ///
-/// Cells are solid cubes here, not points: each has a variance of its own, 1/12 of its edge squared, so that even a
-/// single cell has a volume. Sums are integers, so the order in which cells come does not matter.
+/// Cells are solid cubes, not points: each has a variance of 1/12 of its squared edge, so even a single cell has a
+/// volume. The sums are integers, so the result does not depend on the order of the cells. (Dornhege & Kleiner 2011,
+/// eq. 1.)
 class CellMoments {
  public:
-  /// No cells. Those to come should lie within some ten thousand cells of `origin`, or the sums overflow.
+  /// Creates an empty body. The cells should lie within about ten thousand cells of `origin`, or the sums may
+  /// overflow.
   explicit CellMoments(const VoxelIndex& origin = {}) : origin_(origin) {}
 
-  /// Puts a cell in.
+  /// Adds a cell.
   void add(const VoxelIndex& cell) { count(cell, 1); }
-  /// Takes a cell out that is in.
+  /// Removes a cell that was added before.
   void remove(const VoxelIndex& cell) { count(cell, -1); }
-  /// How many cells are in.
+  /// The number of cells.
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(size_); }
 
-  /// The centroid in units of cells, where the centre of cell (x, y, z) is the point (x, y, z). There must be a cell.
+  /// The centroid in units of cells; the centre of cell (x, y, z) is the point (x, y, z). Requires at least one cell.
   [[nodiscard]] Eigen::Vector3d mean_cells() const {
     return Eigen::Vector3d(origin_.x, origin_.y, origin_.z) + mean_from_origin();
   }
-  /// The covariance of the solid body, in squared cells. There must be a cell.
+  /// The covariance of the solid body, in squared cells. Requires at least one cell.
   [[nodiscard]] Eigen::Matrix3d covariance_cells() const;
-  /// The solid ellipsoid with the same centroid and covariance. There must be a cell.
+  /// The solid ellipsoid with the same centroid and covariance, in metres. Requires at least one cell.
   ///
-  /// The variance of a solid ellipsoid along an axis of half length a is a^2 / 5, so the half lengths are
-  /// sqrt(5 lambda), lambda being the eigenvalues of the covariance.
+  /// A solid ellipsoid has the variance a^2 / 5 along a half axis of length a. So the half axes are sqrt(5 lambda),
+  /// where lambda are the eigenvalues of the covariance.
   [[nodiscard]] Ellipsoid ellipsoid(const VoxelFrame& frame) const;
 
  private:
@@ -45,7 +47,7 @@ class CellMoments {
   VoxelIndex origin_;
   std::int64_t size_ = 0;
   Eigen::Matrix<std::int64_t, 3, 1> sum_ = Eigen::Matrix<std::int64_t, 3, 1>::Zero();
-  // xx yy zz xy xz yz
+  // order: xx yy zz xy xz yz
   Eigen::Matrix<std::int64_t, 6, 1, Eigen::DontAlign> products_ = Eigen::Matrix<std::int64_t, 6, 1>::Zero();
 };
 

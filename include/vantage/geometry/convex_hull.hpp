@@ -8,32 +8,34 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The smallest convex body that holds a set of points, by Quickhull (Barber, Dobkin & Huhdanpaa 1996).
+/// The convex hull of a set of points, computed by Quickhull (Barber, Dobkin & Huhdanpaa 1996). All lengths are in
+/// the unit of the points.
 class ConvexHull {
  public:
-  /// A facet's plane: `normal` (unit, outward) . p + `offset` is the signed distance of p, <= 0 inside.
+  /// The plane of a facet. The signed distance of a point p is normal . p + offset; it is <= 0 inside the hull.
   struct Plane {
-    /// Unit normal, outward.
+    /// Unit normal, pointing outward.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    /// Signed distance of the origin from the plane, metres.
+    /// Signed distance of the origin from the plane.
     double offset = 0.0;
   };
 
-  /// An empty hull, which holds nothing.
+  /// Creates an empty hull, which contains no point.
   ConvexHull() = default;
-  /// The hull of `points`. Points without volume (fewer than four, or all in one plane) give an empty hull, with the
-  /// reason. Throws std::invalid_argument if a coordinate is not finite.
+  /// The hull of `points`. It is empty, with a reason, if the points span no volume: fewer than four points, or all
+  /// in one plane. Throws std::invalid_argument if a coordinate is not finite, std::runtime_error if no temporary
+  /// file can be opened.
   explicit ConvexHull(const std::vector<Eigen::Vector3d>& points);
 
-  /// Whether there is no hull.
+  /// Whether the hull is empty.
   [[nodiscard]] bool empty() const { return planes_.empty(); }
-  /// Why the hull is empty; empty where it is not.
+  /// Why the hull is empty; an empty text if it is not.
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// The planes that bound it.
+  /// The planes of all facets.
   [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
-  /// Those of the points that span it: their hull is the same. None where it is empty.
+  /// The points that are corners of the hull. None if the hull is empty.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& corners() const { return corners_; }
-  /// Whether `point` lies in the hull or at most `tolerance` beyond one of its planes.
+  /// Whether `point` lies in the hull, or at most `tolerance` beyond each of its planes.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point, double tolerance = 1e-9) const;
 
  private:

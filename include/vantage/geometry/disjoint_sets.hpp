@@ -10,20 +10,20 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The partition of 0 .. size - 1 into sets that only ever merge (Tarjan 1975): union by size, paths halved on the
-/// way, so a call costs next to nothing however many came before.
+/// Union-find: a partition of 0 .. size - 1 into sets that can be merged. It uses union by size and path halving, so
+/// a call takes nearly constant time. (Tarjan 1975.)
 class DisjointSets {
  public:
-  /// Every element alone.
+  /// Every element forms its own set.
   explicit DisjointSets(std::size_t size) : parent_(size), size_(size, 1), count_(size) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
 
-  /// How many elements there are.
+  /// The number of elements.
   [[nodiscard]] std::size_t size() const { return parent_.size(); }
-  /// Number of sets.
+  /// The number of sets.
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// The element that stands for the set of `element`, until the next merge.
+  /// The representative of the set of `element`. It may change at the next merge.
   [[nodiscard]] std::size_t find(std::size_t element) {
     while (parent_[element] != element) {
       parent_[element] = parent_[parent_[element]];
@@ -31,9 +31,9 @@ class DisjointSets {
     }
     return element;
   }
-  /// Whether two elements are in one set.
+  /// Whether two elements are in the same set.
   [[nodiscard]] bool same(std::size_t a, std::size_t b) { return find(a) == find(b); }
-  /// Merges the sets of two elements; false if they were one already.
+  /// Merges the sets of two elements. Returns false if they were in the same set already.
   bool merge(std::size_t a, std::size_t b) {
     a = find(a);
     b = find(b);
@@ -48,8 +48,8 @@ class DisjointSets {
     --count_;
     return true;
   }
-  /// The set of every element, numbered from 0 in the order in which the sets first appear: the same for the same
-  /// partition, whatever the order of the merges.
+  /// The set of every element. Sets are numbered from 0 in the order of their first element, so the labels depend
+  /// only on the partition and not on the order of the merges.
   [[nodiscard]] std::vector<std::size_t> labels() {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> label_of_root(size(), kNone);

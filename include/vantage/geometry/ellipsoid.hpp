@@ -10,15 +10,15 @@ namespace VANTAGE_EXPORT vantage {
 
 /// A solid ellipsoid.
 struct Ellipsoid {
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();     ///< the middle, metres
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();     ///< unit directions of the axes, one per column
-  Eigen::Vector3d semi_axes_m = Eigen::Vector3d::Zero();  ///< their half lengths, metres, the longest first
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();     ///< centre, metres
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();     ///< unit direction of each axis, one per column
+  Eigen::Vector3d semi_axes_m = Eigen::Vector3d::Zero();  ///< half axes, metres, longest first
 
   /// Volume, cubic metres.
   [[nodiscard]] double volume_m3() const { return 4.0 / 3.0 * std::numbers::pi * semi_axes_m.prod(); }
-  /// Whether a point is inside or on the surface.
+  /// Whether a point (metres) is inside or on the surface.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point_m) const;
-  /// The centre and the six ends of the axes: `corners(v)` of Dornhege & Kleiner 2011, IV-C.
+  /// The centre and the six end points of the axes, metres: `corners(v)` of Dornhege & Kleiner 2011, IV-C.
   [[nodiscard]] std::array<Eigen::Vector3d, 7> corners() const;
 };
 

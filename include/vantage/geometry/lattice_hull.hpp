@@ -11,53 +11,54 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The convex hull of cells' centres that grows with them: cell (x, y, z) is the point (x, y, z). All is decided in
-/// integers, so that no order of cells and no wall of cells in one plane can make it differ from the hull of all.
+/// An exact, incremental convex hull of cell centres, where cell (x, y, z) is the point (x, y, z). All tests use
+/// integer arithmetic. So the result equals the hull of all points, whatever their order, even if many lie in one
+/// plane.
 ///
-/// Quickhull (Barber, Dobkin & Huhdanpaa 1996) on a surface of triangles that stays from call to call: growing costs
-/// what lies outside. A triangle in whose plane a new point lies is not visible from there, which is all that exact
-/// arithmetic needs to say about points in one plane.
+/// Quickhull on a surface of triangles that is kept from call to call: the cost of an insertion depends on the points
+/// outside. A facet is not visible from a new point in its own plane; with exact arithmetic, coplanar points need no
+/// other special case. (Barber, Dobkin & Huhdanpaa 1996.)
 class LatticeHull {
  public:
-  /// A plane that bounds it.
+  /// A plane that bounds the hull.
   struct Plane {
-    std::array<std::int64_t, 3> normal{};  ///< outward, without common divisor
-    VoxelIndex point;                      ///< a point of the hull that lies in it
+    std::array<std::int64_t, 3> normal{};  ///< outward normal, divided by its greatest common divisor
+    VoxelIndex point;                      ///< a point of the hull in the plane
 
-    /// The same in metres where a cell is one metre wide.
+    /// The plane as a ConvexHull::Plane, in units of cells.
     [[nodiscard]] ConvexHull::Plane plane() const;
-    /// The same plane, whatever point it is given by.
+    /// Whether the planes are equal, even if they are given by different points.
     [[nodiscard]] bool operator==(const Plane& other) const;
   };
 
-  /// An empty hull, which holds nothing.
+  /// Creates an empty hull, which contains no point.
   LatticeHull() = default;
-  /// The hull of these; empty where they lie in one plane. None may be further off than kFurthestVoxel.
+  /// The hull of `points`; empty if they lie in one plane. Coordinates must be within kFurthestVoxel.
   explicit LatticeHull(std::span<const VoxelIndex> points);
 
-  /// Grows it by what of these lies outside; an empty hull becomes that of `points` alone.
+  /// Extends the hull by `points`. If the hull is empty, the result is the hull of `points` alone.
   void insert(std::span<const VoxelIndex> points);
 
-  /// Whether there is no hull.
+  /// Whether the hull is empty.
   [[nodiscard]] bool empty() const { return facets_.empty(); }
-  /// Whether a point lies in it.
+  /// Whether a point lies in the hull or on its surface.
   [[nodiscard]] bool contains(const VoxelIndex& point) const;
-  /// The planes that bound it, each once, ascending by their normals.
+  /// The planes that bound the hull, each once, sorted by normal.
   [[nodiscard]] std::vector<Plane> planes() const;
-  /// The points that span it, none of them in the hull of the others, ascending.
+  /// The corners of the hull, ascending. Points inside an edge or a plane are not corners.
   [[nodiscard]] std::vector<VoxelIndex> corners() const;
 
  private:
   using Number = std::uint32_t;
   struct Facet {
-    std::array<VoxelIndex, 3> corners{};   // counter-clockwise from outside
-    std::array<Number, 3> beside{};        // across the edges from each corner to the next
-    std::array<std::int64_t, 3> normal{};  // outward, without common divisor; zero where the facet is none any more
+    std::array<VoxelIndex, 3> corners{};   // counter-clockwise, seen from outside
+    std::array<Number, 3> beside{};        // facets across the edges from each corner to the next
+    std::array<std::int64_t, 3> normal{};  // outward, divided by the gcd; zero for an unused facet
   };
   struct Edge {
     VoxelIndex from;
     VoxelIndex to;
-    Number behind;  // the facet on the other side, which stays
+    Number behind;  // the facet on the other side, which remains
   };
   struct Outside;
 

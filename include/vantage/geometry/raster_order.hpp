@@ -7,7 +7,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The order in which lists of cells are given: by z, then y, then x, as `for_each_cell` visits a box.
+/// Raster order of cells: by z, then y, then x, the order in which `for_each_cell` visits a box.
 struct RasterOrder {
   /// Whether `a` comes before `b`.
   constexpr bool operator()(const VoxelIndex& a, const VoxelIndex& b) const {

@@ -13,45 +13,47 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The integer address of one cell: cell (x, y, z) covers [x r, (x + 1) r) on each axis, as OctoMap aligns its own.
+/// The integer address of a cell. Cell (x, y, z) covers [x r, (x + 1) r) on the x axis, and so on, where r is the
+/// resolution. OctoMap uses the same alignment.
 struct VoxelIndex {
-  std::int32_t x = 0;  ///< cell along x
-  std::int32_t y = 0;  ///< cell along y
-  std::int32_t z = 0;  ///< cell along z
+  std::int32_t x = 0;  ///< index along x
+  std::int32_t y = 0;  ///< index along y
+  std::int32_t z = 0;  ///< index along z
 
-  /// By x, then y, then z.
+  /// Lexicographic order by x, y, z.
   friend constexpr auto operator<=>(const VoxelIndex&, const VoxelIndex&) = default;
-  /// Sum per axis.
+  /// Component-wise sum.
   friend constexpr VoxelIndex operator+(const VoxelIndex& a, const VoxelIndex& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }
-  /// Difference per axis.
+  /// Component-wise difference.
   friend constexpr VoxelIndex operator-(const VoxelIndex& a, const VoxelIndex& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
 };
 
-/// Addresses further than this from the origin are outside every map: sums of two of them still fit 32 bits.
+/// Largest absolute value of a valid coordinate. The sum of two valid coordinates fits into 32 bits.
 inline constexpr std::int32_t kFurthestVoxel = (1 << 30) - 1;
 
-/// The six cells that share a face with (0, 0, 0): -x +x -y +y -z +z.
+/// Offsets to the six face neighbours, in the order -x +x -y +y -z +z.
 inline constexpr std::array<VoxelIndex, 6> kFaceNeighbours{
     {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
-/// Whether a cell is no further from the origin than kFurthestVoxel on any axis.
+/// Whether all coordinates of a cell are within kFurthestVoxel.
 [[nodiscard]] constexpr bool is_addressable(const VoxelIndex& cell) {
   const auto near = [](std::int32_t i) { return i >= -kFurthestVoxel && i <= kFurthestVoxel; };
   return near(cell.x) && near(cell.y) && near(cell.z);
 }
 
 namespace detail {
-/// A length in cells, held within kFurthestVoxel; NaN becomes -kFurthestVoxel.
+/// Clamps a length in cells to kFurthestVoxel; NaN becomes -kFurthestVoxel.
 [[nodiscard]] constexpr double within_addresses(double cells) {
   constexpr double kFurthest = kFurthestVoxel;
   const double above = cells > -kFurthest ? cells : -kFurthest;
   return above < kFurthest ? above : kFurthest;
 }
-/// The one conversion of a length in cells to an address: the same, rounded towards zero.
+/// Converts a length in cells to a coordinate: clamps it, then rounds towards zero. All conversions use this
+/// function.
 [[nodiscard]] constexpr std::int32_t to_address(double cells) {
   return static_cast<std::int32_t>(within_addresses(cells));
 }
@@ -72,25 +74,25 @@ consteval std::array<VoxelIndex, 26> all_neighbours() {
 }
 }  // namespace detail
 
-/// The 26 cells that share a face, an edge or a corner with (0, 0, 0), x running fastest.
+/// Offsets to the 26 neighbours that share a face, an edge or a corner; x fastest.
 inline constexpr std::array<VoxelIndex, 26> kAllNeighbours = detail::all_neighbours();
 
-/// A box of cells: from `lo` (inside) to `hi` (outside) on each axis. A default box is empty.
+/// A half-open box of cells: `lo` is inside, `hi` is outside. A default box is empty.
 struct VoxelBox {
   VoxelIndex lo;  ///< lowest cell, inside
   VoxelIndex hi;  ///< one past the highest cell on each axis
 
-  /// The same two corners.
+  /// Whether both corners are equal.
   friend constexpr bool operator==(const VoxelBox&, const VoxelBox&) = default;
-  /// Whether it holds no cell.
+  /// Whether the box contains no cell.
   [[nodiscard]] constexpr bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
   /// Whether the cell is inside.
   [[nodiscard]] constexpr bool contains(const VoxelIndex& cell) const {
     return cell.x >= lo.x && cell.x < hi.x && cell.y >= lo.y && cell.y < hi.y && cell.z >= lo.z && cell.z < hi.z;
   }
-  /// Cells along each axis.
+  /// Number of cells along each axis.
   [[nodiscard]] constexpr VoxelIndex extent() const { return empty() ? VoxelIndex{} : hi - lo; }
-  /// How many cells it holds.
+  /// Number of cells.
   [[nodiscard]] constexpr std::size_t size() const {
     const VoxelIndex e = extent();
     return static_cast<std::size_t>(e.x) * static_cast<std::size_t>(e.y) * static_cast<std::size_t>(e.z);
@@ -101,7 +103,7 @@ struct VoxelBox {
   }
 };
 
-/// Calls `visit(VoxelIndex)` for every cell of `box`, x running fastest.
+/// Calls `visit(VoxelIndex)` for every cell of `box`, x fastest, then y, then z.
 template <class Visit>
 void for_each_cell(const VoxelBox& box, Visit&& visit) {
   for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
@@ -113,22 +115,21 @@ void for_each_cell(const VoxelBox& box, Visit&& visit) {
   }
 }
 
-/// The only place where metres become cells and cells become metres. What lies further off than kFurthestVoxel cells
-/// is brought to there, axis by axis, never beyond the range of an address; a NaN is brought to the lowest address.
-/// `addressable` tells beforehand.
+/// Converts between metres (world frame) and cells; no other code does. Coordinates beyond kFurthestVoxel are clamped
+/// per axis, and NaN becomes the lowest coordinate. Call `addressable` first to detect this.
 struct VoxelFrame {
-  double size_m;  ///< edge of a cell, > 0
+  double size_m;  ///< edge length of a cell, metres, > 0
 
   /// The cell that holds `point_m`.
   [[nodiscard]] VoxelIndex cell_of(const Eigen::Vector3d& point_m) const {
     return {coordinate_of(point_m.x()), coordinate_of(point_m.y()), coordinate_of(point_m.z())};
   }
-  /// Whether `point_m` is finite and its cell can be addressed.
+  /// Whether `point_m` is finite and lies within the addressable range.
   [[nodiscard]] bool addressable(const Eigen::Vector3d& point_m) const {
     const double furthest_m = size_m * kFurthestVoxel;
     return (point_m.array().abs() <= furthest_m).all();  // false for NaN
   }
-  /// Lowest corner of a cell, metres.
+  /// Lower corner of a cell, metres.
   [[nodiscard]] Eigen::Vector3d corner_of(const VoxelIndex& cell) const {
     return Eigen::Vector3d(cell.x, cell.y, cell.z) * size_m;
   }
@@ -136,13 +137,13 @@ struct VoxelFrame {
   [[nodiscard]] Eigen::Vector3d centre_of(const VoxelIndex& cell) const {
     return Eigen::Vector3d(cell.x + 0.5, cell.y + 0.5, cell.z + 0.5) * size_m;
   }
-  /// The space of a cell or a box of cells, metres.
+  /// The space covered by a cell, metres.
   [[nodiscard]] Box box_of(const VoxelIndex& cell) const {
     return {corner_of(cell), corner_of(cell + VoxelIndex{1, 1, 1})};
   }
-  /// The space of a cell or a box of cells, metres.
+  /// The space covered by a box of cells, metres.
   [[nodiscard]] Box box_of(const VoxelBox& cells) const { return {corner_of(cells.lo), corner_of(cells.hi)}; }
-  /// The cells whose centres lie in `box` (half-open, as the box).
+  /// The cells whose centre lies in `box` (half-open).
   [[nodiscard]] VoxelBox cells_centred_in(const Box& box) const {
     const auto first = [this](double metres) { return detail::to_address(std::ceil(metres / size_m - 0.5)); };
     if (box.empty()) {
@@ -151,13 +152,13 @@ struct VoxelFrame {
     return {{first(box.min.x()), first(box.min.y()), first(box.min.z())},
             {first(box.max.x()), first(box.max.y()), first(box.max.z())}};
   }
-  /// The cells that `box` touches.
+  /// The cells that overlap `box` (half-open).
   [[nodiscard]] VoxelBox cells_touched_by(const Box& box) const {
     return box.empty() ? VoxelBox{}
                        : VoxelBox{cell_of(box.min),
                                   {cells_up_to(box.max.x()), cells_up_to(box.max.y()), cells_up_to(box.max.z())}};
   }
-  /// How many cells a length spans, rounded up.
+  /// Number of cells in a length, rounded up.
   [[nodiscard]] std::int32_t cells_up_to(double metres) const {
     return detail::to_address(std::ceil(metres / size_m));
   }
@@ -165,7 +166,8 @@ struct VoxelFrame {
  private:
   [[nodiscard]] std::int32_t coordinate_of(double metres) const {
     const double cells = detail::within_addresses(metres / size_m);
-    const std::int32_t towards_zero = detail::to_address(cells);  // std::floor is a call before SSE 4.1
+    // faster than std::floor, which is a function call before SSE 4.1
+    const std::int32_t towards_zero = detail::to_address(cells);
     return towards_zero - (towards_zero > cells ? 1 : 0);
   }
 };

@@ -9,23 +9,23 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A dense array over a box of cells, x running fastest: the slow, obvious counterpart of every sparse structure
-/// here, and the work space of algorithms whose domain is small.
+/// A dense array over a box of cells, x fastest, then y, then z. For small domains, and as the reference for sparse
+/// structures in tests.
 template <class T>
 class VoxelGrid {
  public:
   VoxelGrid() = default;
-  /// A grid over the cells of `box`, each holding `value`.
+  /// Creates a grid over the cells of `box`, filled with `value`.
   explicit VoxelGrid(const VoxelBox& box, const T& value = T{}) : box_(box), values_(box.size(), value) {}
 
-  /// The cells covered.
+  /// The cells of the grid.
   [[nodiscard]] const VoxelBox& box() const { return box_; }
-  /// How many cells are covered.
+  /// The number of cells.
   [[nodiscard]] std::size_t size() const { return values_.size(); }
-  /// Whether the cell is covered.
+  /// Whether the grid has a cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const { return box_.contains(cell); }
 
-  /// Position of a cell of the box in `values()`.
+  /// Index of a cell in `values()`. The cell must be in the box.
   [[nodiscard]] std::size_t offset_of(const VoxelIndex& cell) const {
     const VoxelIndex from_lo = cell - box_.lo;
     const VoxelIndex extent = box_.extent();
@@ -34,7 +34,7 @@ class VoxelGrid {
                static_cast<std::size_t>(extent.x) +
            static_cast<std::size_t>(from_lo.x);
   }
-  /// The cell at a position of `values()`.
+  /// The cell at an index of `values()`.
   [[nodiscard]] VoxelIndex cell_at(std::size_t offset) const {
     const VoxelIndex extent = box_.extent();
     const auto row = static_cast<std::size_t>(extent.x);
@@ -44,11 +44,11 @@ class VoxelGrid {
                                 static_cast<std::int32_t>(offset / plane)};
   }
 
-  /// The cell must be in the box.
+  /// The value of a cell, which must be in the box.
   [[nodiscard]] decltype(auto) operator[](const VoxelIndex& cell) { return values_[offset_of(cell)]; }
-  /// The value of a covered cell.
+  /// The value of a cell, which must be in the box.
   [[nodiscard]] decltype(auto) operator[](const VoxelIndex& cell) const { return values_[offset_of(cell)]; }
-  /// The value at a cell, or `outside` where the grid does not reach.
+  /// The value of a cell, or `outside` if the cell is not in the box.
   [[nodiscard]] T value_or(const VoxelIndex& cell, const T& outside) const {
     return contains(cell) ? static_cast<T>(values_[offset_of(cell)]) : outside;
   }

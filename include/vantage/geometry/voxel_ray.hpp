@@ -11,21 +11,22 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// When a segment crosses the faces between cells across one axis: at `next`, and every `delta` from there, where
-/// kEnd is the time of its end. Faces up to the cell of its end are crossed up to kEnd, all others after it.
+/// The times at which a segment crosses the cell faces across one axis: first at `next`, then every `delta`. Time
+/// runs from 0 at the start of the segment to kEnd at its end. Faces before the end cell are crossed at or before
+/// kEnd; all further ones after it.
 ///
-/// Time is an integer. So the state of a walk after any number of steps is a product, not a sum that rounds, and
-/// every walk that compares times, in whatever order and by whatever instructions, passes the same cells.
+/// Time is an integer, so the state after n steps is an exact product and not a rounded sum. All walks that compare
+/// times, in any order and with any instruction set, therefore visit the same cells.
 struct FaceCrossings {
   std::int64_t next = 0;   ///< time of the next face
-  std::int64_t delta = 0;  ///< time from face to face
+  std::int64_t delta = 0;  ///< time between faces
 
-  /// Time of the end of the segment; leaves room for a step beyond it.
+  /// Time at the end of the segment. Leaves room for a step beyond it.
   static constexpr std::int64_t kEnd = std::int64_t{1} << 60U;
-  /// Later than any face a walk meets.
+  /// A time after all crossings.
   static constexpr std::int64_t kNever = std::int64_t{1} << 62U;
 
-  /// These, changed where rounding made it necessary, so that the first `faces` are crossed up to kEnd and no more.
+  /// Corrects rounding so that exactly `faces` faces are crossed up to kEnd.
   [[nodiscard]] FaceCrossings ending_after(std::int64_t faces) const {
     FaceCrossings crossings = *this;
     if (next + (faces - 1) * delta > kEnd) {
@@ -36,21 +37,20 @@ struct FaceCrossings {
     }
     return crossings;
   }
-  /// How many faces are crossed at or before `time`.
+  /// The number of faces crossed up to and including `time`.
   [[nodiscard]] std::int64_t crossed_by(std::int64_t time) const {
     return time < next ? 0 : (time - next) / delta + 1;
   }
 };
 
-/// The cells that a segment passes, in order, from the cell of `from` to the cell of `to`, both included: the
-/// traversal of Amanatides & Woo 1987, with the time along the segment in units of 2^-60 of it.
+/// The cells on a segment from `from` to `to` (world frame, metres), in order, both end cells included.
 ///
 ///     for (const VoxelIndex& cell : VoxelRay(frame, from, to)) { ... }
 ///
-/// Each step crosses one face; the walk takes exactly as many steps as the two end cells differ, so rounding can
-/// never make it miss its end. Where the segment passes exactly through an edge or a corner, the lower axis steps
-/// first. The times are computed in the library, so the cells do not depend on the instructions that a host is built
-/// for.
+/// Each step crosses one face. The number of steps is the difference of the end cells, so rounding cannot make the
+/// walk miss the end cell. If the segment passes exactly through an edge or a corner, the lower axis steps first.
+/// Times are computed in the library, so the cells do not depend on the compiler flags of the host. (Amanatides & Woo
+/// 1987; time in units of 2^-60 of the segment.)
 class VoxelRay {
  public:
   /// Both points must be addressable in `frame`.
@@ -58,14 +58,14 @@ class VoxelRay {
 
   class iterator;
 
-  /// At the first cell.
+  /// Iterator at the first cell.
   [[nodiscard]] iterator begin() const;
-  /// Past the last cell.
+  /// Sentinel after the last cell.
   [[nodiscard]] static std::default_sentinel_t end() { return {}; }
-  /// Number of cells on the walk.
+  /// The number of cells.
   [[nodiscard]] std::int64_t size() const { return steps_ + 1; }
-  /// Whether `holds(cell)` for every cell of the walk, asked from the last to the first until one refuses: the same
-  /// cells as forwards, which a walk between the exchanged ends need not pass.
+  /// Calls `holds(cell)` for the cells in reverse order until a call returns false. Returns whether all calls
+  /// returned true. The cells are those of the forward walk; a walk from `to` to `from` may visit others.
   template <class Holds>
   [[nodiscard]] bool all_from_the_end(Holds&& holds) const;
 
@@ -92,7 +92,8 @@ class VoxelRay {
   std::int64_t steps_ = 0;
 };
 
-// Steps are taken in the order of their times, the lower axis first among equals: undone, the latest comes first.
+// The forward walk steps in the order of the times, the lower axis first among equal times. So the reverse walk
+// undoes the latest step first, the higher axis first.
 template <class Holds>
 bool VoxelRay::all_from_the_end(Holds&& holds) const {
   constexpr std::int64_t kNone = -1;
@@ -124,23 +125,23 @@ bool VoxelRay::all_from_the_end(Holds&& holds) const {
   }
 }
 
-/// Walks from cell to cell; a single pass.
+/// A single-pass iterator over the cells.
 class VoxelRay::iterator {
  public:
-  using iterator_category = std::input_iterator_tag;  ///< as std::iterator_traits asks
-  using value_type = VoxelIndex;                      ///< as std::iterator_traits asks
-  using difference_type = std::ptrdiff_t;             ///< as std::iterator_traits asks
-  using pointer = const VoxelIndex*;                  ///< as std::iterator_traits asks
-  using reference = VoxelIndex;                       ///< as std::iterator_traits asks
+  using iterator_category = std::input_iterator_tag;  ///< required by std::iterator_traits
+  using value_type = VoxelIndex;                      ///< required by std::iterator_traits
+  using difference_type = std::ptrdiff_t;             ///< required by std::iterator_traits
+  using pointer = const VoxelIndex*;                  ///< required by std::iterator_traits
+  using reference = VoxelIndex;                       ///< required by std::iterator_traits
 
-  /// The cell reached.
+  /// The current cell.
   VoxelIndex operator*() const { return {ray_.cell_[0], ray_.cell_[1], ray_.cell_[2]}; }
-  /// On to the next cell.
+  /// Moves to the next cell.
   iterator& operator++() {
     ray_.advance();
     return *this;
   }
-  /// Whether the last cell is behind.
+  /// Whether the iterator is past the last cell.
   bool operator==(std::default_sentinel_t) const { return ray_.steps_ < 0; }
 
  private:

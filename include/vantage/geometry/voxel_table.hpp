@@ -11,12 +11,12 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A hash table from addresses to small values, for look-ups in inner loops: open addressing with linear probing
-/// (Knuth, The Art of Computer Programming, vol. 3, 6.4). Nothing is ever taken out of it but all at once.
+/// A hash table from cell addresses to small values, for lookups in inner loops. It uses open addressing with linear
+/// probing (Knuth, The Art of Computer Programming, vol. 3, 6.4). Single entries cannot be removed.
 template <class T>
 class VoxelTable {
  public:
-  /// The value of `key`, or null.
+  /// The value of `key`, or null if there is none.
   [[nodiscard]] const T* find(const VoxelIndex& key) const {
     if (entries_.empty()) {
       return nullptr;
@@ -31,9 +31,9 @@ class VoxelTable {
       }
     }
   }
-  /// The same.
+  /// The value of `key`, to write to, or null if there is none.
   [[nodiscard]] T* find(const VoxelIndex& key) { return const_cast<T*>(std::as_const(*this).find(key)); }
-  /// The value of `key`, `fresh` where there was none. Valid until the next call.
+  /// The value of `key`; `fresh` is inserted if there is none. The reference is valid until the next call.
   T& place(const VoxelIndex& key, const T& fresh = T{}) {
     if (T* known = find(key)) {
       return *known;
@@ -46,18 +46,18 @@ class VoxelTable {
     entry = {key, fresh};
     return entry.value;
   }
-  /// How many addresses it holds.
+  /// The number of entries.
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Takes everything out.
+  /// Removes all entries.
   void clear() {
     entries_.clear();
     size_ = 0;
   }
-  /// Bytes held.
+  /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const { return entries_.capacity() * sizeof(Entry); }
 
  private:
-  // No address of a cell, a brick or a tile comes near.
+  // marks an unused entry; no valid address has this value
   static constexpr std::int32_t kUnused = std::numeric_limits<std::int32_t>::min();
   struct Entry {
     VoxelIndex key{kUnused, 0, 0};
@@ -84,7 +84,7 @@ class VoxelTable {
     }
   }
 
-  std::vector<Entry> entries_;  // a power of two of them
+  std::vector<Entry> entries_;  // the size is a power of two
   std::size_t size_ = 0;
 };
 

@@ -11,14 +11,14 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Where the brick of an address is stored: a sparse array of brick numbers that grows with the map and has no preset
-/// bounds. Tiles of 8 x 8 x 8 numbers hang in a hash table, so that walking from brick to brick mostly stays in a
-/// tile.
+/// A sparse index from brick addresses to brick numbers. It grows with the map and has no preset bounds. The numbers
+/// are grouped into tiles of 8 x 8 x 8, and the tiles are stored in a hash table. Neighbouring bricks therefore
+/// mostly share a tile.
 class BrickDirectory {
  public:
-  /// Where a brick is stored.
+  /// Index of a brick in the container that stores the bricks.
   using Number = std::uint32_t;
-  /// The number of a brick that is not stored.
+  /// Stands for a brick that is not stored.
   static constexpr Number kNone = std::numeric_limits<Number>::max();
 
   /// The number stored for `brick`, or kNone.
@@ -26,7 +26,8 @@ class BrickDirectory {
     const Number* const tile = tiles_.find(tile_of(brick));
     return tile == nullptr ? kNone : numbers_[*tile][offset_in_tile(brick)];
   }
-  /// The place of the number of `brick`, kNone when new. Valid until the directory is copied or destroyed.
+  /// A reference to the number of `brick`, to write to. It is kNone if the brick is new. Valid until the directory is
+  /// copied over or destroyed.
   [[nodiscard]] Number& place(const VoxelIndex& brick) {
     const Number tile = tiles_.place(tile_of(brick), static_cast<Number>(numbers_.size()));
     if (tile == numbers_.size()) {
@@ -34,7 +35,7 @@ class BrickDirectory {
     }
     return numbers_[tile][offset_in_tile(brick)];
   }
-  /// Bytes held.
+  /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
     return numbers_.size() * (sizeof(Tile) + sizeof(void*)) + tiles_.memory_bytes();
   }

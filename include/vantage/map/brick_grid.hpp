@@ -10,27 +10,27 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A value for every cell, wherever it lies, stored by bricks of 8 x 8 x 8: the counterpart of VoxelGrid for cells
-/// that no box holds tightly. Memory follows the bricks that were written to.
+/// A value of type T for every cell of unbounded space, stored in bricks of 8 x 8 x 8 cells. Use it instead of
+/// VoxelGrid when no small box contains the cells. Memory grows with the number of bricks that were written to.
 template <class T>
 class BrickGrid {
  public:
-  /// The values of one brick, by Brick::offset_of.
+  /// The values of one brick, indexed by Brick::offset_of.
   using Values = std::array<T, Brick::kCells>;
 
-  /// Every cell has `value`.
+  /// Creates a grid in which every cell has `value`.
   explicit BrickGrid(const T& value = T{}) : value_(value) {}
 
-  /// The value of a cell.
+  /// The value of a cell; the default value where its brick is not stored.
   [[nodiscard]] const T& operator[](const VoxelIndex& cell) const {
     const BrickDirectory::Number number = directory_.find(Brick::of_cell(cell));
     return number == BrickDirectory::kNone ? value_ : bricks_[number].values[Brick::offset_of(cell)];
   }
-  /// The value of a cell, to write to.
+  /// The value of a cell, to write to. Stores its brick if necessary.
   [[nodiscard]] T& operator[](const VoxelIndex& cell) {
     return bricks_[store(Brick::of_cell(cell))].values[Brick::offset_of(cell)];
   }
-  /// The number of a brick, stored from now on; numbers count up from 0.
+  /// The number of a brick. Stores the brick if necessary. Numbers count up from 0.
   BrickDirectory::Number store(const VoxelIndex& brick) {
     BrickDirectory::Number& number = directory_.place(brick);
     if (number == BrickDirectory::kNone) {
@@ -41,22 +41,22 @@ class BrickGrid {
     }
     return number;
   }
-  /// The number of a brick; BrickDirectory::kNone where it is not stored.
+  /// The number of a brick, or BrickDirectory::kNone if it is not stored.
   [[nodiscard]] BrickDirectory::Number number_of(const VoxelIndex& brick) const { return directory_.find(brick); }
-  /// How many bricks are stored.
+  /// The number of stored bricks.
   [[nodiscard]] std::size_t bricks() const { return bricks_.size(); }
-  /// The values of a stored brick.
+  /// The values of a stored brick, to write to. `number` must be less than `bricks()`.
   [[nodiscard]] Values& values(std::size_t number) { return bricks_[number].values; }
-  /// The values of a stored brick.
+  /// The values of a stored brick. `number` must be less than `bricks()`.
   [[nodiscard]] const Values& values(std::size_t number) const { return bricks_[number].values; }
-  /// Where a stored brick lies.
+  /// The address of a stored brick, in units of bricks.
   [[nodiscard]] const VoxelIndex& address(std::size_t number) const { return bricks_[number].address; }
 
-  /// Looks cells up one after the other; quicker where they are neighbours. Must not outlive the grid, nor be used
-  /// after a brick was stored.
+  /// Reads cells one after the other and caches the last brick, so lookups of neighbours are fast. A reader must not
+  /// outlive the grid. Do not use it after a brick was stored.
   class Reader {
    public:
-    /// Of the cells of `grid`.
+    /// Reads from `grid`.
     explicit Reader(const BrickGrid& grid) : grid_(&grid) {}
     /// The value of a cell.
     [[nodiscard]] const T& operator()(const VoxelIndex& cell) {

@@ -11,11 +11,11 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A set of cells that may lie anywhere, one bit each, by bricks: memory follows the bricks that were written to,
-/// never the box around them.
+/// A sparse set of cells: one bit per cell, stored in bricks. Memory grows with the number of bricks that were
+/// written to, not with the bounding box.
 class BrickSet {
  public:
-  /// Whether it holds a cell.
+  /// Whether the set holds a cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const {
     const BrickPlane* plane = find(Brick::of_cell(cell));
     const std::size_t offset = Brick::offset_of(cell);
@@ -26,12 +26,12 @@ class BrickSet {
     const std::size_t offset = Brick::offset_of(cell);
     plane(Brick::of_cell(cell))[offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
   }
-  /// The cells of a brick; null where none was ever written. Valid while the set lives.
+  /// The cells of a brick as a bit plane, or null if the brick was never written to. Valid while the set lives.
   [[nodiscard]] const BrickPlane* find(const VoxelIndex& brick) const {
     const BrickDirectory::Number number = directory_.find(brick);
     return number == BrickDirectory::kNone ? nullptr : &bricks_[number].cells;
   }
-  /// The cells of a brick, to write to. Valid while the set lives.
+  /// The cells of a brick as a bit plane, to write to. Stores the brick if necessary. Valid while the set lives.
   [[nodiscard]] BrickPlane& plane(const VoxelIndex& brick) {
     BrickDirectory::Number& number = directory_.place(brick);
     if (number == BrickDirectory::kNone) {
@@ -40,7 +40,7 @@ class BrickSet {
     }
     return bricks_[number].cells;
   }
-  /// Makes these the cells of a brick. Returns whether that changes the set.
+  /// Replaces the cells of a brick by `cells`. Returns whether the set has changed.
   bool assign(const VoxelIndex& brick, const BrickPlane& cells) {
     const BrickPlane* known = find(brick);
     if (known == nullptr ? cells == BrickPlane{} : cells == *known) {
@@ -49,15 +49,15 @@ class BrickSet {
     plane(brick) = cells;
     return true;
   }
-  /// Calls `visit(brick address, const BrickPlane&)` for every brick that was written to, in the order in which they
-  /// first were.
+  /// Calls `visit(brick address, const BrickPlane&)` for every brick that was written to, in order of the first
+  /// write.
   template <class Visit>
   void for_each_brick(Visit&& visit) const {
     for (const Stored& stored : bricks_) {
       visit(stored.address, stored.cells);
     }
   }
-  /// How many cells it holds.
+  /// The number of cells in the set.
   [[nodiscard]] std::size_t size() const {
     std::size_t count = 0;
     for (const Stored& stored : bricks_) {

@@ -11,63 +11,70 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a robot that drives must know of the floor under a column of the band.
+/// What a ground robot requires of the floor below a column of the height band.
 enum class FloorRule : std::uint8_t {
-  Ignored,  ///< nothing: for maps without a floor, such as a floor plan
-  NoDrop,   ///< that it is not missing: where every cell down to a step below the band is known free, there is none
-  Seen,  ///< that it is there: a cell within a step below the band is occupied, or HeightBand::assume_floor said so
+  Ignored,  ///< no requirement; for maps without a floor, such as a floor plan
+  NoDrop,   ///< no visible drop: a column is a drop if all cells within one step below the band are known free
+  /// a visible floor: a cell within one step below the band is occupied, or HeightBand::assume_floor covers the
+  /// column
+  Seen,
 };
 
-/// Which heights of a map count for a robot that drives, and where its plane lies. Cells count whose centres lie
-/// between the two heights.
+/// Which heights of a map matter for a ground robot, and at which height the projected plane lies. A cell counts if
+/// its centre lies between `min_height_m` and `max_height_m`. All heights are z coordinates in the world frame.
 struct HeightBandOptions {
-  double min_height_m = 0.1;     ///< lowest z that stands in the robot's way
-  double max_height_m = 1.0;     ///< highest z, >= min_height_m
-  double sensor_height_m = 0.5;  ///< z of the sensor: its layer of cells is the plane
-  /// Share of the cells of a column that must be free before the column is, in (0, 1]. With 1 a camera that sees only
-  /// a part of the band from nearby, as most do, is shut in by what it stands beside.
+  double min_height_m = 0.1;     ///< lower end of the band: the lowest z of an obstacle
+  double max_height_m = 1.0;     ///< upper end of the band, >= min_height_m
+  double sensor_height_m = 0.5;  ///< z of the sensor; the plane is the layer of cells that holds it
+  /// Share of the cells of a column that must be free before the column is free, in (0, 1]. A camera that is close to
+  /// an obstacle sees only a part of the band. With a share of 1 the columns beside the robot would stay unknown, and
+  /// the robot could not leave.
   double free_share = 0.25;
-  /// Where a robot may drive. A sensor that looks level does not see the floor beside it: with FloorRule::Seen it
-  /// needs HeightBand::assume_floor where it starts.
+  /// What the robot requires of the floor. A horizontal sensor does not see the floor beside it. FloorRule::Seen
+  /// therefore needs a call of HeightBand::assume_floor for the start position.
   FloorRule floor = FloorRule::NoDrop;
-  /// The lowest floor, below `min_height_m`, >= 0: cells count whose upper face lies above it. A robot drives down no
-  /// deeper step.
+  /// The deepest step that the robot can drive down, >= 0. The floor is searched in the cells below the band whose
+  /// upper face lies above `min_height_m - step_height_m`.
   double step_height_m = 0.25;
 };
 
-/// A map of one layer of cells: what stands between two heights of another map, projected to the plane of a sensor
-/// that does not leave it. Planners explore it like any other map (Shade & Newman 2011 explore in two dimensions, in
-/// a single plane of the grid); together with a GroundRobot the harmonic field becomes one of two dimensions.
+/// A two-dimensional map, one layer of cells, projected from the height band of a three-dimensional map. It serves
+/// robots that drive, whose sensor stays at a constant height. Planners explore it like any other map. With a
+/// GroundRobot, the harmonic field becomes two-dimensional.
 ///
-/// A column of the band is occupied if a cell of it is, or if it is a drop (FloorRule::NoDrop); free if at least
-/// `free_share` of its cells are free and its floor is as HeightBandOptions::floor asks; else unknown. Its cells lie
-/// at the clamping limits, so none is contested: rays at a grazing angle wear a wall away cell by cell, hardly ever a
-/// column of it.
+/// A column is occupied if one of its cells in the band is occupied, or if it is a drop (see FloorRule::NoDrop). It
+/// is free if at least `free_share` of its cells are free and its floor satisfies HeightBandOptions::floor. Otherwise
+/// it is unknown. All cells of the plane have log-odds at a clamping limit, so none is contested. Rays at a grazing
+/// angle may erase single cells of a wall, but rarely all cells of a column.
 ///
 ///     HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.2, .sensor_height_m = 0.8});
 ///     map.insert(scan);
 ///     band.follow(map);
 ///     planner->plan(band.plane(), pose);
+///
+/// Shade & Newman 2011 also explore in two dimensions, in a single plane of the grid.
 class HeightBand {
  public:
-  /// For maps made with `of_map`; its region, where it has one, bounds the plane. Throws std::invalid_argument naming
-  /// the option at fault, if no cell's centre lies in the band, and if the region has none of it or not the sensor.
+  /// Creates the band for maps with the options `of_map`. If `of_map` has a region, it also bounds the plane. Throws
+  /// std::invalid_argument, which names the option, if an option is out of range, if no cell centre lies in the band,
+  /// if the region does not overlap the band, or if the region does not contain the height of the sensor.
   HeightBand(const OccupancyMapOptions& of_map, const HeightBandOptions& options);
 
-  /// The options it was made with.
+  /// The options that were passed to the constructor.
   [[nodiscard]] const HeightBandOptions& options() const { return options_; }
-  /// The layer, as followed last.
+  /// The projected layer, as of the last `follow`.
   [[nodiscard]] const OccupancyMap& plane() const { return plane_; }
-  /// Lowest layer of cells that counts, and the one above the highest.
+  /// The layers of cells in the band, as a half-open range of z indices [first, second).
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> layers() const { return {lowest_, above_}; }
 
-  /// Declares that there is a floor where `box` touches a column, as a host may for the place where its robot stands,
-  /// from the next `follow` on. What is seen to be a drop remains one.
+  /// Declares that a floor exists in every column that `box` touches (world frame, metres), for example where the
+  /// robot stands. Takes effect at the next `follow`. A column that is seen to be a drop stays a drop. Throws
+  /// std::invalid_argument if the box touches more than OccupancyMap::kMaxBoxCells columns.
   void assume_floor(const Box& box);
 
-  /// Brings the plane up to date with `map`; costs what has changed since the last call. Where the map has a new
-  /// revision, so has the plane, even if nothing in the band has changed. Another map than the last is projected from
-  /// its beginning. Throws std::invalid_argument if its cells are of another size.
+  /// Updates the plane from `map`. The cost depends on what has changed since the last call. If the revision of `map`
+  /// has grown, the revision of the plane grows too, even if nothing in the band has changed. If `map` is not the map
+  /// of the last call, the plane is rebuilt from the start. Throws std::invalid_argument if the cell size differs.
   void follow(const OccupancyMap& map);
 
  private:
@@ -75,15 +82,16 @@ class HeightBand {
   [[nodiscard]] Occupancy state_by_floor(const OccupancyMap& map, const VoxelIndex& column) const;
 
   HeightBandOptions options_;
-  std::int32_t lowest_floor_ = 0;  // `lowest_` where the floor does not count
+  std::int32_t lowest_floor_ = 0;  // equals `lowest_` under FloorRule::Ignored
   std::int32_t lowest_ = 0;
   std::int32_t above_ = 0;
   std::int32_t layer_ = 0;
   OccupancyMap plane_;
-  KnownMap map_;  // that was followed last
+  KnownMap map_;  // the map of the last `follow`
   OccupancyMap::Revision followed_ = 0;
-  BrickSet assumed_;                                       // columns of the plane with a floor
-  std::set<std::pair<std::int32_t, std::int32_t>> stale_;  // y, x of the columns of bricks to be asked again
+  BrickSet assumed_;  // columns of the plane with an assumed floor
+  // y, x of the first cell of each 8 x 8 group of columns to update
+  std::set<std::pair<std::int32_t, std::int32_t>> stale_;
 };
 
 }  // namespace vantage

@@ -7,33 +7,34 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Which map something was made from: for whatever follows a map from call to call, and must not take another one for
-/// it. Does not keep the map.
+/// Remembers from which map something was computed. Objects that follow a map from call to call use it to detect that
+/// they got another map. It does not keep the map alive.
 class KnownMap {
  public:
-  /// No map.
+  /// Refers to no map.
   KnownMap() = default;
-  /// This one.
+  /// Refers to `map`.
   explicit KnownMap(const OccupancyMap& map)
       : address_(&map), token_(map.identity().token_), origin_(map.identity().origin_) {}
 
-  /// Whether `map` is that map, perhaps moved elsewhere; by now it may have changed (OccupancyMap::changed_since).
+  /// Whether `map` is the remembered map. The map may have been moved to another address and its contents may have
+  /// changed (see OccupancyMap::changed_since).
   [[nodiscard]] bool is(const OccupancyMap& map) const {
     const std::shared_ptr<const char> token = token_.lock();
     return token != nullptr && token == map.identity().token_;
   }
-  /// Whether `map` is that map or shares its origin: a copy of it, or one of which both are copies. A host may hand a
-  /// new snapshot of its map to every plan.
+  /// Whether `map` is the remembered map, or both are copies (direct or indirect) of one map. A host may pass a new
+  /// snapshot of its map to every plan.
   [[nodiscard]] bool is_copied_from(const OccupancyMap& map) const {
     const std::shared_ptr<const char> origin = origin_.lock();
     return origin != nullptr && origin == map.identity().origin_;
   }
-  /// Whether it also lies where it lay, so that pointers to it still hold.
+  /// Whether `map` is the remembered map at its old address, so that pointers to it are still valid.
   [[nodiscard]] bool is_in_place(const OccupancyMap& map) const { return address_ == &map && is(map); }
 
  private:
   const OccupancyMap* address_ = nullptr;
-  std::weak_ptr<const char> token_;  // a token that is still held belongs to that map alone
+  std::weak_ptr<const char> token_;  // a token is never reused while this weak reference exists
   std::weak_ptr<const char> origin_;
 };
 

@@ -7,32 +7,32 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Tells a map from every other, wherever and whenever they are: each map has one of its own, a copy gets a new one,
-/// and a map that is moved takes it along. Two addresses cannot say that, for another map may come to lie at one.
-/// A map that has been moved from is the same as none. Copies of a map, and of copies, have an origin in common.
+/// A unique identity of a map. Every new map and every copy gets a new identity; a move transfers it. An address is
+/// not enough, because a new map may be created at the address of a destroyed one. A map that was moved from has no
+/// identity. A map and its copies share an origin.
 class MapIdentity {
  public:
-  /// A new one.
+  /// Creates a new identity with a new origin.
   MapIdentity() : token_(std::make_shared<const char>('\0')), origin_(token_) {}
   ~MapIdentity() = default;
-  /// A new one, of the same origin.
+  /// Creates a new identity with the origin of `other`.
   MapIdentity(const MapIdentity& other) : MapIdentity() { origin_ = other.origin_; }
-  /// A new one, of the origin of the other: what was written over is not what it was.
+  /// Replaces this identity by a new one with the origin of `other`: the contents are no longer those of the old map.
   MapIdentity& operator=(const MapIdentity& other) {
     if (this != &other) {
       *this = MapIdentity(other);
     }
     return *this;
   }
-  /// Taken along.
+  /// Takes over the identity of the other map.
   MapIdentity(MapIdentity&&) noexcept = default;
-  /// Taken along.
+  /// Takes over the identity of the other map.
   MapIdentity& operator=(MapIdentity&&) noexcept = default;
 
  private:
   friend class KnownMap;
   std::shared_ptr<const char> token_;
-  std::shared_ptr<const char> origin_;  // what copies have in common
+  std::shared_ptr<const char> origin_;  // shared by a map and its copies
 };
 
 }  // namespace vantage

@@ -9,7 +9,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What the map knows of a cell. Unknown is not free.
+/// State of a cell. Unknown cells are never treated as free.
 enum class Occupancy : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };
 
 [[nodiscard]] constexpr std::string_view to_string(Occupancy occupancy) {
@@ -24,7 +24,7 @@ enum class Occupancy : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };
   return "unknown";
 }
 
-/// Anything that answers "what is at this cell": OccupancyMap, a dense grid in a test, a host's own map.
+/// Any type that returns the state of a cell: OccupancyMap, a dense grid in a test, or the map of the host.
 template <class Lookup>
 concept OccupancyLookup = requires(const Lookup& lookup, const VoxelIndex& cell) {
   { lookup.at(cell) } -> std::same_as<Occupancy>;

@@ -18,85 +18,87 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The beam model of Shade & Newman 2011, eq. 11-13, with OctoMap's clamping.
+/// Parameters of OccupancyMap: the beam model of Shade & Newman 2011, eq. 11-13, with the clamping of OctoMap.
 struct OccupancyMapOptions {
-  double resolution_m = 0.1;                 ///< edge of a cell, > 0
-  double log_odds_hit = 0.85;                ///< added where a ray ends, > 0 (S&N VI: l_occ)
-  double log_odds_miss = -0.4;               ///< added where a ray passes, < 0 (S&N VI: l_free)
-  double log_odds_min = -2.0;                ///< lower clamp, < 0
-  double log_odds_max = 3.5;                 ///< upper clamp, > 0; a cell at log-odds >= 0 is occupied, as in OctoMap
-  std::optional<Box> region = std::nullopt;  ///< only cells whose centre lies in it are ever known; none: no limit
-  /// Whether a scan leaves occupied cells alone that its rays pass beside a surface it sees: those that touch a cell
-  /// in which one of its rays ends, and the unbroken run of occupied cells that ends with a ray. A surface fills a
-  /// part of its cells only, and rays at a small angle pass the free part: if they count (false, as in OctoMap), many
-  /// of them wear the surface away, and false frontiers open behind it.
+  double resolution_m = 0.1;    ///< edge length of a cell, > 0
+  double log_odds_hit = 0.85;   ///< added to the cell in which a ray ends, > 0 (S&N VI: l_occ)
+  double log_odds_miss = -0.4;  ///< added to the cells that a ray passes, < 0 (S&N VI: l_free)
+  double log_odds_min = -2.0;   ///< lower clamp, < 0
+  double log_odds_max = 3.5;    ///< upper clamp, > 0; a cell with log-odds >= 0 is occupied, as in OctoMap
+  /// only cells whose centre lies inside can become known; nullopt: no limit
+  std::optional<Box> region = std::nullopt;
+  /// Whether a scan must not erase surfaces that it sees at a grazing angle. If true, rays do not clear an occupied
+  /// cell that touches the end cell of a return, nor the unbroken run of occupied cells at the end of a ray. Reason:
+  /// a surface fills only a part of its cells, and rays at a grazing angle pass the free part. If all of them count
+  /// (false, as in OctoMap), they erase the surface and open false frontiers behind it.
   bool keep_grazed_cells = true;
-  /// The most that the map may hold, in bytes as `memory_bytes` counts them; 0: no limit. What would need a new brick
-  /// beyond it is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and stays unknown;
-  /// what the map holds goes on being updated. A scan's own work space comes on top: at most 1 GB.
+  /// Memory limit in bytes, as counted by `memory_bytes`; 0: no limit. An update that would need a new brick beyond
+  /// the limit is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and its cell stays
+  /// unknown. Existing bricks are still updated. The work space of a scan comes on top: at most 1 GB.
   std::size_t max_bytes = 0;
 
-  /// The semantics of `octomap::OcTree::insertPointCloud`, update for update.
+  /// Options that reproduce `octomap::OcTree::insertPointCloud` update for update.
   [[nodiscard]] static OccupancyMapOptions octomap(double resolution_m) {
     return {.resolution_m = resolution_m, .keep_grazed_cells = false};
   }
 };
 
-/// How rays are drawn from the returns of a scan.
+/// Which rays are cast for the returns of a scan.
 enum class RayPolicy : std::uint8_t {
-  EveryReturn,  ///< one ray to every return
-  EachEndCell,  ///< one ray to the centre of every cell that holds a return (OctoMap's `discretize`): faster
+  EveryReturn,  ///< one ray to each return
+  EachEndCell,  ///< one ray to the centre of each cell that holds a return (OctoMap's `discretize`); faster
 };
 
-/// How a coarser cell speaks for the known finest cells in it (unknown ones have no say), as OctoMap's inner nodes.
+/// How the value of a coarse cell is computed from the known finest cells inside it. Unknown cells are ignored, as in
+/// the inner nodes of OctoMap.
 enum class CoarseningPolicy : std::uint8_t { Max, Mean };
 
-/// A three-state map of cells, unknown, free or occupied, that grows with what has been seen.
+/// A sparse occupancy map with three states: unknown, free and occupied. It grows with the observed volume.
 ///
 ///     OccupancyMap map({.resolution_m = 0.1});
 ///     map.insert(scan);
 ///     if (map.at(map.frame().cell_of(point)) == Occupancy::Free) ...
 ///
-/// Storage is sparse bricks of 8 x 8 x 8 cells (brick.hpp), so memory follows the volume seen, never its bounding
-/// box. Cells are aligned as OctoMap aligns them, which makes conversion exact both ways (octomap_bridge.hpp).
+/// Cells are stored in bricks of 8 x 8 x 8 (brick.hpp), so memory depends on the observed volume and not on the
+/// bounding box. Cells are aligned as in OctoMap, so conversion is exact both ways (octomap_bridge.hpp).
 ///
-/// Every call that changes the map makes one new revision; `changed_since` tells any number of readers, each at its
-/// own pace, which bricks hold a cell whose *state* has changed. Reading from several threads is safe while nobody
-/// writes.
+/// Every call that writes creates one new revision. `changed_since` reports the bricks in which the *state* of a cell
+/// has changed since a revision, so any number of readers can follow the map. Reads may be concurrent, writes not.
 class OccupancyMap {
  public:
-  /// Number of a state of the map.
+  /// A counter of the states of the map.
   using Revision = std::uint64_t;
-  /// Known cells by state.
+  /// Number of known cells by state.
   struct Counts {
     std::size_t free = 0;      ///< cells known to be free
     std::size_t occupied = 0;  ///< cells known to be occupied
   };
 
   OccupancyMap() : OccupancyMap(OccupancyMapOptions{}) {}
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the option that is out of range.
   explicit OccupancyMap(const OccupancyMapOptions& options);
   ~OccupancyMap() = default;
-  /// The same cells, with a change log and an identity of its own.
+  /// Copies the cells and the change log. The copy gets its own identity.
   OccupancyMap(const OccupancyMap& other) = default;
-  /// The same.
+  /// Copies the cells and the change log. This map gets a new identity.
   OccupancyMap& operator=(const OccupancyMap& other) = default;
-  /// Leaves `other` an empty map with the same options.
-  OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it gets an identity
+  /// Takes over the map. `other` becomes an empty map with the same options.
+  OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it allocates
+  /// Takes over the map. `other` becomes an empty map with the same options.
   OccupancyMap& operator=(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor)
-  /// Each becomes what the other was; whatever follows one follows it to its new place.
+  /// Exchanges two maps, identities included.
   void swap(OccupancyMap& other);
 
   // --- reading
-  /// The options it was made with.
+  /// The options that were passed to the constructor.
   [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
-  /// Where cells lie in the world.
+  /// Converts between cells and metres in the world frame.
   [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
-  /// Edge of a cell, metres.
+  /// Edge length of a cell, metres.
   [[nodiscard]] double resolution_m() const { return frame_.size_m; }
-  /// The cells of the region of interest; none: every cell.
+  /// The cells of the region of interest; nullopt if every cell can be known.
   [[nodiscard]] const std::optional<VoxelBox>& region() const { return region_; }
-  /// Whether a cell may ever be known.
+  /// Whether a cell can become known.
   [[nodiscard]] bool in_region(const VoxelIndex& cell) const { return !region_ || region_->contains(cell); }
 
   /// State of a cell.
@@ -104,45 +106,44 @@ class OccupancyMap {
     const Brick* brick = find_brick(Brick::of_cell(cell));
     return brick == nullptr ? Occupancy::Unknown : brick->at(Brick::offset_of(cell));
   }
-  /// Whether a cell is free although rays have ended in it since it was last free for sure (at the lower clamp): its
-  /// log-odds are none that misses alone could make. Such a cell holds a piece of a surface that rays at a grazing
-  /// angle have worn away, and neither it nor what lies behind it should be counted upon. Hits that add up to a whole
-  /// number of misses go unnoticed: seven of eight pass by the default constants, none does where a hit is a multiple
-  /// of a miss.
+  /// Whether the log-odds of a free cell show that a ray has ended in it since it was last at the lower clamp: they
+  /// are not a whole number of misses. Such a cell may hold a surface that rays at a grazing angle have erased, so
+  /// neither it nor the space behind it is reliable. Hits that add up to a whole number of misses go unnoticed: every
+  /// eighth hit with the default constants, every hit if a hit is a multiple of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
-  /// Whether a cell is free, but was occupied before: rays through its free part have worn away a surface in it, or
-  /// what was there has gone. Unlike a contested cell it stays so when it is free for sure.
+  /// Whether a cell is free but was occupied earlier: an object has gone, or rays have erased a surface in it. Unlike
+  /// contested, this stays true at the lower clamp.
   [[nodiscard]] bool worn(const VoxelIndex& cell) const {
     const Brick* brick = find_brick(Brick::of_cell(cell));
     return brick != nullptr && brick->worn(Brick::offset_of(cell));
   }
-  /// Whether a cell is free and not contested: what sight passes, and a body may touch.
+  /// Whether a cell is free and not contested: views may look through it and a robot may occupy it.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell) const {
     const Brick* brick = find_brick(Brick::of_cell(cell));
     return brick != nullptr && is_clear(*brick, Brick::offset_of(cell));
   }
-  /// Log-odds of a cell; none where it is unknown.
+  /// Log-odds of a cell; nullopt if it is unknown.
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const;
-  /// Log-odds of the cell of 2^level finest cells an edge at `coarse` (in units of that cell); none if all of it is
-  /// unknown. `level` is in [0, 16].
+  /// Log-odds of a coarse cell; its edge is 2^level finest cells, and `coarse` is its index in that unit. nullopt if
+  /// all cells inside are unknown. Throws std::invalid_argument if `level` is not in [0, 16].
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
-  /// State of a coarser cell: unknown if all of it is, else by its log-odds.
+  /// State of a coarse cell: unknown if all cells inside are unknown, else by its log-odds. Errors as log_odds.
   [[nodiscard]] Occupancy at(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
 
-  /// Known cells by state; walks all bricks.
+  /// Number of known cells by state. Visits all bricks.
   [[nodiscard]] Counts counts() const;
-  /// The smallest box that holds every known cell.
+  /// The smallest box that contains all known cells; empty if there are none.
   [[nodiscard]] VoxelBox bounds() const;
-  /// Bytes held, directory included.
+  /// Memory in use in bytes, directory included.
   [[nodiscard]] std::size_t memory_bytes() const;
-  /// How many bricks it holds: at least a 512th of its known cells.
+  /// The number of bricks.
   [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
-  /// How many updates of cells were refused since it was made (OccupancyMapOptions::max_bytes).
+  /// The number of cell updates refused so far because of OccupancyMapOptions::max_bytes or the size of a scan.
   [[nodiscard]] std::size_t cells_refused() const { return cells_refused_; }
-  /// What one step of the stored log-odds is worth: 0.05 for the default options, which it represents exactly.
+  /// Log-odds of one stored step: 0.05 for the default options, which are then stored without rounding.
   [[nodiscard]] double log_odds_step() const { return step_; }
 
-  /// The cells of one of its bricks that are free and not contested.
+  /// The clear cells (see `is_clear`) of a brick of this map.
   [[nodiscard]] BrickPlane clear_plane(const Brick& brick) const {
     BrickPlane clear{};
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -153,7 +154,7 @@ class OccupancyMap {
     }
     return clear;
   }
-  /// The brick at an address (in units of bricks), or null where nothing has been seen. Valid while the map lives.
+  /// The brick at an address (in units of bricks), or null if it is not stored. Valid while the map lives.
   [[nodiscard]] const Brick* find_brick(const VoxelIndex& brick) const {
     const BrickDirectory::Number number = directory_.find(brick);
     return number == BrickDirectory::kNone ? nullptr : &bricks_[number].cells;
@@ -188,17 +189,18 @@ class OccupancyMap {
     });
   }
 
-  /// Which map this is; what it was made from does not matter (see KnownMap).
+  /// The identity of this map, see KnownMap.
   [[nodiscard]] const MapIdentity& identity() const { return identity_; }
 
   // --- what changed
-  /// Grows by one with every call that writes to the map, a scan that confirms what is known included; 0 for a new
-  /// map.
+  /// The current revision. It grows by one with every call that writes, also with a scan that changes no state. It is
+  /// 0 for a new map.
   [[nodiscard]] Revision revision() const { return revision_; }
-  /// Addresses of the bricks in which a cell changed its state after `revision`, the latest first. Costs what it
-  /// returns. Throws std::invalid_argument if `revision` is still to come.
+  /// Addresses of the bricks in which a cell changed its state after `revision`, most recent first. The cost is
+  /// linear in the result. Throws std::invalid_argument if `revision` is in the future.
   [[nodiscard]] std::vector<VoxelIndex> changed_since(Revision revision) const;
-  /// Calls `visit(brick address, const Brick&)` for the same bricks in the same order. Errors as changed_since.
+  /// Calls `visit(brick address, const Brick&)` for the bricks of changed_since, in the same order. Errors as
+  /// changed_since.
   template <class Visit>
   void for_each_changed_since(Revision revision, Visit&& visit) const {
     require_past(revision);
@@ -213,8 +215,8 @@ class OccupancyMap {
   }
 
   /// Calls `visit(brick address, const Brick&)` for the bricks that were written to after `revision`, in order of
-  /// creation: those in which a cell may have become contested or clear, or changed its state. Costs a look at every
-  /// brick's revision besides. Errors as changed_since.
+  /// creation: those in which a cell may have become contested or clear, or changed its state. It compares the
+  /// revision of every brick. Errors as changed_since.
   template <class Visit>
   void for_each_written_since(Revision revision, Visit&& visit) const {
     require_past(revision);
@@ -226,45 +228,43 @@ class OccupancyMap {
   }
 
   // --- writing
-  /// Integrates one scan: each cell gets at most one update, a hit beats a miss (the semantics of
-  /// octomap::OcTree::insertPointCloud). The sensor's own cell counts as passed. Throws std::invalid_argument if the
-  /// pose is not rigid or `max_range_m` is not positive; rays that cannot be used are skipped and counted. What of a
-  /// ray lies outside the region costs nothing but its few numbers.
+  /// Integrates one scan. Each cell gets at most one update, and a hit has priority over a miss, as in
+  /// octomap::OcTree::insertPointCloud. The cell of the sensor counts as passed. Rays that cannot be used are skipped
+  /// and counted. Throws std::invalid_argument if the pose is not rigid or `max_range_m` is not positive.
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
-  /// Makes a new revision and changes nothing, as a scan does that confirms what is known.
+  /// Creates a new revision without a change, like a scan that only confirms known states.
   void confirm() { ++revision_; }
-  /// Sets the state of a cell outright, at the clamping limit, and forgets what it was; Unknown forgets that it was
-  /// seen. Outside the region: no effect. Throws std::invalid_argument for a cell that cannot be addressed
-  /// (kFurthestVoxel).
+  /// Sets the state of a cell with log-odds at the clamping limit, and resets `worn`. Unknown makes the cell unseen.
+  /// No effect outside the region. Throws std::invalid_argument if the cell is not addressable (kFurthestVoxel).
   void set(const VoxelIndex& cell, Occupancy occupancy);
-  /// Sets the log-odds of a cell, clamped and rounded to a step, but never across 0: what is below stays free. As
-  /// when a scan changes them, an occupied cell that becomes free is worn. Outside the region: no effect. Throws
-  /// std::invalid_argument for NaN and for a cell that cannot be addressed.
+  /// Sets the log-odds of a cell, clamped and rounded to a step; a negative value stays negative. An occupied cell
+  /// that becomes free is worn. No effect outside the region. Throws std::invalid_argument for NaN and for a cell
+  /// that is not addressable.
   void set_log_odds(const VoxelIndex& cell, double log_odds) {
     require_addressable(cell, "OccupancyMap::set_log_odds");
     set_log_odds(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}, log_odds);
   }
-  /// The most cells that a box to be written may have, those outside the region left out: a cube of 1024.
+  /// The largest number of cells (inside the region) in a box to write: a cube of 1024.
   static constexpr std::size_t kMaxBoxCells = std::size_t{1} << 30U;
-  /// The same for every cell of a box, in one revision. Throws std::invalid_argument where the box holds more than
-  /// kMaxBoxCells of the region.
+  /// Sets the log-odds of every cell of a box in one revision. Throws std::invalid_argument as for a single cell, and
+  /// if the box holds more than kMaxBoxCells cells of the region.
   void set_log_odds(const VoxelBox& cells, double log_odds);
-  /// Declares the still unknown cells that `box` touches free, as a host may for the space its robot stands in.
-  /// Throws std::invalid_argument for a box that is empty or cannot be addressed, or holds more than kMaxBoxCells of
-  /// the region.
+  /// Declares the unknown cells that `box` touches as free, for example the space of the robot itself. World frame,
+  /// metres. Throws std::invalid_argument if the box is empty, not addressable, or holds more than kMaxBoxCells cells
+  /// of the region.
   void assume_free(const Box& box);
 
  private:
   struct Stored {
     Brick cells;
     VoxelIndex address;
-    Revision changed = 0;                                  // the last revision in which a cell changed its state
-    BrickDirectory::Number newer = BrickDirectory::kNone;  // neighbours in the order of `changed`
+    Revision changed = 0;                                  // the last revision that changed the state of a cell
+    BrickDirectory::Number newer = BrickDirectory::kNone;  // links of the list sorted by `changed`
     BrickDirectory::Number older = BrickDirectory::kNone;
   };
   friend class ScanInserter;
 
-  // Whether log-odds of a free cell are none that misses alone could make.
+  // Whether these log-odds of a free cell cannot result from misses alone.
   [[nodiscard]] bool shows_a_hit(std::int8_t steps) const { return steps > min_steps_ && steps % miss_steps_ != 0; }
   [[nodiscard]] bool is_clear(const Brick& brick, std::size_t offset) const {
     return brick.at(offset) == Occupancy::Free && !shows_a_hit(brick.log_odds[offset]);
@@ -272,7 +272,7 @@ class OccupancyMap {
   void require_past(Revision revision) const;
   static void require_addressable(const VoxelIndex& cell, const char* what);
   [[nodiscard]] VoxelBox writable(const VoxelBox& cells, const char* what) const;
-  // kNone where the map is full.
+  // Returns kNone if the memory limit is reached.
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   enum class Past : std::uint8_t { Kept, Forgotten };
@@ -291,7 +291,7 @@ class OccupancyMap {
 
   BrickDirectory directory_;
   std::deque<Stored> bricks_;
-  std::vector<Revision> written_;  // of each brick, the last revision that wrote to it
+  std::vector<Revision> written_;  // per brick: the last revision that wrote to it
   std::size_t cells_refused_ = 0;
   Revision revision_ = 0;
   BrickDirectory::Number newest_ = BrickDirectory::kNone;

@@ -14,69 +14,69 @@ class OcTree;
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How an octree becomes an OccupancyMap.
+/// How an octree is converted to an OccupancyMap.
 struct OctomapImportOptions {
-  /// The map to make; its `resolution_m` is not used: the octree brings its own. An `.ot` does not name the beam
-  /// model that made it: give the constants of its maker here, or its free cells may look contested
-  /// (OccupancyMap::contested). An octree in memory names its own; where it differs, free cells come in as the
-  /// nearest whole number of misses.
+  /// Options of the new map. `resolution_m` is ignored: the octree sets it. An `.ot` file does not store its beam
+  /// model, so give the constants of its producer here, or free cells may appear contested (OccupancyMap::contested).
+  /// An octree in memory knows its beam model. If that differs from these options, the log-odds of free cells are
+  /// rounded to the nearest whole number of misses.
   OccupancyMapOptions map = {};
-  /// Refuse an octree whose leaves, expanded to finest cells, are more than this: one leaf near the root of a damaged
-  /// file would otherwise fill the memory. About 1.4 bytes a cell.
+  /// Largest number of finest cells that the leaves may expand to. It protects against a damaged file, where a single
+  /// leaf near the root would fill the memory. One cell needs about 1.4 bytes.
   std::uint64_t max_cells = std::uint64_t{1} << 30U;
 };
 
-/// A map read from an octree. Its states are those of the octree, cell by cell: a pruned leaf becomes the finest
-/// cells it stands for. Its log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0. An octree
-/// does not tell what a cell was before, so no cell of the map is worn (OccupancyMap::worn).
+/// The result of an import. Each state equals that of the octree; a pruned leaf is expanded to its finest cells. The
+/// log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0. An octree does not store the past
+/// of a cell, so no cell is worn (OccupancyMap::worn).
 struct OctomapImport {
-  /// The map that was made.
+  /// The imported map.
   OccupancyMap map;
-  /// The largest difference between a leaf's log-odds and what the map now holds. A `.bt` holds states only; they
-  /// come in at the map's clamping limits, without rounding.
+  /// The largest difference between the log-odds of a leaf and those of the map. A `.bt` file holds states only: they
+  /// get log-odds at the clamping limits, and the difference is 0.
   double log_odds_rounding = 0.0;
 };
 
-/// Reads a map that OctoMap saved (`.bt`, or `.ot` with an OcTree, ColorOcTree or OcTreeStamped; which of the two is
-/// told by the file's first line). Throws std::runtime_error with the path and what is wrong if the file cannot be
-/// read, is damaged, cut short or longer than its own count of nodes, or is too large for `max_cells`;
-/// std::invalid_argument for options at fault.
+/// Loads a `.bt` file, or an `.ot` file with an OcTree, ColorOcTree or OcTreeStamped. The first line of the file
+/// decides the format. Throws std::runtime_error, with the path, if the file cannot be read, is damaged, truncated or
+/// longer than its node count, or exceeds `max_cells`. Throws std::invalid_argument for invalid options.
 [[nodiscard]] OctomapImport load_octomap(const std::filesystem::path& path, const OctomapImportOptions& options = {});
 
-/// Writes a map for OctoMap: `.bt` keeps the states alone, `.ot` the log-odds too. Throws std::invalid_argument for
-/// any other extension and for a map that reaches further than an OctoMap can (see `to_octree`), std::runtime_error
-/// with the path if the file cannot be written.
+/// Saves a map for OctoMap: `.bt` stores states only, `.ot` also log-odds. Throws std::invalid_argument for another
+/// extension or if the map exceeds the range of OctoMap (see `to_octree`), and std::runtime_error, with the path, if
+/// the file cannot be written.
 void save_octomap(const OccupancyMap& map, const std::filesystem::path& path);
 
-/// The map as an octree, pruned, with the same beam model; include <octomap/OcTree.h> to use it. Throws
-/// std::invalid_argument naming the first cell outside OctoMap's [-32768, 32767] cells on each axis.
+/// Converts a map to a pruned octree with the same beam model. Include <octomap/OcTree.h> to use the result. Throws
+/// std::invalid_argument, which names the first cell outside OctoMap's range of [-32768, 32767] cells per axis.
 [[nodiscard]] std::unique_ptr<octomap::OcTree> to_octree(const OccupancyMap& map);
 
-/// An octree as a map. What its own threshold calls occupied is occupied. Throws std::runtime_error if it is too
-/// large for `max_cells` or holds log-odds that are not numbers.
+/// Converts an octree to a map. A cell is occupied if the threshold of the octree says so. Throws std::runtime_error
+/// if the octree exceeds `max_cells` or holds NaN log-odds, std::invalid_argument for invalid options.
 [[nodiscard]] OctomapImport from_octree(const octomap::OcTree& tree, const OctomapImportOptions& options = {});
 
-/// Keeps an OccupancyMap in step with the octree that a host maps into, so that the host need not map twice:
+/// Keeps an OccupancyMap synchronised with an octree that the host maintains, so that the host does not map twice:
 ///
 ///     OctomapFollower follower(tree);
 ///     loop { tree.insertPointCloud(...); follower.update(); planner->plan(follower.map(), pose); }
 ///
-/// It rests on OctoMap's change detection, which it switches on and whose list of changed keys it empties: the host
-/// must leave that list alone. OctoMap lists cells that became known and cells whose state changed, so states follow
-/// exactly; the log-odds of a cell are those at its last change of state. OctoMap lists neither deleted nodes nor
-/// what was done to a node above the finest level; after such surgery, or after reading another file into the tree,
-/// call `resync`.
+/// It uses OctoMap's change detection: it enables it and clears the list of changed keys, so the host must not use
+/// that list. The list holds cells that became known or changed their state. States are therefore always exact, but
+/// the log-odds of a cell are those of its last change of state. OctoMap does not list deleted nodes or changes of
+/// inner nodes. Call `resync` after such edits, or after another file was read into the tree.
 class OctomapFollower {
  public:
-  /// Takes over all that `tree` holds. The tree must outlive the follower. Errors as `from_octree`.
+  /// Imports the whole `tree`. The tree must outlive the follower. Errors as `from_octree`.
   explicit OctomapFollower(octomap::OcTree& tree, const OctomapImportOptions& options = {});
 
-  /// The map that was made.
+  /// The synchronised map.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
-  /// Brings the map up to the tree; costs what changed. Returns how many cells changed their state. A tree that has
-  /// been cleared is resynchronised. Throws std::runtime_error if the resolution of the tree has changed.
+  /// Applies the changes of the tree since the last call. The cost depends on the number of changes. An empty tree
+  /// triggers a `resync`. Returns the number of cells that changed their state. Throws std::runtime_error if the
+  /// resolution of the tree has changed.
   std::size_t update();
-  /// Compares everything, and writes what differs, log-odds included. Returns how many cells changed their state.
+  /// Compares all cells and corrects the differences, log-odds included. Returns the number of cells that changed
+  /// their state. Errors as `update` and `from_octree`.
   std::size_t resync();
 
  private:

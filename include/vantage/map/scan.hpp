@@ -10,22 +10,23 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// One reading of a range sensor.
+/// One measurement of a range sensor.
 ///
-/// A pixel without a measurement (a stereo gap, a missing depth value) is a point with a NaN coordinate: it says
-/// nothing, so what lies along it stays unknown. Only a sensor that *knows* a ray met nothing within its range lists
-/// that ray in `no_return`; such a ray clears cells up to `max_range_m`.
+/// A pixel without a measurement (a stereo gap, a missing depth value) is a point with a NaN coordinate. It carries
+/// no information: the cells along it stay unknown. A ray belongs in `no_return` only if the sensor *knows* that
+/// nothing lies within its range. Such a ray clears cells up to `max_range_m`.
 struct Scan {
-  Pose world_from_sensor = Pose::Identity();  ///< where the sensor was
-  /// Returns in the sensor frame, metres. If `width * height == points.size()` they are a depth image, row by row,
-  /// and the map may use the neighbourhood of pixels; the result is the same either way.
+  Pose world_from_sensor = Pose::Identity();  ///< pose of the sensor
+  /// Returns in the sensor frame, metres. If `width * height == points.size()`, they form a depth image in row-major
+  /// order. The map may then use the pixel neighbourhood for speed; the result is the same.
   std::vector<Eigen::Vector3f> points;
-  /// Directions in the sensor frame (any non-zero length) along which nothing was met within `max_range_m`.
+  /// Directions in the sensor frame (any non-zero length) without an obstacle within `max_range_m`.
   std::vector<Eigen::Vector3f> no_return;
-  /// Returns further than this only clear, up to this distance. Infinite: every return is a hit.
+  /// Range limit, metres. A return beyond it clears cells up to the limit and hits nothing. Infinite: every return is
+  /// a hit.
   double max_range_m = std::numeric_limits<double>::infinity();
-  std::size_t width = 0;   ///< columns of an organised scan, or 0
-  std::size_t height = 0;  ///< rows of an organised scan, or 0
+  std::size_t width = 0;   ///< columns of the depth image, or 0
+  std::size_t height = 0;  ///< rows of the depth image, or 0
 
   /// Whether `points` is a depth image.
   [[nodiscard]] bool organised() const {
@@ -33,18 +34,19 @@ struct Scan {
   }
 };
 
-/// What became of the rays of a scan: every one of them is counted exactly once among the first six.
+/// Statistics of an inserted scan. The first six counters classify each ray exactly once.
 struct ScanReport {
-  std::size_t hits = 0;             ///< returns that ended in a cell
-  std::size_t beyond_range = 0;     ///< returns beyond the range, which only cleared
-  std::size_t no_return = 0;        ///< rays without a return, which cleared up to the range
+  std::size_t hits = 0;             ///< returns within the range
+  std::size_t beyond_range = 0;     ///< returns beyond the range; they only clear
+  std::size_t no_return = 0;        ///< rays without a return; they clear up to the range
   std::size_t not_finite = 0;       ///< NaN or infinite points and directions, skipped
-  std::size_t zero_length = 0;      ///< points at the sensor's origin and zero directions, skipped
+  std::size_t zero_length = 0;      ///< points at the sensor origin and zero directions, skipped
   std::size_t not_addressable = 0;  ///< rays that leave the addressable volume, skipped
   std::size_t cells_hit = 0;        ///< cells updated as occupied
   std::size_t cells_cleared = 0;    ///< cells updated as free
   std::size_t cells_changed = 0;    ///< cells whose state (unknown, free, occupied) changed
-  std::size_t cells_refused = 0;    ///< updates that found no room (OccupancyMapOptions::max_bytes)
+  /// updates refused for lack of space (OccupancyMapOptions::max_bytes, or work space of the scan)
+  std::size_t cells_refused = 0;
 };
 
 }  // namespace vantage

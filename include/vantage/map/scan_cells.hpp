@@ -8,15 +8,15 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The cells that a scan updates, each once: those it hits, and those its rays pass and do not hit.
+/// The cells that a scan updates, each in exactly one set.
 struct ScanCells {
-  std::unordered_set<VoxelIndex> hit;      ///< cells that become more occupied
-  std::unordered_set<VoxelIndex> cleared;  ///< cells that become more free
-  ScanReport report;                       ///< rays counted by what became of them
+  std::unordered_set<VoxelIndex> hit;      ///< cells that get a hit
+  std::unordered_set<VoxelIndex> cleared;  ///< cells that get a miss
+  ScanReport report;                       ///< ray and cell counts
 };
 
-/// The definition of what OccupancyMap::insert would do to `map`, written to be read: one exact walk per ray, into
-/// sets. Slow; it is what the fast insertion is tested against. Errors as OccupancyMap::insert.
+/// Reference implementation of OccupancyMap::insert: returns the cells that the scan would update in `map`. It walks
+/// one ray at a time and is slow; the fast insertion is tested against it. Errors as OccupancyMap::insert.
 [[nodiscard]] ScanCells scan_cells(const Scan& scan, const OccupancyMap& map,
                                    RayPolicy policy = RayPolicy::EveryReturn);
 

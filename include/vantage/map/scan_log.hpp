@@ -12,29 +12,29 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The scans that a map was made of, so that it can be made again when poses turn out to have been others: a loop was
-/// closed, a scan was registered.
+/// Keeps the scans of a map, so that the map can be rebuilt when their poses are corrected, for example after a loop
+/// closure or a registration.
 ///
 ///     ScanLog log({.resolution_m = 0.05});
 ///     log.insert(scan);                    // as map.insert(scan)
-///     log.correct(corrected_poses);        // one per scan; the map is made again
+///     log.correct(corrected_poses);        // one per scan; rebuilds the map
 ///
-/// The map after `correct` is cell for cell, log-odds included, the one that the right poses would have made from the
-/// start.
+/// After `correct`, the map equals, cell for cell and log-odds included, the map that the corrected poses would have
+/// built.
 class ScanLog {
  public:
   /// Errors as OccupancyMap.
   explicit ScanLog(const OccupancyMapOptions& options, RayPolicy policy = RayPolicy::EveryReturn);
 
-  /// Keeps a scan and inserts it into the map. Errors as OccupancyMap::insert; a scan refused is not kept.
+  /// Inserts a scan into the map and keeps it. Errors as OccupancyMap::insert; a rejected scan is not kept.
   ScanReport insert(Scan scan);
-  /// Gives every scan, in the order of insertion, a new pose and makes the map again: another object at another
-  /// place, so that planners and other readers start anew. If no pose differs, all stays as it is. Throws
-  /// std::invalid_argument unless there is one rigid pose per scan; the log is then unchanged. Returns how many poses
-  /// were new.
+  /// Sets a new pose for every scan, in order of insertion, and rebuilds the map if a pose differs. The rebuilt map
+  /// is a new object, so planners and other readers start from the beginning. Returns the number of poses that
+  /// differ. Throws std::invalid_argument if the number of poses is wrong or a pose is not rigid; the log is then
+  /// unchanged.
   std::size_t correct(std::span<const Pose> world_from_sensor);
 
-  /// The map of all scans; the reference holds until `correct`.
+  /// The map of all scans. The reference is valid until `correct` rebuilds the map.
   [[nodiscard]] const OccupancyMap& map() const { return *map_; }
   /// The scans, in order of insertion.
   [[nodiscard]] const std::vector<Scan>& scans() const { return scans_; }

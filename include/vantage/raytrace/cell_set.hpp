@@ -12,12 +12,12 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A set of cells of a box, one bit each: what a view sees of an object. Words hold 4 x 4 x 4 cells, x running
-/// fastest, as those of Brick.
+/// A set of cells inside a box, one bit per cell: for example what a view sees of an object. A 64-bit word holds 4 x
+/// 4 x 4 cells, x fastest, as in Brick. Two sets that are combined must have the same box.
 class CellSet {
  public:
   CellSet() = default;
-  /// An empty set of cells of `box`.
+  /// Creates an empty set of cells of `box`.
   explicit CellSet(const VoxelBox& box) : box_(box) {
     if (!box.empty()) {
       lo_ = word_of(box.lo);
@@ -26,19 +26,19 @@ class CellSet {
     }
   }
 
-  /// The cells that it may hold.
+  /// The cells that the set can hold.
   [[nodiscard]] const VoxelBox& box() const { return box_; }
-  /// Whether it holds a cell.
+  /// Whether the set holds a cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const {
     return box_.contains(cell) && (words_[place_of(cell)] & bit_of(cell)) != 0;
   }
-  /// Adds a cell; one outside the box has no effect.
+  /// Adds a cell. No effect outside the box.
   void insert(const VoxelIndex& cell) {
     if (box_.contains(cell)) {
       words_[place_of(cell)] |= bit_of(cell);
     }
   }
-  /// Adds the cells of a word, as `for_each_word` tells them; those outside the box have no effect.
+  /// Adds the cells of a word, in the layout of `for_each_word`. Cells outside the box are ignored.
   void insert_word(const VoxelIndex& word, std::uint64_t cells) {
     if (VoxelBox{lo_, lo_ + extent_}.contains(word)) {
       const VoxelIndex first{word.x * 4, word.y * 4, word.z * 4};
@@ -46,17 +46,17 @@ class CellSet {
       words_[place_of(first)] |= whole ? cells : cells & in_box(first);
     }
   }
-  /// The cells of a word that it holds, as `for_each_word` tells them; none outside the box.
+  /// The cells of a word, in the layout of `for_each_word`; 0 outside the box.
   [[nodiscard]] std::uint64_t word(const VoxelIndex& word) const {
     return VoxelBox{lo_, lo_ + extent_}.contains(word) ? words_[place_of({word.x * 4, word.y * 4, word.z * 4})] : 0;
   }
-  /// Takes a cell out.
+  /// Removes a cell.
   void erase(const VoxelIndex& cell) {
     if (box_.contains(cell)) {
       words_[place_of(cell)] &= ~bit_of(cell);
     }
   }
-  /// How many cells it holds.
+  /// The number of cells in the set.
   [[nodiscard]] std::size_t size() const {
     std::size_t count = 0;
     for (const std::uint64_t word : words_) {
@@ -64,25 +64,25 @@ class CellSet {
     }
     return count;
   }
-  /// Adds the cells of a set of the same box.
+  /// Union with a set of the same box.
   CellSet& operator|=(const CellSet& other) {
     for (std::size_t i = 0; i < words_.size(); ++i) {
       words_[i] |= other.words_[i];
     }
     return *this;
   }
-  /// Removes the cells of a set of the same box.
+  /// Difference: removes the cells of a set of the same box.
   CellSet& operator-=(const CellSet& other) {
     for (std::size_t i = 0; i < words_.size(); ++i) {
       words_[i] &= ~other.words_[i];
     }
     return *this;
   }
-  /// The same cells of the same box.
+  /// Whether both the boxes and the cells are equal.
   friend bool operator==(const CellSet&, const CellSet&) = default;
 
-  /// Calls `visit(VoxelIndex of the word, std::uint64_t cells)` for every word that holds a cell: cell (x, y, z) is
-  /// bit x % 4 + 4 (y % 4) + 16 (z % 4) of word (x / 4, y / 4, z / 4), rounded down.
+  /// Calls `visit(VoxelIndex word, std::uint64_t cells)` for every word with a cell. Cell (x, y, z) is bit x % 4 + 4
+  /// (y % 4) + 16 (z % 4) of word (x / 4, y / 4, z / 4); the divisions round down and the remainders are >= 0.
   template <class Visit>
   void for_each_word(Visit&& visit) const {
     for (std::size_t i = 0; i < words_.size(); ++i) {
@@ -114,9 +114,9 @@ class CellSet {
                static_cast<std::size_t>(extent_.x) +
            static_cast<std::size_t>(at.x);
   }
-  // The cells in the box of the word that begins with cell `first`.
+  // The cells inside the box of the word whose first cell is `first`.
   [[nodiscard]] std::uint64_t in_box(const VoxelIndex& first) const {
-    constexpr std::uint64_t kX = 0x1111111111111111U;  // those with x % 4 = 0
+    constexpr std::uint64_t kX = 0x1111111111111111U;  // cells with x % 4 = 0
     constexpr std::uint64_t kY = 0x000F000F000F000FU;
     constexpr std::uint64_t kZ = 0x000000000000FFFFU;
     constexpr std::array<std::uint64_t, 5> kBelowX{0, kX, kX * 3, kX * 7, ~std::uint64_t{0}};

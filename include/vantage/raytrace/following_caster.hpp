@@ -11,28 +11,28 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A RayCaster and the rays of a sensor, for whoever is given a map again and again: they follow it through its
-/// changes and begin anew with another map.
+/// A RayCaster and the rays of a sensor that follow a map from call to call. If the map is another one, both are
+/// rebuilt.
 class FollowingCaster {
  public:
-  /// Looks at `map` as it is now, which must outlive the next use of `caster`; the sensor is the same every
-  /// time. Returns whether it began anew. Throws std::length_error if cells of the map lie too far apart to be looked
-  /// at (RayCaster).
+  /// Updates the caster to the current state of `map`, which must outlive the next use of `caster`. The sensor must
+  /// be the same in every call. Returns whether the caster was rebuilt. Throws std::length_error if the known cells
+  /// are too far apart (see RayCaster), std::invalid_argument for an invalid sensor.
   bool follow(const OccupancyMap& map, const RangeSensor& sensor) {
     if (map_.is_in_place(map)) {
       caster_->update();
       return false;
     }
-    map_ = KnownMap();  // none, if what follows throws
+    map_ = KnownMap();  // refers to no map if one of the next lines throws
     caster_.emplace(map);
     rays_.emplace(sensor.rays_for(map.resolution_m()));
     map_ = KnownMap(map);
     return true;
   }
 
-  /// In the map that was followed last; there must be one.
+  /// The caster of the last followed map. Requires a call of `follow`.
   [[nodiscard]] const RayCaster& caster() const { return *caster_; }
-  /// As dense as its cells ask for.
+  /// The rays of the sensor, as dense as the cells of the map require. Requires a call of `follow`.
   [[nodiscard]] const ViewRays& rays() const { return *rays_; }
 
  private:

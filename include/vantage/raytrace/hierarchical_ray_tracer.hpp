@@ -11,66 +11,69 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What hierarchical ray tracing counts of a view: rays, not cells, and so more than there are cells.
+/// Result of hierarchical ray tracing for a view. It counts rays, not distinct cells, so the numbers exceed those of
+/// ViewEvaluation.
 struct HierarchicalCounts {
-  std::size_t occupied = 0;  ///< rays of the finest level that end in an occupied cell
-  std::size_t unknown = 0;   ///< rays of the finest level below those, of any level, that end in an unknown cell
+  std::size_t occupied = 0;  ///< finest rays that end in an occupied cell
+  std::size_t unknown = 0;   ///< finest rays that descend from a ray, of any level, that ends in an unknown cell
   std::size_t casts = 0;     ///< rays that were cast
 
-  /// The same counts.
+  /// Whether all counts are equal.
   friend bool operator==(const HierarchicalCounts&, const HierarchicalCounts&) = default;
 };
 
-/// Hierarchical ray tracing, Algorithm 2 of Vasquez-Gomez et al. 2013, over any map: rays of the tree's first level
-/// are cast first; where one ends in an occupied cell its children are cast in the next finer map, down to the
-/// finest; where one ends in an unknown cell the rays that depend on it are counted and it is left at that.
+/// Hierarchical ray tracing, Algorithm 2 of Vasquez-Gomez et al. 2013. It first casts the coarsest rays of the tree.
+/// If a ray ends in an occupied cell, its children are cast in the next finer map, down to the finest level. If a ray
+/// ends in an unknown cell, its leaves are counted and it is not refined.
 ///
-/// `cast(level, direction)` casts a ray of a level of the tree, by its direction in the sensor frame, in the map of
-/// that level. It returns what the ray ends in as far as that is to count: Free otherwise, which is neither counted
-/// nor refined. A tree is a RayTree, or anything with its `rays`, `children` and `leaves`.
+/// `cast(level, direction)` must cast a ray of a tree level, given by its direction in the sensor frame, in the map
+/// of that level. It returns the state of the end cell if that counts; otherwise it returns Free, which is neither
+/// counted nor refined. `tree` is a RayTree, or any type with its `rays`, `children` and `leaves`.
 template <class Tree, class Cast>
 [[nodiscard]] HierarchicalCounts trace_hierarchically(const Tree& tree, const Cast& cast);
 
-/// How a HierarchicalRayTracer works.
+/// Options of HierarchicalRayTracer.
 struct HierarchicalRayTracerOptions {
-  /// How many resolutions there are from the first to the finest, in [1, 16]; the paper's start depth of 14 in an
-  /// octree of depth 16 is 3. With 1 it is uniform ray tracing.
+  /// Number of resolutions from the coarsest to the finest, in [1, 16]. The paper's start depth 14 in an octree of
+  /// depth 16 is 3 levels. One level is uniform ray tracing.
   int levels = 4;
-  /// How a coarser cell speaks for the finest ones in it (V-A.1).
+  /// How the state of a coarse cell is computed from the finest cells inside it (V-A.1).
   CoarseningPolicy policy = CoarseningPolicy::Max;
-  /// Whether occupied cells outside the object box are refined as well, as the paper's algorithm has it. They cannot
-  /// count; but what is behind an occupied cell that turns out to be mostly free is not seen where they are not.
+  /// Whether rays that end in a coarse occupied cell outside the object box are refined too, as in the paper's
+  /// algorithm. Such cells never count. But without refinement, a coarse cell that is mostly free hides what lies
+  /// behind it.
   bool refine_outside = false;
 };
 
-/// The paper's method, on maps of several resolutions: an approximation of what UniformRayTracer counts. The map must
-/// outlive it.
+/// Hierarchical ray tracing on maps of several resolutions: an approximation of UniformRayTracer. The map must
+/// outlive the tracer. (Vasquez-Gomez et al. 2013, V.)
 class HierarchicalRayTracer {
  public:
-  /// Makes the tree of rays and takes the map at every resolution. Throws std::invalid_argument naming what is wrong.
+  /// Builds the ray tree and the map at every resolution. Throws std::invalid_argument, which names the invalid
+  /// option.
   HierarchicalRayTracer(const OccupancyMap& map, const RangeSensor& sensor,
                         const HierarchicalRayTracerOptions& options = HierarchicalRayTracerOptions{});
 
-  /// Follows the changes of the map.
+  /// Applies the changes of the map since the last call.
   void update();
-  /// The rays it casts.
+  /// The ray tree.
   [[nodiscard]] const RayTree& tree() const { return tree_; }
-  /// Counts the rays of a view that end in `object`. A coarser cell is in the box where it overlaps it. Throws
-  /// std::invalid_argument if rays cannot be addressed.
+  /// Counts the rays of a view that end in `object`. A coarse cell counts if it overlaps the box. Throws
+  /// std::invalid_argument if a ray is not addressable.
   [[nodiscard]] HierarchicalCounts evaluate(const Pose& world_from_sensor, const VoxelBox& object) const;
 
  private:
   HierarchicalRayTracerOptions options_;
   double max_range_m_;
   RayTree tree_;
-  std::vector<RayCaster> casters_;  // by level of the tree
+  std::vector<RayCaster> casters_;  // one per tree level, coarsest first
 };
 
 }  // namespace vantage
 
 namespace vantage::detail {
 
-// Lines 1 to 10: the children of a ray, or of the root, in the map of their level.
+// Algorithm 2, lines 1 to 10: casts sibling rays in the map of their level.
 template <class Tree, class Cast, class Rays>
 void trace_rays(const Tree& tree, int level, const Rays& rays, const Cast& cast, HierarchicalCounts& counts) {
   for (const std::uint32_t ray : rays) {

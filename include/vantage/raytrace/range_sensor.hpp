@@ -10,62 +10,68 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a range sensor sees: a pinhole camera, or a spherical scanner (lidar). Sensor frame: +z forward, +x right,
-/// +y down. Aggregate; `validate` is called once by everything that takes one.
+/// Geometry of a range sensor: a pinhole camera or a spherical scanner (lidar). Sensor frame: +z forward, +x right,
+/// +y down. An aggregate; every class that takes one calls `validate` once.
 struct RangeSensor {
-  /// How pixels become directions.
+  /// Mapping from pixels to ray directions.
   enum class Projection : std::uint8_t {
     Pinhole,    ///< pixel (u, v) looks along ((u - cx) / fx, (v - cy) / fy, 1)
-    Spherical,  ///< columns span the horizontal, rows the vertical field of view in equal angles
+    Spherical,  ///< equal angles: columns span the horizontal, rows the vertical field of view
   };
 
-  static constexpr std::size_t kMostRays = std::size_t{1} << 24;  ///< 4096 x 4096
+  static constexpr std::size_t kMostRays = std::size_t{1} << 24;  ///< limit of width x height, 4096 x 4096
 
-  Projection projection = Projection::Pinhole;  ///< which of the fields below apply
+  Projection projection = Projection::Pinhole;  ///< selects which of the fields below apply
   std::size_t width = 640;                      ///< columns, > 0
-  std::size_t height = 480;                     ///< rows, > 0; width x height is at most kMostRays
-  double fx = 525.0;                            ///< focal length along the rows, pixels, in [1e-3, 1e7]; Pinhole only
-  double fy = 525.0;                            ///< along the columns, likewise
-  double cx = 319.5;                            ///< principal point, pixels, in [-1e6, 1e6]; Pinhole only
-  double cy = 239.5;                            ///< likewise
-  double horizontal_fov_rad = 0.0;              ///< Spherical only, in [1e-4, 2 pi]
-  double vertical_fov_rad = 0.0;                ///< Spherical only, in [1e-4, pi], centred on the horizon
-  double min_range_m = 0.0;                     ///< nearer surfaces give no return, >= 0
-  double max_range_m = 4.0;                     ///< further surfaces give no return, in (min_range_m, 10000]
-  /// Whether a ray that meets nothing within range is *known* to be clear (time of flight, lidar). Stereo and
-  /// structured light cannot tell "nothing there" from "could not see": leave it false for them.
+  std::size_t height = 480;                     ///< rows, > 0; width x height <= kMostRays
+  double fx = 525.0;                            ///< horizontal focal length, pixels, in [1e-3, 1e7]; Pinhole only
+  double fy = 525.0;                            ///< vertical focal length, pixels, in [1e-3, 1e7]; Pinhole only
+  double cx = 319.5;                            ///< principal point, column, pixels, in [-1e6, 1e6]; Pinhole only
+  double cy = 239.5;                            ///< principal point, row, pixels, in [-1e6, 1e6]; Pinhole only
+  double horizontal_fov_rad = 0.0;              ///< full horizontal field of view, in [1e-4, 2 pi]; Spherical only
+  /// full vertical field of view, in [1e-4, pi], centred on the horizon; Spherical only
+  double vertical_fov_rad = 0.0;
+  double min_range_m = 0.0;  ///< surfaces closer than this give no return, >= 0
+  double max_range_m = 4.0;  ///< surfaces beyond this give no return, in (min_range_m, 10000]
+  /// Whether the sensor *knows* that a ray without a return is free up to the range (time of flight, lidar). Leave it
+  /// false for stereo and structured light, which cannot tell "nothing there" from "could not measure".
   bool reports_no_return = false;
 
-  /// A pinhole sensor with centred principal point and the given full angles of view, in radians.
+  /// Creates a pinhole sensor with a centred principal point. The fields of view are full angles in radians, in (0,
+  /// pi). Throws std::invalid_argument as `validate`.
   [[nodiscard]] static RangeSensor pinhole(std::size_t width, std::size_t height, double horizontal_fov_rad,
                                            double vertical_fov_rad, double min_range_m, double max_range_m);
-  /// A spherical sensor with the given full angles of view, in radians.
+  /// Creates a spherical sensor. The fields of view are full angles in radians. Throws std::invalid_argument as
+  /// `validate`.
   [[nodiscard]] static RangeSensor spherical(std::size_t width, std::size_t height, double horizontal_fov_rad,
                                              double vertical_fov_rad, double min_range_m, double max_range_m);
-  /// A sensor by NAME: kinect, stereo, realsense, lidar, panoramic, vpl. Throws std::invalid_argument listing the
-  /// names if there is no such sensor.
+  /// Returns a sensor by name: kinect, stereo, realsense, lidar, panoramic or vpl. Throws std::invalid_argument,
+  /// which lists the names, for any other name.
   [[nodiscard]] static RangeSensor preset(std::string_view name);
-  /// The names `preset` knows.
+  /// The names that `preset` accepts.
   [[nodiscard]] static const std::vector<std::string_view>& preset_names();
 
-  /// Throws std::invalid_argument naming the field, its value and the rule.
+  /// Throws std::invalid_argument, which gives the invalid field, its value and the valid range.
   void validate() const;
 
-  /// Unit direction of the ray through the centre of pixel (column, row).
+  /// Unit direction, in the sensor frame, of the ray through the centre of pixel (column, row).
   [[nodiscard]] Eigen::Vector3d direction(std::size_t column, std::size_t row) const;
-  /// Directions of all pixels, row by row.
+  /// Unit directions of all pixels in the sensor frame, row by row.
   [[nodiscard]] std::vector<Eigen::Vector3f> directions() const;
-  /// Whether a direction in the sensor frame (any length) falls into the field of view.
+  /// Whether a direction in the sensor frame (any length) lies in the field of view. False for zero and non-finite
+  /// directions.
   [[nodiscard]] bool in_view(const Eigen::Vector3d& direction) const;
-  /// Full angles of view, radians.
+  /// Full horizontal field of view, radians.
   [[nodiscard]] double horizontal_angle_rad() const;
-  /// Full vertical angle of view, radians.
+  /// Full vertical field of view, radians.
   [[nodiscard]] double vertical_angle_rad() const;
-  /// How far from the sensor neighbouring rays are at most `cell_m` apart, metres: nearer than that hardly a cell of
-  /// this size slips between them (only one turned against the rows of pixels). Not limited by the range.
+  /// The distance, metres, up to which neighbouring rays of a row or a column are at most `cell_m` apart. Up to this
+  /// distance, rays rarely miss a cell of that size; they may miss one that is rotated against the pixel rows. Not
+  /// limited by the maximum range.
   [[nodiscard]] double resolving_range_m(double cell_m) const;
-  /// The same sensor with just enough columns and rows that neighbouring rays are at most `cell_m` apart at the
-  /// maximum range (Vasquez-Gomez et al. 2013, eq. 6); never more than it has.
+  /// The same sensor with fewer columns and rows: just enough that neighbouring rays are at most `cell_m` apart at
+  /// the maximum range, and never more than it has. Throws std::invalid_argument unless `cell_m` is finite and > 0.
+  /// (Vasquez-Gomez et al. 2013, eq. 6.)
   [[nodiscard]] RangeSensor rays_for(double cell_m) const;
 };
 

@@ -14,83 +14,85 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Where a ray comes to its end.
+/// The cell in which a ray ends.
 struct RayEnd {
-  VoxelIndex cell;  ///< the first cell that is not free; if all are free, the last of the ray
+  VoxelIndex cell;  ///< the first cell that is not free; the last cell of the ray if all are free
   Occupancy occupancy = Occupancy::Unknown;  ///< state of that cell
 
-  /// The same cell in the same state.
+  /// Whether cell and state are equal.
   friend bool operator==(const RayEnd&, const RayEnd&) = default;
 };
 
-/// The definition of casting a ray: the first cell from that of `from` to that of `to` which is not free, on an exact
-/// walk (Amanatides & Woo 1987, VoxelRay) that looks at every cell. Slow; it is what RayCaster is tested against.
-/// Both points must be addressable in `frame`.
+/// Reference implementation of ray casting: returns the first cell on the segment from `from` to `to` that is not
+/// free. It visits every cell on an exact walk (VoxelRay) and is slow; RayCaster is tested against it. Both points
+/// are in the world frame, metres, and must be addressable in `frame`. (Amanatides & Woo 1987.)
 template <OccupancyLookup Lookup>
 [[nodiscard]] RayEnd first_not_free(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
                                     const Eigen::Vector3d& to);
 
-/// How a RayCaster looks at its map.
+/// Options of RayCaster.
 struct RayCasterOptions {
-  /// Cells are 2^level of the map's finest an edge, in [0, 16]; an OctoMap of depth 16 calls it depth 16 - level.
+  /// Cells have an edge of 2^level finest cells of the map; level in [0, 16]. This is depth 16 - level in an OctoMap.
   int level = 0;
-  /// How a coarser cell speaks for the finest ones in it.
+  /// How the state of a coarse cell is computed from the finest cells inside it.
   CoarseningPolicy policy = CoarseningPolicy::Max;
 };
 
-/// Finds the first cell along rays that is not known to be free, occupied or unknown: what a sensor would see there.
+/// Finds, for each ray, the first cell that is not known free: occupied or unknown. This is what a sensor would see.
 ///
 ///     RayCaster caster(map);
 ///     const RayEnd end = caster.cast(from, to);
 ///     map.insert(scan);
-///     caster.update();  // costs what changed
+///     caster.update();  // cost depends on what has changed
 ///
-/// The cells are exactly those of `first_not_free`; what makes it fast is a copy of the map with a bit per cell and
-/// the distance to the next cell that stops a ray for every 4 x 4 x 4 cells, over which rays leap. The map must
-/// outlive the caster. Casting from several threads is safe while nobody updates.
+/// The result equals that of `first_not_free`. It is fast because the caster keeps a copy of the map with one bit per
+/// cell, and for every 4 x 4 x 4 cells the distance to the next cell that stops a ray, so that rays skip free space.
+/// The map must outlive the caster. Concurrent casts are safe while nobody updates.
 class RayCaster {
  public:
-  /// Takes the map as it is now. Throws std::invalid_argument naming the option at fault, std::length_error if the
-  /// known cells are too far apart (2^42 cells in their bounding box).
+  /// Copies the current state of the map. Throws std::invalid_argument, which names the invalid option, and
+  /// std::length_error if the known cells are too far apart (2^42 cells in their bounding box).
   explicit RayCaster(const OccupancyMap& map, const RayCasterOptions& options = RayCasterOptions{});
   ~RayCaster();
-  /// The caster moved from may only be assigned to or destroyed.
+  /// Takes over `other`, which may then only be assigned to or destroyed.
   RayCaster(RayCaster&&) noexcept;
-  /// The caster moved from may only be assigned to or destroyed.
+  /// Takes over `other`, which may then only be assigned to or destroyed.
   RayCaster& operator=(RayCaster&&) noexcept;
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  /// Follows the changes of the map since the last call, or since it was made. Costs what changed, but for means of
-  /// coarser cells, which are all taken anew. Returns how many bricks were read. Errors as the constructor.
+  /// Applies the changes of the map since the last call or the construction. The cost depends on the changes, except
+  /// for coarse cells with CoarseningPolicy::Mean, which are all recomputed. Returns the number of bricks that were
+  /// read. Errors as the constructor.
   std::size_t update();
 
-  /// Supposes what unknown cells hold: in the box of the set rays are stopped by occupied cells and by those of the
-  /// set alone, which must be unknown, and pass all others. This lasts until `update` finds a change of the map there
-  /// or the next call for the same box.
+  /// Assumes the content of unknown cells. Inside the box of `stopping`, only occupied cells and the cells of
+  /// `stopping` stop rays; the latter must be unknown. The assumption about a cell holds until `update` reads a
+  /// change of its brick, or until the next call for the same box. Throws std::length_error as the constructor.
   void suppose(const CellSet& stopping);
 
-  /// The cells of which it speaks: those of the map at its level.
+  /// The frame of the caster's cells, which have the size of its level.
   [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
-  /// The options it was made with.
+  /// The options that were passed to the constructor.
   [[nodiscard]] const RayCasterOptions& options() const { return options_; }
-  /// State of a cell at the last update.
+  /// State of a cell at the last update. An unknown cell that is assumed not to stop rays counts as free.
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const;
-  /// Bytes held.
+  /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const;
 
-  /// Casts one ray. Throws std::invalid_argument if an end cannot be addressed.
+  /// Casts one ray between two points in the world frame, metres. Throws std::invalid_argument if a point is not
+  /// finite or not addressable.
   [[nodiscard]] RayEnd cast(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
-  /// Casts all rays of a view into `ends`, in the order of the image. A ray ends where a scan without returns would
-  /// end (Scan::no_return), so it passes exactly the cells that such a scan would clear. Throws std::invalid_argument
-  /// if the pose is not rigid, its rays cannot be addressed, or `ends` has another size.
+  /// Casts all rays of a view and writes their ends to `ends`, in image order. A ray reaches as far as a ray of
+  /// Scan::no_return, so it passes exactly the cells that such a scan would clear. Throws std::invalid_argument if
+  /// the pose is not rigid, a ray is not addressable, or `ends` has the wrong size.
   void cast(const Pose& world_from_sensor, const ViewRays& rays, std::span<RayEnd> ends) const;
 
-  /// The cells of `box` that a view sees, each once: those in which a ray ends and that are not free (Vasquez-Gomez
-  /// et al. 2013, IV-A). Cells whose centre is nearer than the sensor's minimum range stop rays but are not seen.
-  /// Errors as `cast`.
+  /// The distinct cells of `box` that a view sees: the cells, not free, in which a ray ends. Cells whose centre is
+  /// closer than the sensor's minimum range stop rays but are not seen. Throws std::invalid_argument if the pose is
+  /// not rigid or a ray is not addressable. (Vasquez-Gomez et al. 2013, IV-A.)
   [[nodiscard]] CellSet visible_cells(const Pose& world_from_sensor, const ViewRays& rays, const VoxelBox& box) const;
-  /// How many cells of a set are in this state.
+  /// The number of cells of a set that are in this state.
   [[nodiscard]] std::size_t count(const CellSet& cells, Occupancy occupancy) const;
 
  private:

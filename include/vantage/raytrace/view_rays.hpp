@@ -11,71 +11,73 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Up to 64 neighbouring rays of a view, a square of 8 x 8 of them.
+/// A tile of a view: up to 64 neighbouring rays, a square of 8 x 8 pixels.
 struct RayTile {
-  static constexpr std::size_t kRays = 64;  ///< most rays
+  static constexpr std::size_t kRays = 64;  ///< maximum number of rays
 
-  /// Directions in the sensor frame: x of all rays, then y, then z. Neighbours are close in the list too (the bits of
-  /// column and row alternate). A place without a ray repeats the first.
+  /// Directions in the sensor frame: x of all rays, then y, then z. The rays are in Morton order (the bits of column
+  /// and row alternate), so neighbours in the image are close in the list. A place without a ray repeats the first
+  /// ray.
   std::array<std::array<float, kRays>, 3> directions{};
-  std::array<double, kRays> stretch{};     ///< what makes each direction as long as rays reach
-  std::array<std::uint32_t, kRays> ray{};  ///< number of each ray in the image, row by row
-  std::uint64_t rays = 0;                  ///< a bit for each place that holds a ray
+  std::array<double, kRays> stretch{};     ///< factor that scales each direction to the maximum range, metres
+  std::array<std::uint32_t, kRays> ray{};  ///< index of each ray in the image, row by row
+  std::uint64_t rays = 0;                  ///< bit mask of the places that hold a ray
 
-  /// Direction of the ray at a place.
+  /// Direction of the ray at a place, in the sensor frame.
   [[nodiscard]] Eigen::Vector3f direction(std::size_t place) const {
     return {directions[0][place], directions[1][place], directions[2][place]};
   }
 };
 
-/// A cone around directions in the sensor frame.
+/// A cone that contains a set of directions in the sensor frame.
 struct RayCone {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< a unit vector
-  double cos_half_angle = 1.0;                      ///< cosine of the angle between it and the directions, at most
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector
+  double cos_half_angle = 1.0;                      ///< cosine of the largest angle between the axis and a direction
   double sin_half_angle = 0.0;                      ///< sine of that angle
 };
 
-/// Neighbouring tiles of a view, a square of 4 x 4 of them.
+/// A group of neighbouring tiles of a view: a square of up to 4 x 4 tiles.
 struct TileGroup {
-  RayCone cone;           ///< around all of their rays
-  std::size_t first = 0;  ///< their numbers: from this one
-  std::size_t last = 0;   ///< to the one before this
+  RayCone cone;           ///< contains all rays of the group
+  std::size_t first = 0;  ///< the tiles are [first, last)
+  std::size_t last = 0;   ///< one past the last tile
 };
 
-/// Between which directions the rays of the tiles of a group lie: every one of a tile is a sum of its four corners,
-/// none of them taken less than zero times.
+/// The corner directions of the tiles of a group. Every ray of a tile is a linear combination of the four corners of
+/// the tile with coefficients >= 0.
 struct TileHulls {
-  static constexpr std::size_t kTiles = 16;  ///< of a group, at most
+  static constexpr std::size_t kTiles = 16;  ///< maximum number of tiles of a group
 
-  /// In the sensor frame: x of all corners, then y, then z. Corner k of tile i of the group is at place 16 k + i; all
-  /// are zero of a tile that points all around, or that there is not.
+  /// Directions in the sensor frame: x of all corners, then y, then z. Corner k of tile i of the group is at place 16
+  /// k + i. All are zero for a tile that does not exist, or whose rays spread too far to lie in front of one plane.
   std::array<std::array<float, 4 * kTiles>, 3> corners{};
 };
 
-/// The rays of a view in the sensor frame: an image of directions that all reach equally far, arranged for being
-/// traced (RayCaster, evaluate_view). Made once for a sensor and used for every pose of it.
+/// The rays of a view in the sensor frame: an image of directions with a common maximum range, arranged in tiles and
+/// groups for fast tracing (RayCaster, evaluate_view). Create it once per sensor and use it for all poses.
 class ViewRays {
  public:
   /// One ray through the centre of every pixel. Throws std::invalid_argument as RangeSensor::validate.
   explicit ViewRays(const RangeSensor& sensor);
-  /// `width * height` directions (any non-zero length), row by row. Neighbours in the image should point to nearly
-  /// the same place: that is what makes tracing fast. Throws std::invalid_argument naming what is wrong.
+  /// `width * height` directions in the sensor frame (any non-zero length), row by row. Tracing is fast only if
+  /// neighbours in the image have similar directions. Throws std::invalid_argument if the size is wrong, a direction
+  /// is zero or not finite, or unless 0 <= `min_range_m` < `max_range_m` < infinity.
   ViewRays(const std::vector<Eigen::Vector3f>& directions, std::size_t width, std::size_t height, double max_range_m,
            double min_range_m = 0.0);
 
-  /// How many rays there are.
+  /// The number of rays.
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// How far a ray reaches, metres.
+  /// Length of a ray, metres.
   [[nodiscard]] double max_range_m() const { return max_range_m_; }
-  /// What stops a ray nearer than this is not seen, metres.
+  /// Minimum range, metres: a cell closer than this stops a ray but is not seen.
   [[nodiscard]] double min_range_m() const { return min_range_m_; }
-  /// All rays, in tiles, group by group.
+  /// All tiles, ordered by group.
   [[nodiscard]] const std::vector<RayTile>& tiles() const { return tiles_; }
-  /// A cone around the rays of each tile.
+  /// The cone of each tile.
   [[nodiscard]] const std::vector<RayCone>& cones() const { return cones_; }
-  /// All tiles.
+  /// All groups.
   [[nodiscard]] const std::vector<TileGroup>& groups() const { return groups_; }
-  /// Around the tiles of each group.
+  /// The corner directions of each group.
   [[nodiscard]] const std::vector<TileHulls>& hulls() const { return hulls_; }
 
  private:
@@ -86,7 +88,7 @@ class ViewRays {
   double max_range_m_ = 0.0;
   double min_range_m_ = 0.0;
   std::vector<RayTile> tiles_;
-  std::vector<RayCone> cones_;  // apart: a view looks at more of them than of the tiles
+  std::vector<RayCone> cones_;  // stored apart from the tiles, because more cones than tiles are read
   std::vector<TileGroup> groups_;
   std::vector<TileHulls> hulls_;
 };

@@ -13,32 +13,33 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A face of a cell that stops sight, seen from the cell across it.
+/// A face of a cell that blocks sight, to be seen from the adjacent cell.
 struct CellFace {
-  VoxelIndex cell;    ///< which stops sight
-  VoxelIndex normal;  ///< one of kFaceNeighbours: the step across the face
+  VoxelIndex cell;    ///< the cell that blocks sight
+  VoxelIndex normal;  ///< step from the cell across the face, one of kFaceNeighbours
 };
 
 /// Options of aimed_views.
 struct AimedViewOptions {
-  std::size_t count = 0;        ///< how many faces are drawn to be looked at, each by at most one view
-  double min_distance_m = 0.5;  ///< from a view to the face that it looks at, metres, > 0
-  double max_distance_m = 1.5;  ///< the same, >= min_distance_m
+  std::size_t count = 0;        ///< number of random draws of a face; each draw gives at most one view
+  double min_distance_m = 0.5;  ///< smallest distance from a view to its face, metres, > 0
+  double max_distance_m = 1.5;  ///< largest distance from a view to its face, metres, >= min_distance_m
 };
 
-/// Throws std::invalid_argument naming the option at fault.
+/// Throws std::invalid_argument, which names the invalid option.
 void validate(const AimedViewOptions& options);
 
-/// Views aimed at what is still unknown: each looks at the middle of a face of one of the `sought` cells, unknown,
-/// across which there is a free cell, from a place that sees it: the line of sight runs along free cells alone. So
-/// they look into folds that no view of the whole object happens to look into.
+/// Samples views aimed at unknown space. Each view looks at the centre of a face between an unknown cell of `sought`
+/// and a free cell, from a position with a free line of sight to it. Such views look into concavities that views of
+/// the whole object may miss.
 ///
-/// The faces are drawn evenly from all there are. For each, places are drawn, towards the normal of the face more
-/// often than along it (Lambert's cosine law), until one sees it; a face that none of 64 sees has no view. The same
-/// seed and map give the same views. `caster` must look at the finest cells. Errors as `validate`.
+/// Faces are drawn uniformly, with replacement. For each face up to 64 positions are tried, more often near the
+/// normal of the face than at grazing angles (Lambert's cosine law). A face for which all positions fail gives no
+/// view. Equal seeds and maps give equal views. Poses are world_from_sensor. `caster` must have level 0. Throws
+/// std::invalid_argument as `validate`, and if a position is not addressable.
 [[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought,
                                             const AimedViewOptions& options, std::uint64_t seed);
-/// The same, of faces that are given.
+/// The same for given faces.
 [[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellFace> faces,
                                             const AimedViewOptions& options, std::uint64_t seed);
 

@@ -8,15 +8,15 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How many views it takes at least to see all that they can: a number that no choice among `seen`, sets of cells of
-/// one box, falls short of whose union holds every cell of `wanted`. Cells of `wanted` that no set holds do not
-/// count; 0 where none is left.
+/// A lower bound on the number of views in any set cover: no smaller selection from `seen` contains every cell of
+/// `wanted`. All sets must have the same box. Cells of `wanted` that are in no set are ignored. Returns 0 if no cell
+/// is left. The result is not rounded; rounded up it is still a valid bound.
 ///
-/// It proves itself: give every cell a weight; then it takes at least the weight of all cells over that of the
-/// heaviest view (the dual of the fractional set cover). The weights are found by `rounds` multiplicative updates
-/// (Plotkin, Shmoys & Tardos 1995): cells of the heaviest view become lighter. So it is at most the fractional
-/// cover's, which it comes near to, and rounded up it is a bound, too. Only the `most_cells` of the wanted that
-/// fewest views see are given a weight.
+/// Method: for any weights of the cells, at least (weight of all cells) / (weight of the heaviest view) views are
+/// needed. This is the dual of the fractional set cover, so every weighting gives a valid bound. The weights are
+/// improved by `rounds` multiplicative updates, which make the cells of the heaviest view lighter. The bound
+/// approaches the fractional cover from below. Only the `most_cells` wanted cells that are seen by the fewest views
+/// get a weight. (Plotkin, Shmoys & Tardos 1995.)
 [[nodiscard]] double fewest_views_bound(std::span<const CellSet> seen, const CellSet& wanted,
                                         std::size_t rounds = 20'000, std::size_t most_cells = 2'000);
 

@@ -14,58 +14,59 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A cell that a ray passes in the box of an object.
+/// A cell that a ray passes inside the box of an object.
 struct RayCell {
-  VoxelIndex cell;                           ///< which
-  Occupancy occupancy = Occupancy::Unknown;  ///< its state
-  double probability = 0.5;                  ///< of being occupied, `P_o`; 1/2 where it is unknown
-  double entropy = 0.0;                      ///< of that probability, `I_o`, nats
+  VoxelIndex cell;                           ///< index of the cell
+  Occupancy occupancy = Occupancy::Unknown;  ///< state of the cell
+  double probability = 0.5;                  ///< probability of being occupied, `P_o`; 1/2 if unknown
+  double entropy = 0.0;                      ///< entropy of that probability, `I_o`, in nats
 };
 
-/// What one ray of a view may learn: a number >= 0 for the cells that it passes in the box of the object, in order,
-/// up to the first occupied one, which is the last. Any function will do; the ones below are Delmerico, Isler,
-/// Sabzevari & Scaramuzza 2018, "A comparison of volumetric information gain metrics for active 3D object
-/// reconstruction", each by the equation that docs/reconstruction.md writes out. Must be safe to call from several
-/// threads.
+/// The information gain of one ray of a view: a number >= 0. The argument lists the cells that the ray passes inside
+/// the object's box, in order, up to and including the first occupied one. Any function can be used; it must be safe
+/// to call from several threads. The functions below are from Delmerico, Isler, Sabzevari & Scaramuzza 2018, "A
+/// comparison of volumetric information gain metrics for active 3D object reconstruction"; docs/reconstruction.md
+/// gives their equations.
 using RayGain = std::function<double(std::span<const RayCell>)>;
 
-/// Makes a RayGain for a map as it is now and the box of an object in it.
+/// Creates a RayGain for the current state of a map and the box of an object in it.
 using RayGainMaker = std::function<RayGain(const OccupancyMap&, const VoxelBox&)>;
 
-/// Occlusion aware: the sum of `I_v(x) = P_v(x) I_o(x)`, the entropy of every cell times the likelihood that all
-/// before it are free.
+/// Occlusion aware gain: the sum of I_v(x) = P_v(x) I_o(x) over the ray. P_v is the probability that all cells before
+/// x are free.
 [[nodiscard]] RayGain occlusion_aware();
-/// Unobserved voxel: the sum of `I_v` over the unknown cells.
+/// Unobserved voxel gain: the sum of I_v over the unknown cells.
 [[nodiscard]] RayGain unobserved_voxel();
-/// Rear side voxel: 1 if the ray meets a surface from behind, that is an occupied cell right after an unknown one.
+/// Rear side voxel gain: 1 if the ray hits a surface from behind, that is an occupied cell directly after an unknown
+/// one, otherwise 0.
 [[nodiscard]] RayGain rear_side_voxel();
-/// Rear side entropy: `I_v` of that unknown cell.
+/// Rear side entropy gain: I_v of that unknown cell, otherwise 0.
 [[nodiscard]] RayGain rear_side_entropy();
-/// Proximity count: the sum of `d_max - d(x)` over the unknown cells that are less than `d_max` from the nearest
-/// occupied cell of the box, centre to centre, metres. Throws std::invalid_argument unless `d_max_m` is > 0.
+/// Proximity count gain: the sum of d_max - d(x) over the unknown cells with d(x) < d_max. d(x) is the distance
+/// between the centres of x and of the nearest occupied cell of the box, metres. Throws std::invalid_argument unless
+/// `d_max_m` is finite and > 0.
 [[nodiscard]] RayGain proximity_count(const OccupancyMap& map, const VoxelBox& object, double d_max_m = 0.3);
 
-/// One of the five by NAME: occlusion-aware, unobserved-voxel, rear-side-voxel, rear-side-entropy, proximity-count.
-/// Throws std::invalid_argument listing the names if there is no such gain.
+/// Returns one of the five gains by name: occlusion-aware, unobserved-voxel, rear-side-voxel, rear-side-entropy or
+/// proximity-count. Throws std::invalid_argument, which lists the names, for any other name.
 [[nodiscard]] RayGainMaker ray_gain_named(std::string_view name);
-/// The names `ray_gain_named` knows.
+/// The names that `ray_gain_named` accepts.
 [[nodiscard]] const std::vector<std::string_view>& ray_gain_names();
 
-/// What views of an object may learn by a RayGain, summed over their rays: `G(v)`, the sum of `I(x)` over all rays of
-/// the view and all cells of each.
+/// The information gain `G(v)` of a view of an object: a RayGain summed over all rays of the view.
 ///
-/// Before it reaches the box a ray ends where every other here does, at the first cell that is not free; in the box
-/// it goes on through what is unknown to the first occupied cell. Cells nearer than the sensor's minimum range
-/// stop rays but are not counted.
+/// Outside the box a ray ends at the first cell that is not free, as in RayCaster. Inside the box it passes through
+/// unknown cells to the first occupied one. Cells closer than the sensor's minimum range stop rays but are not
+/// counted.
 class ViewGain {
  public:
-  /// For views in the map of `caster`, which must be up to date and outlive it, as must `rays`. Throws
-  /// std::invalid_argument unless `gain` can be called.
+  /// Copies the object's cells from `map`, which must be the up-to-date map of `caster`. `caster` and `rays` must
+  /// outlive the object. Throws std::invalid_argument if `gain` is empty.
   ViewGain(const OccupancyMap& map, const RayCaster& caster, const ViewRays& rays, const VoxelBox& object,
            RayGain gain);
 
-  /// `G(v)` of a view, by this many threads, > 0; the same sum for any number of them. Errors as RayCaster::cast, and
-  /// whatever the gain throws.
+  /// The gain of a view, computed by `threads` threads. The sum does not depend on their number. Throws
+  /// std::invalid_argument if `threads` is 0, as RayCaster::cast, and whatever the gain throws.
   [[nodiscard]] double operator()(const Pose& world_from_sensor, std::size_t threads = 1) const;
 
  private:

@@ -13,36 +13,37 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The sensing constraint of Vasquez-Gomez et al. 2013, II-C: takes from the cells that a view sees, from this pose,
-/// those that its sensor would not measure. Any function will do. Must be safe to call from several threads.
+/// A sensing constraint: given a pose (world_from_sensor) and the cells that are visible from it, removes the cells
+/// that the sensor would not measure. Any function can be used; it must be safe to call from several threads.
+/// (Vasquez-Gomez et al. 2013, II-C.)
 using SensingConstraint = std::function<void(const Pose&, CellSet&)>;
 
-/// What `measurable` asks of a cell. The field of view is that of the rays.
+/// Conditions of `measurable`. The field of view is already that of the rays.
 struct SensingOptions {
-  /// The vision angle: how far the line of sight may be from the normal of the surface, radians, in (0, pi / 2].
+  /// Vision angle: largest angle between the line of sight and the surface normal, radians, in (0, pi / 2].
   double max_incidence_rad = std::numbers::pi / 2;
-  /// The depth of view, to the middle of a cell, metres.
+  /// Depth of view, lower end: distance to the centre of a cell, metres, >= 0.
   double min_depth_m = 0.0;
-  double max_depth_m = std::numeric_limits<double>::infinity();  ///< > min_depth_m
+  double max_depth_m = std::numeric_limits<double>::infinity();  ///< depth of view, upper end, metres, > min_depth_m
 
-  /// Whether any cell may be refused.
+  /// Whether the options can exclude any cell.
   [[nodiscard]] bool restricts() const {
     return max_incidence_rad < std::numbers::pi / 2 || min_depth_m > 0.0 ||
            max_depth_m < std::numeric_limits<double>::infinity();
   }
 };
 
-/// Throws std::invalid_argument naming the option at fault.
+/// Throws std::invalid_argument, which names the invalid option.
 void validate(const SensingOptions& options);
 
-/// Outward normal of the surface of what is not known to be free, at a cell of it: from what is not free around it,
-/// up to two cells off, to what is. Unit; zero where neither side outweighs the other (a lone cell). Of the sides of
-/// a thin sheet it takes none.
+/// Estimates the outward normal of the surface between free and other space at a cell, from the free cells in the 5 x
+/// 5 x 5 neighbourhood. Unit length. Zero if no side dominates, as for a lone cell or for a thin sheet with free
+/// space on both sides.
 [[nodiscard]] Eigen::Vector3f surface_normal(const OccupancyMap& map, const VoxelIndex& cell);
 
-/// The constraint for cells of `object` in the map as it is now: a cell is measured if its middle is within the depth
-/// of view and the line of sight is within the vision angle of its normal; where it has no normal, any angle will do.
-/// Throws as `validate`.
+/// Creates the constraint for cells of `object` in the current state of the map. A cell is measurable if its centre
+/// is within the depth of view, and if the line of sight is within the vision angle of its normal. A cell without a
+/// normal has no angle limit. Throws as `validate`.
 [[nodiscard]] SensingConstraint measurable(const OccupancyMap& map, const VoxelBox& object,
                                            const SensingOptions& options);
 

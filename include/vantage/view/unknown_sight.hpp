@@ -13,39 +13,40 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What the unknown is thought to be like.
+/// Assumptions about the content of unknown cells.
 struct UnknownSightOptions {
-  /// Chance that one of the wanted cells stops a ray, in (0, 1]; 1: none is seen but the first of each ray.
+  /// Probability that a wanted cell stops a ray, in (0, 1]. With 1, only the first wanted cell of each ray is seen.
   double opaque_share = 1.0;
-  /// The same for those of which a face neighbour is known to be occupied, in (0, 1]: most likely the surface goes
-  /// on.
+  /// The same probability for a wanted cell with an occupied face neighbour, in (0, 1]. The surface probably
+  /// continues there.
   double opaque_beside_surface = 1.0;
-  /// RangeSensor::reports_no_return.
+  /// Whether the sensor reports rays without a return, see RangeSensor::reports_no_return.
   bool reports_no_return = false;
 };
 
-/// A cell, and the chance that a view comes to know it.
+/// A cell and the probability that a view observes it.
 struct SightedCell {
-  VoxelIndex cell;      ///< one of the wanted
-  double chance = 0.0;  ///< in (0, 1]
+  VoxelIndex cell;      ///< a wanted cell
+  double chance = 0.0;  ///< probability, in (0, 1]
 };
 
-/// What a view is expected to learn of unknown cells, where sight may go on beyond the first of them.
+/// Predicts which unknown cells a view will observe, where rays may pass beyond the first unknown cell.
 ///
-/// A ray counts if the first cell on it that is not free is a wanted one. Each wanted cell stops it with the chance
-/// p, on its own; other unknown cells behind the first do not. So a ray reaches one of them with the product of 1 - p
-/// of those before. A sensor that does not report rays without return learns nothing from one that leads into the
-/// open: with no surface known behind the wanted cells on the way, it meets one in them or behind with 1 less the
-/// product of 1 - p of those. A surface known nearer than the sensor's shortest range returns nothing either. A cell
-/// on several rays has the chance of the best of them, which is the least it can be.
+/// Model: a ray counts if its first cell that is not free is a wanted one. Each wanted cell stops it independently
+/// with probability p (see UnknownSightOptions); other unknown cells behind the first do not stop it. So the ray
+/// reaches a cell with the product of (1 - p) of the wanted cells before it. A sensor that does not report missing
+/// returns learns nothing from a ray that meets no surface. If no known surface lies behind the wanted cells, the
+/// probability of a cell is therefore that the ray reaches it and stops in it or in a wanted cell behind it. A ray to
+/// a known surface within the minimum range also returns nothing. If several rays pass a cell, the best one counts,
+/// which is a lower bound.
 class UnknownSight {
  public:
-  /// Takes what the map knows now of `wanted`, unknown cells, and around them. Throws std::invalid_argument naming
-  /// the option at fault.
+  /// Stores the current state of the map around `wanted`, which must be unknown cells. Throws std::invalid_argument,
+  /// which names the invalid option.
   UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted, const UnknownSightOptions& options);
 
-  /// The wanted cells that a view may come to know, in raster order. Cells whose centre is nearer than the sensor's
-  /// shortest range are passed, but not counted. `caster` looks at the same map as it is now. Errors as
+  /// The wanted cells that a view may observe, in raster order. Cells whose centre is closer than the sensor's
+  /// minimum range are passed but not returned. `caster` must show the same map in the same state. Errors as
   /// RayCaster::cast.
   [[nodiscard]] std::vector<SightedCell> look(const RayCaster& caster, const Pose& world_from_sensor,
                                               const ViewRays& rays) const;

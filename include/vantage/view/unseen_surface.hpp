@@ -17,33 +17,36 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What is left to be seen of the surface of an object, and what a view is expected to see of it.
+/// Tracks which parts of an object's surface were observed, and predicts what a view would observe of the rest.
 ///
-/// The surface is that of occupied cells and of unknown cells that are supposed to be occupied; its elements are the
-/// faces of those cells, for a cell may hold a wall of which one side has been seen and the other has not. A view has
-/// looked at a face if a ray of it ends in the cell and the sensor was on the side of the face.
+/// The surface consists of the faces of occupied cells, and of unknown cells that are assumed to be occupied. Faces
+/// are used instead of cells, because a cell may contain a wall that was seen from one side only. A view has observed
+/// a face if a ray ends in the cell and the sensor was on the side of the face.
 ///
-/// Unknown cells that a scan has passed, or has not resolved, are taken for free from then on: a ray that meets
-/// nothing tells so even where its sensor does not report it. Of the others, one is supposed to be occupied with the
-/// chance that a known cell of the object's box is, higher beside known surface; which ones is drawn, for every cell
-/// once and for all.
+/// Unknown cells that a scan has passed or failed to resolve are treated as free from then on, even if the sensor
+/// does not report missing returns. Each other unknown cell is assumed to be occupied with a probability: that of
+/// known cells in the object's box, or a higher one beside known surface. The random decision for a cell never
+/// changes.
 class UnseenSurface {
  public:
-  /// A face of a cell, by number: the cell's place in the box times six and the place of the step in kFaceNeighbours.
+  /// Number of a face: 6 times the index of the cell in the box, plus the index of the step across the face in
+  /// kFaceNeighbours.
   using Face = std::uint32_t;
 
-  /// For the object in this box. Throws std::length_error if the box has too many cells to number their faces.
+  /// Tracks the object in the box `object`. `map` must outlive this object. Throws std::length_error if the box has
+  /// too many cells to number their faces.
   UnseenSurface(const OccupancyMap& map, const VoxelBox& object);
 
-  /// Takes the map as it is after a scan from this pose.
+  /// Updates the state from the map after a scan from this pose (world_from_sensor). `map` must be the map of the
+  /// constructor.
   void look(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays);
-  /// The faces that a view is expected to be the first to look at, ascending. Errors as RayCaster::visible_cells.
+  /// The faces that a view would be the first to observe, ascending. Errors as RayCaster::visible_cells.
   [[nodiscard]] std::vector<Face> expected(const Pose& world_from_sensor, const ViewRays& rays) const;
-  /// Those of all faces that nothing has looked at yet before which a ray may pass.
+  /// All faces of the surface that were not observed yet and that a ray can reach from the adjacent cell.
   [[nodiscard]] std::vector<CellFace> left() const;
-  /// How many faces have been looked at.
+  /// The number of observed faces of occupied cells, without those whose adjacent cell blocks sight.
   [[nodiscard]] std::size_t looked_at() const;
-  /// In the map with what is supposed of it.
+  /// Shows the map together with the assumptions about unknown cells.
   [[nodiscard]] const RayCaster& caster() const { return caster_; }
   /// The cell of a face.
   [[nodiscard]] VoxelIndex cell_of(Face face) const { return looked_.cell_at(face / 6); }
@@ -55,7 +58,7 @@ class UnseenSurface {
 
   VoxelFrame frame_;
   RayCaster caster_;
-  VoxelGrid<std::uint8_t> looked_;  // a bit for every face, and one for cells taken for free
+  VoxelGrid<std::uint8_t> looked_;  // bits 0-5: face observed; bit 6: cell treated as free
 };
 
 }  // namespace vantage

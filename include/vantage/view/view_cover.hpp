@@ -9,10 +9,11 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Few views that together see what all of them see: numbers of sets of cells of one box, chosen one after the other,
-/// each the one that adds the most cells not yet seen (the greedy set cover, Chvatal 1979; ties to the lower number),
-/// until none adds `min_new_cells`; then those are dropped, the first chosen first, without which the others still
-/// see all but fewer than that many of its cells. In the order of choice.
+/// Greedy set cover: selects few views that together see what all views see. `seen` holds the visible cells of each
+/// view; all sets must have the same box. Each step selects the view with the most new cells (ties: the lower index),
+/// until no view adds `min_new_cells` (at least 1). Then redundant views are dropped, the first selected first: a
+/// view is redundant if fewer than `min_new_cells` covered cells are lost without it. Returns indices into `seen` in
+/// the order of selection. (Chvatal 1979.)
 [[nodiscard]] std::vector<std::size_t> cover_views(std::span<const CellSet> seen, std::size_t min_new_cells = 1);
 
 }  // namespace vantage

@@ -13,24 +13,25 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A potential over cells and what belongs to it. Spans must outlive the call only.
+/// A potential field and what is drawn with it. The spans must be valid during the call.
 struct FieldContent {
-  std::string title = {};                     ///< above the picture
-  std::span<const VoxelIndex> cells = {};     ///< where the field is known, in any order
-  std::span<const double> phi = {};           ///< its value at each of `cells`: 1 at the sensor, 0 at the frontier
-  std::span<const VoxelIndex> frontier = {};  ///< cells held at 0
-  std::span<const Eigen::Vector3d> streamline = {};    ///< the way of steepest descent from the sensor, may be empty
-  Eigen::Vector3d sensor_m = Eigen::Vector3d::Zero();  ///< position of the sensor
-  std::optional<Box> extent = std::nullopt;            ///< the part of the world to show; none: all that is known
-  /// Height of the slice, metres; none: the sensor's height.
+  std::string title = {};                     ///< drawn above the picture
+  std::span<const VoxelIndex> cells = {};     ///< cells of the field, in any order
+  std::span<const double> phi = {};           ///< potential of each of `cells`: 1 at the sensor, 0 at the frontier
+  std::span<const VoxelIndex> frontier = {};  ///< frontier cells, where the potential is 0
+  /// path of steepest descent from the sensor, metres; may be empty
+  std::span<const Eigen::Vector3d> streamline = {};
+  Eigen::Vector3d sensor_m = Eigen::Vector3d::Zero();  ///< position of the sensor, metres
+  std::optional<Box> extent = std::nullopt;            ///< region to show; nullopt: everything known
+  /// Height of the slice, metres; nullopt: height of the sensor.
   std::optional<double> slice_z_m = std::nullopt;
 };
 
-/// A horizontal slice through the field: its value as colour, arrows down its gradient, the frontier cells of the
-/// slice in red, the streamline (all heights) in white, walls black. The colours follow the *rank* of phi over the
-/// slice, not phi itself: a potential falls steeply about the sensor and is nearly level elsewhere, where a colour
-/// for equal steps of phi would show nothing; the colour bar carries the values. Throws std::invalid_argument if
-/// `cells` and `phi` differ in length or the extent is empty.
+/// Draws a horizontal slice of the field: the potential as colours, arrows along the negative gradient, the frontier
+/// cells of the slice in red, the streamline (all heights) in white, and walls in black. Colours show the *rank* of
+/// phi in the slice, because phi falls steeply near the sensor and is nearly constant elsewhere. The colour bar shows
+/// the values. Throws std::invalid_argument if `cells` and `phi` differ in length, the extent is empty, or there is
+/// neither an extent nor a known cell.
 [[nodiscard]] Picture draw_field(const OccupancyMap& map, const FieldContent& content);
 
 }  // namespace vantage

@@ -13,16 +13,16 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A map at one moment of its growth.
+/// A snapshot of a growing map.
 struct GrowthMoment {
-  OccupancyMap map = OccupancyMap();            ///< as it was
-  std::vector<Eigen::Vector3d> travelled = {};  ///< successive positions until then, metres
-  std::string caption = {};                     ///< below the picture: "view 12, 4.7 m"
+  OccupancyMap map = OccupancyMap();            ///< the map at that time
+  std::vector<Eigen::Vector3d> travelled = {};  ///< successive positions up to that time, metres
+  std::string caption = {};                     ///< drawn below the picture, for example "view 12, 4.7 m"
 };
 
-/// Maps from above side by side, all to one scale, with the path up to each moment: how a model grows. `extent` is
-/// the part of the world to show; none: all that the last map knows. Throws std::invalid_argument if there is no
-/// moment, or nothing to show.
+/// Draws maps from above side by side, at the same scale, each with the path up to its time. `extent` is the region
+/// to show; nullopt: everything that the last map knows. Throws std::invalid_argument if there is no snapshot or
+/// nothing to show.
 [[nodiscard]] Picture draw_growth_strip(std::span<const GrowthMoment> moments, const std::string& title,
                                         const std::optional<Box>& extent = std::nullopt);
 

@@ -17,83 +17,84 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// One moment of a recording: where the sensor was, and the files of what it saw.
+/// One frame of a recording: a pose and the files of the measurement.
 struct RecordedFrame {
-  std::string name;                          ///< as its files have it, or its time stamp
-  Pose world_from_posed = Pose::Identity();  ///< pose of the camera that the recording's poses speak of
+  std::string name;                          ///< taken from its files, or the time stamp
+  Pose world_from_posed = Pose::Identity();  ///< pose of the camera that the poses of the recording refer to
   std::filesystem::path depth = {};          ///< depth image, left image of a stereo pair, or range scan
   std::filesystem::path right = {};          ///< right image of a stereo pair, or empty
-  std::filesystem::path colour = {};         ///< picture of the same moment, or empty
+  std::filesystem::path colour = {};         ///< colour image of the same moment, or empty
 };
 
-/// A moment of a recording that cannot be used.
+/// A frame that cannot be used.
 struct SkippedFrame {
   std::string name;    ///< as RecordedFrame::name
-  std::string reason;  ///< one sentence, for a person
+  std::string reason;  ///< one sentence for the user
 };
 
-/// How a recording is opened. What is not given is as its files or its format have it.
+/// How a recording is opened. Options that are not set come from the files or the format.
 struct RecordingOptions {
   std::optional<double> max_range_m = std::nullopt;  ///< see DepthCamera::max_range_m
   std::optional<double> min_range_m = std::nullopt;  ///< see DepthCamera::min_range_m
-  /// fx, fy, cx, cy of the depth images, pixels: of the formats whose files need not tell, tum and 7scenes; refused
-  /// for the others.
+  /// fx, fy, cx, cy of the depth images, pixels. Only for the formats tum and 7scenes, whose files need not contain
+  /// them; not allowed for other formats.
   std::optional<std::array<double, 4>> intrinsics = std::nullopt;
-  double max_stamp_gap_s = 0.02;  ///< time stamps further apart than this have nothing to do with each other, > 0
+  /// largest time difference, seconds, between a depth image and its pose or picture, > 0
+  double max_stamp_gap_s = 0.02;
   double cell_m =
-      0.1;  ///< cells of the map to be made, metres: stereo is trusted as far as it lands in the right one
+      0.1;  ///< cell size of the map, metres: stereo depth is trusted while its uncertainty is below one cell
 };
 
-/// What a frame holds, read and turned into a scan.
+/// The data of a frame, also converted to a scan.
 struct RecordedReading {
-  DepthImage depth;  ///< in the depth camera's own pixels; of range scans, as a camera in the scanner's place has it
-  DepthScan scan;    ///< ready for the map
+  /// depth image in the pixels of the depth camera; for range scans, the view of an equivalent camera
+  DepthImage depth;
+  DepthScan scan;  ///< ready for OccupancyMap::insert
 };
 
-/// A recording of posed depth images, stereo pairs or range scans, made by others, in their format:
+/// A recording of posed depth images, stereo pairs or range scans, in a public format:
 ///
 /// | format | files |
 /// |---|---|
-/// | tum | `depth.txt`, `groundtruth.txt`, `rgb.txt` or none: stamps, joined by the nearest; depth 5000 to a metre |
+/// | tum | `depth.txt`, `groundtruth.txt`, optional `rgb.txt`, matched by time stamp; depth in 1/5000 m |
 /// | 7scenes | `frame-NNNNNN.depth.png` in mm, `.pose.txt` 4 x 4, `.color.png` or `.jpg`; `camera-intrinsics.txt` |
-/// | apc | `cam.info.txt`; `decoded/*.depth_dmm.png` in 0.1 mm, or as the driver wrote it, `raw/*.depth.png` |
-/// | kitti-stereo | `image_l`, `image_r` (or KITTI's own names), `calib.txt`, `poses.txt`, a row for every pair |
-/// | stanford | range scans `*.ply` in words, or packed `*.ply.gz`, of an object; `*.conf`, a line with the pose of
-/// each |
+/// | apc | `cam.info.txt`; `decoded/*.depth_dmm.png` in 0.1 mm, or the driver's `raw/*.depth.png` |
+/// | kitti-stereo | `image_l`, `image_r` (or KITTI's own names), `calib.txt`, `poses.txt` with a row per pair |
+/// | stanford | range scans `*.ply` (ASCII) or `*.ply.gz` of an object; `*.conf` with a line per scan pose |
 ///
 ///     Recording recording = Recording::open("7scenes", folder);
 ///     for (std::size_t i = 0; i < recording.frames().size(); ++i)
 ///       map.insert(recording.read(i).scan.scan);
 ///
-/// Opening reads lists and poses; images are read one by one. Frames that lack a pose, a partner or a file are left
-/// out and told in `skipped`; nothing else is lost. Poses are made exactly rigid where rounding has left them nearly
-/// so, quaternions are normalised, and worlds with the axes of a camera (7scenes, kitti-stereo) or with +y up
-/// (stanford) are turned until +z is up.
+/// Opening reads only lists, poses and the image size; images are read one by one. Frames without a pose, a partner
+/// image or a file are left out and listed in `skipped`. Poses are corrected for rounding so that they are rigid, and
+/// quaternions are normalised. Worlds with camera axes (7scenes, kitti-stereo) or with +y up (stanford) are rotated
+/// so that +z is up.
 class Recording {
  public:
-  /// Throws std::runtime_error with the folder or file and what is wrong with it (nothing to read in it counts),
-  /// std::invalid_argument for an unknown format (naming those there are) or a bad option.
+  /// Throws std::runtime_error, with the folder or file and the reason, if it cannot be read or has no usable frame.
+  /// Throws std::invalid_argument for an unknown format (and lists the formats) or an invalid option.
   [[nodiscard]] static Recording open(std::string_view format, const std::filesystem::path& folder,
                                       const RecordingOptions& options = {});
-  /// The formats `open` knows.
+  /// The names of the supported formats.
   [[nodiscard]] static const std::vector<std::string_view>& formats();
 
-  /// Frames with a pose, in order of time.
+  /// The usable frames, in the order of their time stamps, file names or list.
   [[nodiscard]] const std::vector<RecordedFrame>& frames() const { return frames_; }
-  /// Frames left out, in order of time, with the reason.
+  /// The frames that were left out, with the reason.
   [[nodiscard]] const std::vector<SkippedFrame>& skipped() const { return skipped_; }
-  /// How many poses came with a quaternion whose length was off 1 by more than 0.001.
+  /// The number of poses whose quaternion had a length that differed from 1 by more than 0.001.
   [[nodiscard]] std::size_t normalised() const { return normalised_; }
-  /// The camera whose images are read.
+  /// The depth camera of the recording.
   [[nodiscard]] const DepthCamera& camera() const { return camera_; }
-  /// The same, for planners.
+  /// The sensor model of the depth camera, for planners.
   [[nodiscard]] RangeSensor sensor() const { return camera_.range_sensor(); }
-  /// Where the sensor was at a frame, `world_from_sensor`.
+  /// Pose of the sensor at a frame, `world_from_sensor`. Throws std::out_of_range if there is no such frame.
   [[nodiscard]] Pose pose(std::size_t frame) const {
     return frames_.at(frame).world_from_posed * camera_.posed_from_depth;
   }
-  /// Reads a frame. Throws std::runtime_error with the file and what is wrong with it: a host may count that and go
-  /// on with the next. std::out_of_range if there is no such frame.
+  /// Reads a frame. Throws std::runtime_error, with the file and the reason, if it is damaged; the host can continue
+  /// with the next frame. Throws std::out_of_range if there is no such frame.
   [[nodiscard]] RecordedReading read(std::size_t frame) const;
 
  private:

@@ -13,65 +13,65 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How left and right pixels are matched.
+/// The matching algorithm.
 enum class StereoMethod : std::uint8_t {
-  SemiGlobal,  ///< OpenCV's StereoSGBM, Hirschmueller 2008
-  Block,       ///< OpenCV's StereoBM: windows by the sum of absolute differences, as Shade & Newman 2011, V-1
+  SemiGlobal,  ///< OpenCV's StereoSGBM (Hirschmueller 2008)
+  Block,  ///< OpenCV's StereoBM: block matching by the sum of absolute differences (as in Shade & Newman 2011, V-1)
 };
 
-/// Options of a StereoMatcher.
+/// Options of StereoMatcher.
 struct StereoOptions {
-  StereoMethod method = StereoMethod::SemiGlobal;  ///< see StereoMethod
-  int least_disparity_px = 0;                      ///< where the search begins
-  int disparities_px = 128;                        ///< how far it goes, > 0, a multiple of 16
-  int window_px = 5;            ///< edge of a matched window, odd, in [1, 255]; Block takes at least 5
-  int uniqueness_percent = 10;  ///< the best match must beat the second best by this, in [0, 100]
-  /// A match must be found again from right to left, to within this, pixels; negative: not asked.
+  StereoMethod method = StereoMethod::SemiGlobal;  ///< matching algorithm
+  int least_disparity_px = 0;                      ///< smallest disparity to search
+  int disparities_px = 128;                        ///< number of disparities to search, > 0, a multiple of 16
+  int window_px = 5;            ///< edge of the matching window, odd, in [1, 255]; Block uses at least 5
+  int uniqueness_percent = 10;  ///< margin in percent by which the best match must beat the second best, in [0, 100]
+  /// Largest difference between left-to-right and right-to-left matching, pixels; negative disables the check.
   int left_right_px = 1;
-  int speckle_pixels = 100;      ///< islands of fewer pixels are dropped; 0: none
-  double speckle_step_px = 2.0;  ///< where the disparity steps by more, an island ends, >= 0
-  /// Least texture: the mean absolute slope of brightness along the row over the window, in grey values per pixel,
-  /// >= 0. Where there is less, a match is a guess. 0: all is matched.
+  int speckle_pixels = 100;      ///< connected regions with fewer pixels are dropped; 0: none
+  double speckle_step_px = 2.0;  ///< largest disparity step inside a connected region, >= 0
+  /// Smallest texture for a valid match, >= 0: the mean absolute horizontal brightness gradient in the window, in
+  /// grey values per pixel. Matches in plainer areas are guesses. 0 disables the check.
   double least_texture = 1.0;
-  double sigma_d_px = 0.5;  ///< how uncertain a disparity is, one standard deviation, > 0
+  double sigma_d_px = 0.5;  ///< standard deviation of a disparity, > 0
 };
 
-/// What became of the pixels of a pair: each is counted once.
+/// Statistics of the pixels of a stereo pair. Each pixel is counted once.
 struct StereoReport {
-  std::size_t matched = 0;      ///< have a depth
-  std::size_t unmatched = 0;    ///< no match, or not a unique one, or not the same from right to left
-  std::size_t speckle = 0;      ///< in a small island
-  std::size_t textureless = 0;  ///< matched, but too plain to be believed
+  std::size_t matched = 0;      ///< pixels with a depth
+  std::size_t unmatched = 0;    ///< no match, an ambiguous match, or a failed left-right check
+  std::size_t speckle = 0;      ///< in a small connected region
+  std::size_t textureless = 0;  ///< matched, but with too little texture
 };
 
-/// What a pair shows, in the pixels of the left rectified image.
+/// Result for a stereo pair, in the pixels of the rectified left image.
 struct StereoDepth {
-  std::vector<float> disparity_px;  ///< row by row; NaN where there is none
-  DepthImage depth;                 ///< the same as depth; NaN where there is none: such a pixel frees nothing
-  StereoReport report;              ///< the pixels by what became of them
+  std::vector<float> disparity_px;  ///< disparities row by row; NaN if there is none
+  DepthImage depth;                 ///< the same as depths; pixels without a depth are NaN and clear nothing
+  StereoReport report;              ///< pixel statistics
 };
 
-/// Depth from pairs of images (Shade & Newman 2011, V-1), by OpenCV's matchers.
+/// Computes depth from stereo pairs with OpenCV's matchers (Shade & Newman 2011, V-1).
 ///
 ///     StereoMatcher matcher(read_kitti_calibration("calib.txt"));
 ///     const StereoDepth seen = matcher.match("left.png", "right.png");
 ///     map.insert(depth_scan(seen.depth, matcher.camera(0.2), world_from_left).scan);
 class StereoMatcher {
  public:
-  /// Throws std::invalid_argument naming the field at fault.
+  /// Throws std::invalid_argument, which names the invalid field.
   explicit StereoMatcher(const StereoRig& rig, const StereoOptions& options = {});
 
-  /// The rig it was made with.
+  /// The rig that was passed to the constructor.
   [[nodiscard]] const StereoRig& rig() const { return rig_; }
-  /// The options it was made with.
+  /// The options that were passed to the constructor.
   [[nodiscard]] const StereoOptions& options() const { return options_; }
-  /// Matches a pair of image files. Throws std::runtime_error with the file and what is wrong with it: it cannot be
-  /// read, the two differ in size, or their size is not the rig's. A pair that is not rectified, though the rig says
-  /// so, is refused too: of the matches between the two that a search along and across the rows finds, most lie
-  /// more than 1.5 pixels off the row.
+  /// Matches two image files. Throws std::runtime_error, with the file and the reason, if an image cannot be read,
+  /// the sizes differ from each other or from the rig, or the images are not rectified although the rig says so. The
+  /// latter is tested on feature points: their median offset between rows must not exceed 1.5 pixels.
   [[nodiscard]] StereoDepth match(const std::filesystem::path& left, const std::filesystem::path& right) const;
-  /// The left camera as a depth camera for maps of cells of `cell_m`: its range ends where the depth of a match is
-  /// uncertain by more than a cell, so that a surface lands in its cell or the next one.
+  /// The left camera as a depth camera for maps with cells of `cell_m`. Its range ends where the standard deviation
+  /// of the depth exceeds one cell, so a surface lands in the right cell or the next one. Throws
+  /// std::invalid_argument unless `cell_m` is > 0.
   [[nodiscard]] DepthCamera camera(double cell_m, double max_range_m = 40.0) const;
 
  private:

@@ -16,26 +16,27 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a search of voids found and chose. Spans must outlive the call only.
+/// Voids and what is drawn with them. The spans must be valid during the call.
 struct VoidContent {
-  std::string title = {};                       ///< above the picture
+  std::string title = {};                       ///< drawn above the picture
   std::span<const VoxelIndex> voids = {};       ///< void cells
   std::span<const VoxelIndex> frontier = {};    ///< frontier cells
-  std::span<const Ellipsoid> ellipsoids = {};   ///< of the voids that have a frontier
+  std::span<const Ellipsoid> ellipsoids = {};   ///< ellipsoids of the voids with a frontier
   std::span<const VoxelIndex> places = {};      ///< cells with a utility
-  std::span<const std::uint64_t> utility = {};  ///< what each of `places` has accumulated, > 0
-  Pose sensor = Pose::Identity();               ///< where the sensor is
-  std::optional<Pose> view = std::nullopt;      ///< where it is to look next
-  std::optional<Box> extent = std::nullopt;     ///< the part of the world to show; none: all that is known
+  std::span<const std::uint64_t> utility = {};  ///< accumulated utility of each of `places`, > 0
+  Pose sensor = Pose::Identity();               ///< pose of the sensor
+  std::optional<Pose> view = std::nullopt;      ///< the next view
+  std::optional<Box> extent = std::nullopt;     ///< region to show; nullopt: everything known
 };
 
-/// The map from above with voids in violet, frontiers in red and the ellipsoids of the voids outlined, as Fig. 2 and
-/// 3 of Dornhege & Kleiner 2011. Throws std::invalid_argument if the extent is empty.
+/// Draws the map from above with voids in violet, frontiers in red, and the outlines of the ellipsoids, as Fig. 2 and
+/// 3 of Dornhege & Kleiner 2011. Throws std::invalid_argument if the extent is empty, or if there is neither an
+/// extent nor a known cell.
 [[nodiscard]] Picture draw_voids(const OccupancyMap& map, const VoidContent& content);
 
-/// The map from above with the largest utility of every column of places, from red (low) by yellow to green (high),
-/// and the view that was chosen, as Fig. 4 of Dornhege & Kleiner 2011. Throws std::invalid_argument if `places` and
-/// `utility` differ in length or the extent is empty.
+/// Draws the map from above with the largest utility in every column, from red (low) over yellow to green (high), and
+/// the chosen view, as Fig. 4 of Dornhege & Kleiner 2011. Throws std::invalid_argument if `places` and `utility`
+/// differ in length, the extent is empty, or there is neither an extent nor a known cell.
 [[nodiscard]] Picture draw_void_utility(const OccupancyMap& map, const VoidContent& content);
 
 }  // namespace vantage
