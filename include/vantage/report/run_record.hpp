@@ -70,7 +70,7 @@ struct ViewRecord {
 
 /// A proven lower bound on the path of a run (watchman_route).
 struct PathBound {
-  double length_m = 0.0;  ///< metres; no path from the start that sees everything is shorter
+  double length_m = 0.0;  ///< metres; no route over cells from the start that sees everything is shorter
   bool is_met = false;    ///< whether some path has this length
 };
 

@@ -14,13 +14,13 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Noise of a simulated sensor. The default is a perfect sensor.
 struct SensorNoise {
-  /// Standard deviation of the depth z as a multiple of that of a Kinect, 0.0012 + 0.0019 (z - 0.4)^2 metres, >=
-  /// 0. For a spherical sensor the depth is the range. (Nguyen, Izadi & Lovell 2012, eq. 5)
+  /// Standard deviation of the depth z as a multiple of that of a Kinect, 0.0012 + 0.0019 (z - 0.4)^2 metres, in
+  /// [0, 1000]. For a spherical sensor the depth is the range. (Nguyen, Izadi & Lovell 2012, eq. 5)
   double axial = 0.0;
   double dropped_share = 0.0;  ///< share of the returns that are lost at random, in [0, 1]
-  /// Error of the reported pose: standard deviation of the position along each axis, metres, >= 0.
+  /// Error of the reported pose: standard deviation of the position along each axis, metres, in [0, 10].
   double position_m = 0.0;
-  double angle_rad = 0.0;  ///< the same of the rotation about each axis, radians, >= 0
+  double angle_rad = 0.0;  ///< the same of the rotation about each axis, radians, in [0, pi]
 };
 
 /// A range sensor in a world of triangles.

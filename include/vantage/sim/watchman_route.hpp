@@ -20,7 +20,7 @@ struct WatchmanOptions {
 
 /// The optimal route with full knowledge of the world, or a lower bound on it.
 struct WatchmanRoute {
-  double length_m = 0.0;              ///< metres; no route that sees everything is shorter
+  double length_m = 0.0;              ///< metres; no route over the steps below that sees everything is shorter
   bool sees_all = false;              ///< whether this route sees everything: then it is the optimal one
   double seen = 0.0;                  ///< share of the observable cells that it sees, in [0, 1]
   std::vector<VoxelIndex> cells;      ///< the route, from the start
