@@ -33,7 +33,7 @@ void check_plan(const ExploreRequest& request) {
   }
 }
 
-// In a plane there is one height for the sensor.
+// In a plane the height of the sensor is given.
 std::optional<Pose> start_in_world(const ExploreRequest& request) {
   std::optional<Pose> start = start_of(request);
   if (start && is_world_file(request, World::FileKind::Plan)) {
