@@ -267,14 +267,15 @@ void add_evaluate_command(CLI::App& app) {
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
   request->run.max_views = 20;
-  CLI::App* objects = command->add_subcommand("objects", "How soon how much of objects is seen, over which way");
+  CLI::App* objects =
+      command->add_subcommand("objects", "Share of objects seen after each view, and the length of the path");
   objects
       ->add_option("--objects", request->objects,
                    "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; all "
                    "generated ones unless given")
       ->delimiter(';');
   objects->add_option("--planners", request->planners, "Names")->delimiter(',')->capture_default_str();
-  objects->add_option("--sensors", request->sensors, "Names; with a + they report rays that meet nothing")
+  objects->add_option("--sensors", request->sensors, "Names; a name with + reports rays without return")
       ->delimiter(',')
       ->capture_default_str();
   objects->add_option("--resolutions", request->resolutions_m, "Metres")->delimiter(',')->capture_default_str();

@@ -272,7 +272,8 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
 }  // namespace
 
 void add_reconstruct_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("reconstruct", "Let a simulated sensor look at an object from all it needs");
+  CLI::App* command =
+      app.add_subcommand("reconstruct", "Let a simulated sensor view an object until nothing of it is left to see");
   const auto request = std::make_shared<ReconstructRequest>();
   add_object_options(*command, *request);
   add_view_options(*command, *request);

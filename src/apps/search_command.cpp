@@ -280,12 +280,13 @@ void add_search_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, run);
   command
       ->add_flag("--exhaustive", request->exhaustive,
-                 "At the end, tell what thousands of poses of the arm would still see of the voids; slow")
+                 "At the end, count the void cells that thousands of poses of the arm could still see; slow")
       ->group("Run");
   command
-      ->add_option("--bound", request->bound,
-                   "At the end, tell how few views could have seen what was to be seen after the first, all known, "
-                   "among so many poses of the arm; slow")
+      ->add_option(
+          "--bound", request->bound,
+          "At the end, bound the number of views needed with full knowledge of the scene, over so many poses of the "
+          "arm; slow")
       ->type_name("POSES")
       ->check(a_whole_number(1'000'000))
       ->group("Run");
