@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
@@ -23,11 +22,11 @@ constexpr std::size_t kFinalists = 100;  // views that are counted with all rays
 }  // namespace
 
 ExhaustivePlanner::ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_m3)
-    : arm_(std::move(arm)), setup_(setup), least_view_m3_(least_view_m3) {
-  if (setup.threads < 1) {
-    throw std::invalid_argument("PlannerSetup::threads is " + std::to_string(setup.threads) + ", must be >= 1");
-  }
-  setup.sensor.validate();
+    : arm_(std::move(arm)),
+      setup_(setup),
+      least_view_m3_(least_view_m3),
+      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad}) {
+  setup.validate();
 }
 
 void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const OccupancyMap& map, const UnknownSight& sight,
@@ -37,7 +36,7 @@ void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const OccupancyMap& m
     views[i].hoped.clear();
     const VoxelIndex place = map.frame().cell_of(views[i].pose.translation());
     for (const SightedCell& seen : sight.look(caster, views[i].pose, rays)) {
-      if (!failed_.gave_up(seen.cell) && !failed_.failed_from(seen.cell, place)) {
+      if (!tried_.gave_up(seen.cell) && !tried_.tried_from(seen.cell, place)) {
         views[i].void_cells += seen.chance;
         views[i].hoped.push_back(seen.cell);
       }
@@ -49,7 +48,7 @@ void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const OccupancyMap& m
 }
 
 Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
-  failed_.review(map, current);
+  tried_.review(map, current);
   const std::vector<VoxelIndex> voids = void_cells(map);
   Plan plan;
   plan.statistics.void_cells = voids.size();
@@ -86,7 +85,7 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
       plan.goal = {view.pose, std::round(view.void_cells)};
       plan.path = std::move(*path);
       plan.reason = "the best of " + std::to_string(plan.statistics.views_scored) + " poses";
-      failed_.expect(map, view.pose, std::move(view.hoped));
+      tried_.expect(map, view.pose, way_of(plan.path), {}, std::move(view.hoped));
       return plan;
     }
   }

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vantage/arm/arm.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/tried_views.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vector>
 
@@ -40,7 +40,7 @@ class ExhaustivePlanner final : public ExplorationPlanner {
   std::shared_ptr<const Arm> arm_;
   PlannerSetup setup_;
   double least_view_m3_;
-  FailedViews failed_;
+  TriedViews tried_;
 };
 
 }  // namespace vantage::apps

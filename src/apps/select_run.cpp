@@ -14,8 +14,8 @@
 #include <span>
 #include <stdexcept>
 #include <utility>
+#include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/planner/make_planner.hpp>
-#include <vantage/planner/recorded_views.hpp>
 #include <vantage/version.hpp>
 #include <vantage/vision/line_plot.hpp>
 

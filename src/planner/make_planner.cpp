@@ -33,9 +33,8 @@ std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setu
   detail::next_best_view_settings().read("next-best-view", settings, read);
   detail::next_best_view_settings().validate(read);
   const NextBestViewOptions& options = read.cells;
-  constexpr std::array<std::string_view, 8> kOfThePaper{
-      "gain",        "choice",     "min_unknown_cells", "min_overlap_cells", "failed_within_deg", "vision_angle_deg",
-      "min_depth_m", "max_depth_m"};
+  constexpr std::array<std::string_view, 7> kOfThePaper{
+      "gain", "choice", "min_unknown_cells", "min_overlap_cells", "vision_angle_deg", "min_depth_m", "max_depth_m"};
   const bool as_the_paper = options.method != VisibilityMethod::Exact ||
                             std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
                                         [&](std::string_view name) { return settings.find(name) != settings.end(); });

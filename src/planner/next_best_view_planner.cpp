@@ -4,7 +4,6 @@
 // Algorithm 1.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,8 +43,6 @@ void validate(const NextBestViewOptions& options) {
   detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
                          "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
   detail::require_option(options.hypotheses >= 1, "NextBestViewOptions::hypotheses", options.hypotheses, ">= 1");
-  detail::require_option(options.failed_within_rad >= 0.0 && options.failed_within_rad <= std::numbers::pi,
-                         "NextBestViewOptions::failed_within_rad", options.failed_within_rad, "in [0, pi]");
   validate(options.aimed);
   validate(options.sensing);
 }
@@ -56,9 +53,11 @@ VoxelBox cells_of_interest(const OccupancyMap& map) { return map.region() ? *map
 }  // namespace
 
 NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options)
-    : setup_(setup), options_(options), explorer_(setup, {options.hypotheses, options.survey}) {
+    : setup_(setup),
+      options_(options),
+      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.survey.patience}),
+      explorer_(setup, {options.hypotheses, options.survey}) {
   validate(options);
-  failed_ = FailedViews(options.survey.patience);
 }
 
 Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
@@ -80,7 +79,7 @@ std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, 
   if (options_.aimed.count > 0) {
     CellSet sought(object);
     for_each_cell(object, [&](const VoxelIndex& cell) {
-      if (looking_.caster().at(cell) == Occupancy::Unknown && !failed_.gave_up(cell)) {
+      if (looking_.caster().at(cell) == Occupancy::Unknown && !tried_.gave_up(cell)) {
         sought.insert(cell);
       }
     });
@@ -89,21 +88,10 @@ std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, 
   for (Pose& view : views) {
     view = setup_.platform->facing(view.translation(), optical_axis(view));
   }
-  std::erase_if(views, [&](const Pose& view) { return !setup_.platform->admits(map, view); });
+  std::erase_if(views, [&](const Pose& view) {
+    return !setup_.platform->admits(map, view) || tried_.rests(map.frame().cell_of(view.translation()));
+  });
   return views;
-}
-
-// Cells that views have failed to resolve: too often, or once at least.
-CellSet NextBestViewPlanner::failed_cells(const VoxelBox& object, bool given_up) const {
-  CellSet cells(object);
-  if (failed_.size() > 0) {
-    for_each_cell(object, [&](const VoxelIndex& cell) {
-      if (given_up ? failed_.gave_up(cell) : failed_.failed(cell)) {
-        cells.insert(cell);
-      }
-    });
-  }
-  return cells;
 }
 
 // Lines 9 to 20: what every candidate is worth.
@@ -114,8 +102,6 @@ std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(cons
   std::vector<CellSet> seen(views.size());
   const std::vector<ViewEvaluation> evaluations = evaluate(map, object, views, seen);
   const std::vector<ScoredView> scored = score(map, current, object, views, evaluations);
-  const CellSet given_up = failed_cells(object, true);
-  const CellSet failed_once = failed_cells(object, false);
   std::vector<Candidate> candidates(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     Candidate& candidate = candidates[i];
@@ -126,8 +112,7 @@ std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(cons
     seen[i].for_each([&](const VoxelIndex& cell) {
       if (looking_.caster().at(cell) == Occupancy::Unknown) {
         ++all;
-        if (!given_up.contains(cell) &&
-            !(failed_once.contains(cell) && failed_.failed_towards(cell, viewpoint, options_.failed_within_rad))) {
+        if (!tried_.gave_up(cell) && !tried_.tried_from(cell, viewpoint)) {
           candidate.sought.insert(cell);
         }
       }
@@ -223,7 +208,7 @@ std::vector<std::size_t> NextBestViewPlanner::order_of(const std::vector<Candida
 
 Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& current) {
   detail::Stopwatch stopwatch;
-  failed_.review(map, current);
+  tried_.review(map, current);
   looking_.follow(map, setup_.sensor);
   const VoxelBox object = map.frame().cells_centred_in(*options_.object);
   Plan plan;
@@ -258,7 +243,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
   }
   plan.statistics.choose_ms += stopwatch.lap_ms();
   if (plan.outcome == Outcome::Move) {
-    failed_.expect(map, plan.goal.pose, plan.sought);
+    tried_.expect(map, plan.goal.pose, way_of(plan.path), plan.sought);
     return plan;
   }
   // Lines 22 to 25.

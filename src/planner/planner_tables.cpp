@@ -160,16 +160,6 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
     for (const std::string_view name : ray_gain_names()) {
       gains.emplace_back(name, ray_gain_named(name));
     }
-    const auto angle = [](auto field) {
-      return [field](O& options, const std::string& text) {
-        const std::vector<double> numbers = numbers_in(text);
-        if (numbers.size() != 1) {
-          return false;
-        }
-        field(options) = numbers.front() * std::numbers::pi / 180.0;
-        return true;
-      };
-    };
     made.text("object", "m", "the box of the object, x0,y0,z0,x1,y1,z1; none: the whole map", "six numbers",
               [](O& options, const std::string& text) {
                 const std::vector<double> c = numbers_in(text);
@@ -202,16 +192,18 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
         .number(
             "min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
             [](O & o) -> auto& { return o.cells.min_overlap_cells; })
-        .text("failed_within_deg", "deg",
-              "a cell that a view failed to resolve is not sought from so near directions", "a finite number",
-              angle([](O& o) -> double& { return o.cells.failed_within_rad; }))
         .number(
             "min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
             [](O & o) -> auto& { return o.cells.min_unknown_cells; })
         .choice(
             "gain", "what new surface is worth", gains, [](O & o) -> auto& { return o.cells.gain; })
         .text("vision_angle_deg", "deg", "largest incidence that the sensor measures", "a finite number",
-              angle([](O& o) -> double& { return o.cells.sensing.max_incidence_rad; }))
+              [](O& o, const std::string& text) {
+                const std::vector<double> numbers = numbers_in(text);
+                o.cells.sensing.max_incidence_rad =
+                    numbers.empty() ? 0.0 : numbers.front() * std::numbers::pi / 180.0;
+                return numbers.size() == 1;
+              })
         .number(
             "min_depth_m", "m", "nearest that the sensor measures", at_least(0),
             [](O & o) -> auto& { return o.cells.sensing.min_depth_m; })

@@ -17,7 +17,7 @@
 
 namespace vantage::detail {
 
-/// The range of a number. Options may be infinite where it is open; texts are finite.
+/// The range of a number. Options may be infinite where it is open, texts only where that is the default.
 struct SettingRange {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -53,13 +53,15 @@ class SettingTable {
                        Field field) {
     using Number = std::remove_cvref_t<decltype(field(std::declval<Options&>()))>;
     const std::string option = std::string(owner_) + "::" + std::string(name);
+    const auto otherwise = static_cast<double>(field(defaults_));
     rows_.push_back({{std::string(name), printed(field(defaults_)), std::string(unit), std::string(meaning)},
                      std::is_integral_v<Number> ? "a whole number" : "a finite number",
-                     [field](Options& options, const std::string& text) {
+                     [field, otherwise](Options& options, const std::string& text) {
                        const auto [end, error] =
                            std::from_chars(text.data(), text.data() + text.size(), field(options));
+                       const auto value = static_cast<double>(field(options));
                        return error == std::errc{} && end == text.data() + text.size() &&
-                              std::isfinite(static_cast<double>(field(options)));
+                              (std::isfinite(value) || value == otherwise);
                      },
                      [field, range, option](const Options& options) {
                        Options copy = options;

@@ -21,17 +21,6 @@ const PlannerSetup& checked(const PlannerSetup& setup, const FrontierSurveyOptio
   return setup;
 }
 
-// A way's length in metres and its turn in radians: what shrinks while a robot follows it.
-double way_of(const std::vector<Pose>& path) {
-  double way = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    way += (path[i].translation() - path[i - 1].translation()).norm();
-  }
-  return path.empty()
-             ? way
-             : way + std::acos(std::clamp(optical_axis(path.front()).dot(optical_axis(path.back())), -1.0, 1.0));
-}
-
 std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
 // Why nothing is left to choose from.

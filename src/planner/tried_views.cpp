@@ -56,6 +56,14 @@ double off_by(const Pose& goal, const Pose& pose) {
 
 }  // namespace
 
+double way_of(const std::vector<Pose>& path) {
+  double way = path.empty() ? 0.0 : angle_rad(path.front(), path.back());
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    way += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return way;
+}
+
 TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
     : sensor_(sensor), options_(options) {
   detail::require_option(std::isfinite(options.goal_tolerance_m) && options.goal_tolerance_m >= 0.0,

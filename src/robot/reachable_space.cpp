@@ -116,7 +116,7 @@ void ReachableSpace::flood(const AdmittedCells& admitted) {
   };
   reach_if_left(meet(Brick::of_cell(*start_)), Brick::offset_of(*start_));
   for (std::size_t next = 0; next < places.size(); ++next) {
-    const std::uint32_t brick = places[next] / Brick::kCells;
+    const auto brick = static_cast<std::uint32_t>(places[next] / Brick::kCells);
     const std::size_t offset = places[next] % Brick::kCells;
     for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
       const FaceStep step = kFaceSteps[offset][face];

@@ -151,7 +151,7 @@ std::vector<UnseenSurface::Face> UnseenSurface::expected(const Pose& world_from_
   caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
     const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
     for_each_face_towards(back, kExpectedCosine, [&](std::uint8_t face) {
-      if ((looked_[cell] >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
+      if ((unsigned{looked_[cell]} >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
         faces.push_back(static_cast<Face>(looked_.offset_of(cell) * 6 + face));
       }
     });
@@ -167,7 +167,7 @@ std::vector<CellFace> UnseenSurface::left() const {
       return;
     }
     for (std::uint8_t face = 0; face < 6; ++face) {
-      if ((looked_[cell] >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
+      if ((unsigned{looked_[cell]} >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
         faces.push_back({cell, kFaceNeighbours[face]});
       }
     }
@@ -182,7 +182,7 @@ std::size_t UnseenSurface::looked_at() const {
       return;
     }
     for (std::uint8_t face = 0; face < 6; ++face) {
-      count += (looked_[cell] >> face & 1U) != 0 && !stops(cell + kFaceNeighbours[face]) ? 1U : 0U;
+      count += (unsigned{looked_[cell]} >> face & 1U) != 0 && !stops(cell + kFaceNeighbours[face]) ? 1U : 0U;
     }
   });
   return count;

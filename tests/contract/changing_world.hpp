@@ -106,7 +106,7 @@ struct ChangingWorld {
     }
     for_each_cell(box, [&](const VoxelIndex& cell) {
       if (world.sheets.contains(cell)) {
-        world.sheets[cell] = stands ? static_cast<std::uint8_t>(1U << axis) : 0;
+        world.sheets[cell] = static_cast<std::uint8_t>(stands ? 1U << axis : 0U);
       }
     });
   };

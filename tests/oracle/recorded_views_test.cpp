@@ -12,9 +12,9 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/planner/make_planner.hpp>
-#include <vantage/planner/recorded_views.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/vision/recording.hpp>
 #include <vector>

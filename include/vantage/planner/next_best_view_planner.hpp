@@ -8,8 +8,8 @@
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/failed_views.hpp>
 #include <vantage/planner/next_best_view_explorer.hpp>
+#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/aimed_views.hpp>
 #include <vantage/view/information_gain.hpp>
@@ -54,10 +54,6 @@ struct NextBestViewOptions {
   /// A view must see this many unknown cells of the object, >= 1; when none does, the object is done (VI-B: 50).
   std::size_t min_unknown_cells = 50;
 
-  /// A cell that a view has failed to resolve is not sought again from directions that differ by no more than this,
-  /// radians, in [0, pi]: where a ray has met nothing behind it, its neighbours meet nothing either.
-  double failed_within_rad = 0.5;
-
   /// What new surface is worth (eq. 3); none: the paper's count of unknown cells (eq. 4). Whatever it is, a view must
   /// see `min_unknown_cells`; where it finds nothing in any view, the count decides.
   RayGainMaker gain = nullptr;
@@ -90,6 +86,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
   void report(const OccupancyMap& map, const Pose& current, GoalResult result) override {
+    tried_.report(result);
     explorer_.report(map, current, result);
   }
 
@@ -101,7 +98,6 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   };
 
   [[nodiscard]] std::vector<Pose> views_of_object(const OccupancyMap& map, const VoxelBox& object) const;
-  [[nodiscard]] CellSet failed_cells(const VoxelBox& object, bool given_up) const;
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current,
                                                   const VoxelBox& object) const;
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,
@@ -114,7 +110,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
 
   PlannerSetup setup_;
   NextBestViewOptions options_;
-  FailedViews failed_;
+  TriedViews tried_;
   NextBestViewExplorer explorer_;
   FollowingCaster looking_;  // in the map that was planned in last
 };

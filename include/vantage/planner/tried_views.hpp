@@ -17,6 +17,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
+/// A way's length in metres plus its turn in radians: what shrinks while a robot follows it.
+[[nodiscard]] double way_of(const std::vector<Pose>& path);
+
 /// When a goal counts as reached, and when evidence suffices.
 struct TriedViewsOptions {
   double goal_tolerance_m = 0.3;     ///< how far from the goal a robot may stop, metres, >= 0
@@ -49,7 +52,7 @@ class TriedViews {
   explicit TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options = {});
 
   // --- what the planner tells
-  /// A view from `goal` was asked for, at the end of a way of `way` (length in metres plus the turn in radians). It
+  /// A view from `goal` was asked for, at the end of a way of `way` (see way_of). It
   /// is to resolve the cells `sought`, and may resolve some of `hoped`: these are looked at in vain, too, if it
   /// resolves none of them.
   void expect(const OccupancyMap& map, const Pose& goal, double way, std::vector<VoxelIndex> sought,

@@ -319,7 +319,7 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
   EXPECT_NE(complaint({{"gain", "entropy"}}).find("unknown-cells, occlusion-aware"), std::string::npos);
   EXPECT_NE(complaint({{"vision_angle_deg", "120"}}).find("SensingOptions::max_incidence_rad"), std::string::npos);
-  EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be >= 1");
+  EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be in [1, 1e+06]");
 }
 
 }  // namespace

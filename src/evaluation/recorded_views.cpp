@@ -6,8 +6,8 @@
 #include <random>
 #include <stdexcept>
 #include <utility>
+#include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/frontier/void_cells.hpp>
-#include <vantage/planner/recorded_views.hpp>
 
 namespace vantage {
 namespace {

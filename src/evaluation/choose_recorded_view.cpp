@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/planner/recorded_views.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vantage/raytrace/following_caster.hpp>
 #include <vector>
