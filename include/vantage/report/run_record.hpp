@@ -50,12 +50,12 @@ enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget, I
 struct ViewRecord {
   std::size_t view = 0;          ///< number of the scan, from 1
   Pose pose = Pose::Identity();  ///< world_from_sensor of the scan
-  std::optional<double>
-      coverage;  ///< share of the observable cells known after this scan, in [0, 1]; none without ground truth
-  std::optional<double> surface_coverage;  ///< share of the surface samples of an object with a measured point near
-                                           ///< them; none without an object
-  std::optional<double>
-      seen_coverage;  ///< share of the surface samples that an image has shown (SeenSurface); none without an object
+  /// Share of the observable cells that the map knows with the right state, in [0, 1]; none without ground truth.
+  std::optional<double> coverage;
+  /// Share of the surface samples of an object with a measured point near them; none without an object.
+  std::optional<double> surface_coverage;
+  /// Share of the surface samples of an object that an image has shown (SeenSurface); none without an object.
+  std::optional<double> seen_coverage;
   double path_length_m = 0.0;       ///< path of the sensor so far, metres
   double insert_ms = 0.0;           ///< time to integrate the scan, milliseconds
   double plan_ms = 0.0;             ///< time of the plan, milliseconds; 0 if the previous plan was still followed
@@ -83,20 +83,20 @@ struct AuditRecord {
 
 /// The record of a run of any host: what reports, pictures and tables need.
 struct RunRecord {
-  std::string command;                       ///< "explore", "reconstruct", "search", "replay"
-  std::string world;                         ///< name or file of the world
-  std::string planner;                       ///< its NAME (make_planner)
-  std::uint64_t seed = 1;                    ///< seed of everything random in the run
-  int threads = 1;                           ///< threads given to the planner
-  double resolution_m = 0.0;                 ///< edge of a cell of the map, metres
-  RunOutcome outcome = RunOutcome::Budget;   ///< how the run ended
-  std::string reason;                        ///< one sentence, for a person
-  std::optional<double> coverage;            ///< at the end; see ViewRecord::coverage
-  std::size_t observable_cells = 0;          ///< cells that the sensor could see at all, by the ground truth
-  std::optional<double> surface_coverage;    ///< at the end; see ViewRecord::surface_coverage
-  std::optional<double> seen_coverage;       ///< at the end; see ViewRecord::seen_coverage
-  std::optional<double> seen_observable;     ///< samples seen, as a share of those that any admitted pose could see;
-                                             ///< none without an object
+  std::string command;                      ///< "explore", "reconstruct", "search", "replay"
+  std::string world;                        ///< name or file of the world
+  std::string planner;                      ///< its NAME (make_planner)
+  std::uint64_t seed = 1;                   ///< seed of everything random in the run
+  int threads = 1;                          ///< threads given to the planner
+  double resolution_m = 0.0;                ///< edge of a cell of the map, metres
+  RunOutcome outcome = RunOutcome::Budget;  ///< how the run ended
+  std::string reason;                       ///< one sentence, for a person
+  std::optional<double> coverage;           ///< at the end; see ViewRecord::coverage
+  std::size_t observable_cells = 0;         ///< cells that the sensor could see at all, by the ground truth
+  std::optional<double> surface_coverage;   ///< at the end; see ViewRecord::surface_coverage
+  std::optional<double> seen_coverage;      ///< at the end; see ViewRecord::seen_coverage
+  /// Samples seen, as a share of those that any admitted pose could see; none without an object.
+  std::optional<double> seen_observable;
   Leftover leftover;                         ///< frontier cells that no view was planned for at the end, by cause
   std::size_t collisions = 0;                ///< motions in which the body touched a true surface
   std::uint64_t integration_operations = 0;  ///< cells updated by all scans
