@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How does a host use vantage? Map, plan, move, repeat. The simulated sensor stands where a robot has its driver.
+// How does a host use vantage? Map, plan, move, repeat. The simulated sensor takes the place of a driver.
 #include <cstddef>
 #include <iostream>
 #include <memory>
@@ -25,6 +25,6 @@ int main() {
       std::cout << to_string(plan.outcome) << " after " << views << " views: " << plan.reason << '\n';
       return plan.outcome == vantage::Outcome::Explored ? 0 : 1;
     }
-    pose = plan.path.back();  // a robot follows the path, and may scan on the way
+    pose = plan.path.back();  // a robot follows the path and scans on the way
   }
 }

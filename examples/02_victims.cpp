@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Which planner finds most victims per metre? They lie in boxes behind walls with holes, in an arena of the RoboCup
-// Rescue league: a mesh file, and beside it NAME.victims.csv with a line "name,x,y,z,yaw" for each of them.
+// Which planner finds most victims per metre? Victims lie in boxes behind walls with holes, in an arena of the
+// RoboCup Rescue league: a mesh file, and beside it NAME.victims.csv with one line "name,x,y,z,yaw" per victim
+// (metres, radians).
 //
 //     victims ARENA.ply [MOST_VIEWS [SEED[,SEED]... [PLANNER[,KEY=VALUE]...]...]]
 //
-// A seed stands for a start, the same for every planner.
+// A seed selects a start, the same for every planner.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -26,20 +27,20 @@
 namespace {
 
 constexpr double kCellM = 0.05;
-constexpr double kFoundShare = 0.3;  // of the cells in a box that are known
-constexpr double kStripM = 1.0;      // the ground goes on so far around the arena
-constexpr double kWallM = 1.2;       // height of the walls: who flies below it goes round them, as on the ground
-constexpr double kClearM = 0.25;     // around the start is known to be free, each way
+constexpr double kFoundShare = 0.3;  // a victim is found when this share of the cells in its box is known
+constexpr double kStripM = 1.0;      // width of the ground around the arena
+constexpr double kWallM = 1.2;       // height of the walls; the robot flies below it and cannot look over them
+constexpr double kClearM = 0.25;     // the space this far around the start is declared free, in each axis
 
 struct Victim {
   std::vector<vantage::VoxelIndex> inside;  // the cells in the box; all of them face its open side
-  vantage::VoxelIndex before;               // where one stands who looks in
+  vantage::VoxelIndex before;               // a cell before the hole, from which one looks in
 };
 
-// The box is 0.5 m wide, 0.4 m high and 0.24 m deep, and open to the side of the victim's +y, where a wall with a
-// hole of 0.15 m stands.
+// The box is 0.5 m wide, 0.4 m high and 0.24 m deep. It is open towards +y of the victim, where a wall with a hole
+// of 0.15 m stands.
 Victim victim_at(const vantage::Pose& world_from_victim) {
-  constexpr double kRimM = 0.5 * kCellM;  // cells are taken by their centres
+  constexpr double kRimM = 0.5 * kCellM;  // half a cell, because cells count by their centres
   const vantage::Box box{{-0.247 + kRimM, 0.353 + kRimM, -0.197 + kRimM},
                          {0.247 - kRimM, 0.590 - kRimM, 0.197 - kRimM}};
   const vantage::VoxelFrame frame{kCellM};
@@ -79,7 +80,7 @@ bool is_found(const Victim& victim, const vantage::OccupancyMap& map) {
   return static_cast<double>(known) >= kFoundShare * static_cast<double>(victim.inside.size());
 }
 
-// The arena up to its walls' height: the robot may not look over them.
+// The arena up to the height of its walls, so that the robot cannot look over them.
 vantage::World arena_of(const std::filesystem::path& mesh) {
   vantage::World world = vantage::World::from_file(mesh);
   const Eigen::Vector3d strip{kStripM, kStripM, 0.0};
@@ -108,7 +109,8 @@ struct Setup {
   }
 };
 
-// A drawn place with room around it, from where the sensor measures something: others look out of the arena.
+// A random start with space around it from which the sensor measures something; other places look out of the
+// arena.
 vantage::Pose start_in(const Setup& setup, const vantage::Truth& truth, std::uint64_t seed) {
   const vantage::FreeFlyer room(vantage::FreeFlyerOptions{.radius_m = 1.74 * kClearM});
   vantage::SimulatedSensor camera(vantage::TriangleScene(setup.world.mesh), setup.sensor);
@@ -144,7 +146,7 @@ std::unique_ptr<vantage::ExplorationPlanner> planner_of(const Setup& setup, cons
 struct Score {
   std::array<std::size_t, 4> found{};  // after each quarter of the views
   std::array<double, 4> metres{};
-  std::size_t places = 0;  // from which views were taken: turning on the spot costs views and no metres
+  std::size_t places = 0;  // places from which views were taken; turning on the spot costs views but no metres
 
   [[nodiscard]] double per_10_m() const {
     return metres[3] > 0.0 ? 10.0 * static_cast<double>(found[3]) / metres[3] : 0.0;

@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The table of Shade & Newman 2011 again: explores `rooms` at 0.2 m from SEEDS (default: 1 to 20) drawn starts and prints
-# one row per planner and setting, medians with quartiles. harmonic_table.sh [PART...], where PART is among paper
-# baselines ablation kinect stereo (default: paper baselines ablation). Needs a built program (VANTAGE=path names
-# another). MAX_VIEWS is the budget of a run, SHARES="0.95 0.99" the coverage at which its path is given, JOBS how many
-# runs go on at a time. Reports that lie in the folder RESULTS (default: build/harmonic-table) already are not made again.
-# Of kinect and stereo: PLANNERS="harmonic frontier-gain nearest-frontier" are the rows; EVERY=N thins the images to every
-# N-th pixel both ways, to save time (at 4, neighbours are 5 cm apart where the range ends).
+# Repeats the table of Shade & Newman 2011 (docs/results.md): explores `rooms` at 0.2 m and prints one row per planner and
+# setting, medians with quartiles over the starts.
+# Usage: harmonic_table.sh [PART...], PART among paper baselines ablation kinect stereo (default: paper baselines ablation).
+# Needs a built program (VANTAGE=path/to/vantage names another). Variables:
+#   SEEDS="1 2"           the starts (default: 1 to 20)
+#   MAX_VIEWS=N           budget of a run (default: 1000)
+#   SHARES="0.95 0.99"    coverages at which the path is printed
+#   JOBS=N                runs at a time (default: 2)
+#   RESULTS=DIR           folder of the reports (default: build/harmonic-table); reports in it are not made again
+#   EVERY=N               kinect and stereo: only every N-th pixel both ways, to save time
+#   PLANNERS="..."        kinect and stereo: the rows (default: harmonic frontier-gain nearest-frontier)
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 vantage=${VANTAGE:-$here/build/release/bin/vantage}
@@ -66,7 +70,7 @@ row() {
   done > "$results/$name.todo"
   [[ -s $results/$name.todo ]] && echo "$title" >&2
   xargs -r -P "$jobs" -I{} sh -c '
-    "$0" explore --world rooms --resolution 0.2 --seed {} "$@" > /dev/null || test $? -eq 3' \
+    "$0" explore --world rooms --resolution 0.2 --seed {} "$@" > /dev/null || { code=$?; test $code -eq 3 || test $code -eq 4; }' \
     "$vantage" --max-views "$max_views" --json "$results/$name-{}.json" "$@" < "$results/$name.todo"
   rm "$results/$name.todo"
   local explored

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Reconstructs the bunny and the dragon of Vasquez-Gomez et al. on their table by every method and prints the table of
+# Reconstructs the bunny and the dragon of Vasquez-Gomez et al. on their table by every method and prints the tables of
 # docs/reconstruction.md: examples/reconstruction_table.sh [WHAT...], where WHAT is among aimed paper hierarchical
 # uniform gains (default: aimed paper hierarchical). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage
-# names another). Runs that lie in the folder RESULTS (default: build/reconstruction) already are not made again.
+# names another). SETTINGS="CELL_M/MIN_UNKNOWN_CELLS ..." and OBJECTS="bunny dragon" select rows. Runs in the folder
+# RESULTS (default: build/reconstruction) are not made again.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 : "${VANTAGE_DATA:?must name the folder with the objects}"
@@ -33,7 +34,7 @@ row() {
         "$vantage" reconstruct --table ${place[$object]} --object-box -0.4,-0.4,0.43,0.4,0.4,0.95 \
           --radius 1.5 --start -1.5,0,0.69 \
           --reference "$VANTAGE_DATA/nbv_reference/vpl/${object}_ref_smalltable_nobase.dat" --resolution "${setting%/*}" \
-          --set min_unknown_cells="${setting#*/}" "$@" --out "$folder" > "$folder.txt" || [[ $? -eq 3 ]]
+          --set min_unknown_cells="${setting#*/}" "$@" --out "$folder" > "$folder.txt" || { code=$?; [[ $code -eq 3 || $code -eq 4 ]]; }
       fi
       printf '| %s | %s | %s | %s | %s | %s | %.1f %% | %.1f | %.2f |\n' "$object" "${setting%/*}" "${setting#*/}" \
         "$title" "$(value "$folder/report.json" outcome)" "$(value "$folder/report.json" views)" \

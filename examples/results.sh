@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Explores the worlds of docs/results.md and prints its table: examples/results.sh [WHAT...], where WHAT is among
+# Explores the worlds of docs/results.md and prints their tables: examples/results.sh [NAME...], where NAME is among
 # house-coarse house-fine collapsed-house collapsed-house-fine office office-fine plane (default: house-coarse house-fine
-# collapsed-house office); plane is an office driven through instead of flown. Needs VANTAGE_DATA and a built program
-# (VANTAGE=path/to/vantage names another). EXTRA holds further options of vantage explore, "--wear" for instance. Reports
-# that lie in the folder RESULTS (default: build/results) already are not made again.
+# collapsed-house office). One row per planner: median (least-greatest) over the starts SEEDS (default: 1 to 5).
+# `plane` is an office that a robot drives through. Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage names
+# another). EACH=1 prints one row per start instead. EXTRA holds further options of vantage explore, for example
+# "--wear"; give it a RESULTS folder of its own, because reports that are already in RESULTS (default: build/results) are
+# not made again.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 : "${VANTAGE_DATA:?must name the folder with the worlds}"
@@ -15,29 +17,54 @@ mkdir -p "$results"
 
 value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\).*/\1/p" "$1" | head -1; }
 
-# explore TITLE RESOLUTION PLANNERS WORLD OPTION...: one row for every planner and start.
+plan_ms() { sed -n "/\"plan\": {/,/}/s/.*\"$2\": \([^,]*\).*/\1/p" "$1"; }
+
+# spread FORMAT: median (least-greatest) of the numbers on stdin; the number alone if there is one.
+spread() {
+  sort -g | awk -v f="$1" '
+    { v[NR] = $1 }
+    END {
+      m = (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2
+      if (NR == 1) printf f, m; else printf f " (" f "-" f ")", m, v[1], v[NR]
+    }'
+}
+
+# explore TITLE RESOLUTION PLANNERS WORLD OPTION...: runs every planner from every start and prints the rows.
 explore() {
-  local title=$1 resolution=$2 planners=$3 world=$4 planner seed report
+  local title=$1 resolution=$2 planners=$3 world=$4 planner seed report reports
   shift 4
   for planner in $planners; do
+    reports=()
     for seed in $seeds; do
       report=$results/${title// /-}-$resolution-$planner-$seed.json
+      reports+=("$report")
       if [[ ! -s $report ]]; then
         echo "$title, $resolution m, $planner, start $seed" >&2
         "$vantage" explore --world "$world" --planner "$planner" --resolution "$resolution" --seed "$seed" "$@" ${EXTRA:-} \
           --json "$report" > /dev/null || { code=$?; [[ $code -eq 3 || $code -eq 4 ]]; }
       fi
-      printf '| %s | %s | %s | %s | %s | %s | %.1f | %.4f | %s | %.0f | %.0f |\n' "$title" "$resolution" "$planner" \
-        "$seed" "$(value "$report" outcome)" "$(value "$report" views)" "$(value "$report" path_length_m)" \
-        "$(value "$report" coverage)" "$(value "$report" collisions)" \
-        "$(sed -n '/"plan": {/,/}/s/.*"median": \([^,]*\).*/\1/p' "$report")" \
-        "$(sed -n '/"plan": {/,/}/s/.*"max": \([^,]*\).*/\1/p' "$report")"
+      [[ -z ${EACH:-} ]] || row "$title" "$resolution" "$planner, start $seed" "$report"
     done
+    [[ -n ${EACH:-} ]] || row "$title" "$resolution" "$planner" "${reports[@]}"
   done
 }
 
-echo '| world | cells, m | planner | start | outcome | views | path, m | coverage | collisions | plan, ms | longest |'
-echo '|---|---|---|---|---|---|---|---|---|---|---|'
+# row TITLE RESOLUTION PLANNER REPORT...
+row() {
+  local title=$1 resolution=$2 planner=$3 explored
+  shift 3
+  explored=$({ grep -l '"outcome": "explored",$' "$@" || true; } | wc -l)
+  printf '| %s | %s | %s | %s of %s | %s | %s | %s | %s | %s | %s |\n' "$title" "$resolution" "$planner" "$explored" $# \
+    "$(for r in "$@"; do value "$r" views; done | spread %.0f)" \
+    "$(for r in "$@"; do value "$r" path_length_m; done | spread %.1f)" \
+    "$(for r in "$@"; do value "$r" coverage; done | spread %.4f)" \
+    "$(for r in "$@"; do value "$r" collisions; done | awk '{ sum += $1 } END { print sum }')" \
+    "$(for r in "$@"; do plan_ms "$r" median; done | spread %.0f)" \
+    "$(for r in "$@"; do plan_ms "$r" max; done | sort -g | tail -1 | awk '{ printf "%.0f", $1 }')"
+}
+
+echo '| world | cells, m | planner | explored | views | path, m | coverage | collisions | plan, ms | longest, ms |'
+echo '|---|---|---|---|---|---|---|---|---|---|'
 environments=$VANTAGE_DATA/environments
 house=$environments/aws_small_house/small_house_visual.ply
 collapsed=$environments/gazebo/collapsed_house.ply

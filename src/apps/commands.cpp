@@ -35,7 +35,7 @@ void add_map_command(CLI::App& app, int& exit_code) {
   command->callback([request, &exit_code] { exit_code = run_map_command(request->file, request->json, std::cout); });
 }
 
-// Before any command runs.
+// Called before any command runs.
 void check_command(const CLI::App& app) {
   const std::vector<std::string> strangers = app.remaining();
   if (!strangers.empty() && strangers.front().front() == '-') {
@@ -70,7 +70,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_evaluate_command(app);
   add_map_command(app, exit_code);
   add_list_command(app);
-  // Not inherited by the commands, hence after them.
+  // Set last, because the commands do not inherit it.
   for (CLI::App* command : app.get_subcommands({})) {
     command->group("Commands");
   }

@@ -12,22 +12,23 @@ class App;
 
 namespace vantage::apps {
 
-// Exit codes of every command; of one that a signal ended, see Interruption.
+// Exit codes of every command. For a command that a signal ended see Interruption.
 inline constexpr int kDone = 0;
-inline constexpr int kBadInput = 2;  // said in one line on stderr, nothing written; or what cannot be written
-inline constexpr int kBudget = 3;    // a budget ended the run
-inline constexpr int kLeftOver = 4;  // it ended with something left: unreachable, blocked
+inline constexpr int kBadInput =
+    2;  // bad input, one line on stderr and nothing written; or a file or stdout that cannot be written
+inline constexpr int kBudget = 3;    // the budget ended the run
+inline constexpr int kLeftOver = 4;  // the run ended with something left: unreachable or blocked
 
-/// Adds every command; one that runs puts its exit code into `exit_code`, or throws for bad input.
+/// Adds every command. A command that runs sets `exit_code`, or throws for bad input.
 void add_commands(CLI::App& app, int& exit_code);
 
 void add_explore_command(CLI::App& app, int& exit_code);
 void add_list_command(CLI::App& app);
 void add_reconstruct_command(CLI::App& app, int& exit_code);
-void add_search_command(CLI::App& app, int& exit_code);  // where there is vantage::arm
+void add_search_command(CLI::App& app, int& exit_code);  // only built with vantage::arm
 void add_replay_command(CLI::App& app, int& exit_code);
 
-/// Of a run that ended so.
+/// The exit code of a run that ended with `outcome`.
 [[nodiscard]] int exit_code_of(RunOutcome outcome, const Interruption& interruption);
 
 /// `message` without line breaks.

@@ -27,22 +27,22 @@ struct CompareRequest {
   bool by_folder = false;
 };
 
-// What the table needs of a run.
+// What the table shows of a run.
 struct ComparedRun {
   std::string group;  // planner and world
-  std::string name;   // with the seed
+  std::string name;   // the same with the seed
   nlohmann::json report;
   double views = 0.0;
   double path_m = 0.0;
-  double share = std::nan("");  // seen coverage, else coverage
-  double seconds = 0.0;         // computing
+  double share = std::nan("");  // seen coverage if there is one, else coverage
+  double seconds = 0.0;         // of computing
   double plan_ms = std::nan("");
-  std::vector<double> curve;  // the share after every view
+  std::vector<double> curve;  // the share after each view
 };
 
 double number_or_nan(const nlohmann::json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
 
-// What was seen of an object, else of the cells of the world; of a report or one of its cycles.
+// Seen coverage if there is one, else coverage; of a report or of one of its cycles.
 double share_in(const nlohmann::json& measured) {
   const auto seen = measured.find("seen_coverage");
   return number_or_nan(seen != measured.end() && !seen->is_null() ? *seen : measured.at("coverage"));
@@ -88,7 +88,7 @@ double quantile_of(const std::vector<double>& sorted, double share) {
   return sorted[low] + (place - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
-// Median, and quartiles where there are several.
+// Median, with quartiles if there are several runs.
 std::string spread_of(const std::vector<const ComparedRun*>& runs, double ComparedRun::*member, int digits,
                       double unit = 1.0) {
   std::vector<double> values;

@@ -31,7 +31,7 @@ namespace {
 
 using nlohmann::json;
 
-// `vantage evaluate objects` as it was typed.
+// Options of `vantage evaluate objects`.
 struct EvaluateRequest {
   std::vector<std::string> objects;
   std::vector<std::string> planners{"next-best-view", "evenly-spaced", "random-views", "oracle-greedy"};
@@ -76,7 +76,7 @@ TriangleMesh object_of(const std::string& text) {
   return scaled;
 }
 
-// NAME or FILE.json; with a + behind it, it reports rays that meet nothing.
+// NAME or FILE.json; with a + after it the sensor reports rays without return.
 RangeSensor sensor_named(const std::string& name, const ExploreRequest& shared) {
   ExploreRequest request = shared;
   const bool reports = name.ends_with('+');
@@ -145,14 +145,14 @@ std::map<std::string, json> results_in(const std::string& file) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     json result = json::parse(line, nullptr, false);
-    if (result.is_object() && result.contains("key")) {  // a run that was cut off leaves half a line
+    if (result.is_object() && result.contains("key")) {  // an interrupted run may leave half a line
       results.insert_or_assign(result.at("key").get<std::string>(), result);
     }
   }
   return results;
 }
 
-// The value at a share of the sorted ones.
+// Quantile of the values at a share in [0, 1].
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) {
     return 0.0;
@@ -161,7 +161,7 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
-// After so many views, or as many as there are.
+// The value after so many views, or the last one.
 double at_view(const json& list, std::size_t view) {
   return list.empty() ? 0.0 : list.at(std::min(view, list.size()) - 1).get<double>();
 }
@@ -225,7 +225,7 @@ void evaluate_objects(EvaluateRequest& request) {
     for (const std::string& sensor : request.sensors) {
       for (const double resolution_m : request.resolutions_m) {
         for (std::uint64_t start = 1; start <= request.starts; ++start) {
-          std::size_t taken = 0;  // by the planner that is compared
+          std::size_t taken = 0;  // views taken by the planner under test
           for (const std::string& planner : request.planners) {
             const Trial trial{object, planner, sensor, resolution_m, start};
             std::fprintf(stderr, "\r%zu of %zu  %s\x1b[K", ++count, all, trial.key().c_str());
@@ -267,14 +267,15 @@ void add_evaluate_command(CLI::App& app) {
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
   request->run.max_views = 20;
-  CLI::App* objects = command->add_subcommand("objects", "How soon how much of objects is seen, over which way");
+  CLI::App* objects =
+      command->add_subcommand("objects", "Share of objects seen after each view, and the length of the path");
   objects
       ->add_option("--objects", request->objects,
                    "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; all "
                    "generated ones unless given")
       ->delimiter(';');
   objects->add_option("--planners", request->planners, "Names")->delimiter(',')->capture_default_str();
-  objects->add_option("--sensors", request->sensors, "Names; with a + they report rays that meet nothing")
+  objects->add_option("--sensors", request->sensors, "Names; a name with + reports rays without return")
       ->delimiter(',')
       ->capture_default_str();
   objects->add_option("--resolutions", request->resolutions_m, "Metres")->delimiter(',')->capture_default_str();

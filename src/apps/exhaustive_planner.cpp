@@ -14,10 +14,10 @@
 namespace vantage::apps {
 namespace {
 
-// As frontier-void's by default.
+// As the defaults of frontier-void.
 constexpr UnknownSightOptions kLikeFrontierVoid{.opaque_share = 0.05, .opaque_beside_surface = 0.5};
-constexpr double kFewRays = 4.0;         // times the distance between rays, for the first count of all
-constexpr std::size_t kFinalists = 100;  // counted with all rays
+constexpr double kFewRays = 4.0;         // ray spacing of the first count, as a multiple of the full one
+constexpr std::size_t kFinalists = 100;  // views that are counted with all rays
 
 }  // namespace
 

@@ -13,16 +13,16 @@
 
 namespace vantage::apps {
 
-/// The peer of frontier-void with an arm: for every view it weighs thousands of the poses that the arm can take
-/// (`exhaustive_poses`), wherever they are and look, by the same utility, and takes the best to which there is a way.
-/// It knows neither frontiers nor clusters, and is slow.
+/// The peer of frontier-void with an arm. For every view it scores thousands of the poses that the arm can take
+/// (`exhaustive_poses`) by the same utility and takes the best one that has a path. It knows neither frontiers nor
+/// clusters, and it is slow.
 class ExhaustivePlanner final : public ExplorationPlanner {
  public:
-  /// What the command line calls it.
+  /// Its name on the command line.
   static constexpr std::string_view kName = "exhaustive";
 
-  /// Views from which less of the voids is expected than `least_view_m3` are none. Throws std::invalid_argument as
-  /// make_planner.
+  /// Views that are expected to show less than `least_view_m3` cubic metres of voids do not count. Throws
+  /// std::invalid_argument as make_planner.
   ExhaustivePlanner(std::shared_ptr<const Arm> arm, const PlannerSetup& setup, double least_view_m3);
 
   [[nodiscard]] std::string_view name() const override { return kName; }

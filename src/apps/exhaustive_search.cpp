@@ -27,24 +27,24 @@ namespace {
 
 double litres_of(std::size_t cells, double cell_m) { return static_cast<double>(cells) * std::pow(10.0 * cell_m, 3); }
 
-// What is looked at, and with what.
+// The wanted cells and what they are looked at with.
 struct Looking {
   const TriangleScene& scene;
   const RangeSensor& sensor;
   const ViewRays& rays;
   VoxelFrame frame;
   CellSet wanted;
-  Box around;  // the wanted cells
+  Box around;  // box of the wanted cells
 };
 
-// From where to where a ray is in a box, metres; the first is beyond the second where it is not.
+// Distances at which a ray enters and leaves a box, metres; if it misses the box, the first exceeds the second.
 std::pair<double, double> way_in(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   const Eigen::Array3d a = (box.min - from).array() / direction.array();
   const Eigen::Array3d b = (box.max - from).array() / direction.array();
   return {std::max(0.0, a.min(b).maxCoeff()), a.max(b).minCoeff()};
 }
 
-// The wanted cells that a view makes known: those that its rays pass, up to what they meet.
+// The wanted cells that a view makes known: those that its rays pass up to the first surface.
 CellSet revealed(const Looking& looking, const Pose& pose) {
   const Eigen::Vector3d from = pose.translation();
   CellSet cells(looking.wanted.box());
@@ -74,7 +74,7 @@ CellSet revealed(const Looking& looking, const Pose& pose) {
   return cells;
 }
 
-// With all wanted cells beside them, corners included.
+// The cells and all wanted cells beside them, corners included.
 CellSet grown(const CellSet& cells, const CellSet& wanted) {
   CellSet more(cells.box());
   cells.for_each([&](const VoxelIndex& cell) {

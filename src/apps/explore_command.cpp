@@ -33,7 +33,7 @@ void check_plan(const ExploreRequest& request) {
   }
 }
 
-// In a plane there is one height for the sensor.
+// In a plane the height of the sensor is given.
 std::optional<Pose> start_in_world(const ExploreRequest& request) {
   std::optional<Pose> start = start_of(request);
   if (start && is_world_file(request, World::FileKind::Plan)) {
@@ -255,11 +255,13 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   command->add_flag("--wear", request->wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
       ->group("Run");
   command
-      ->add_flag("--bound", request->bound,
-                 "At the end, tell how short a way sees all, for one who knows the world; slow")
+      ->add_flag(
+          "--bound", request->bound,
+          "At the end, compute the shortest route that sees everything, with full knowledge of the world; slow")
       ->group("Run");
   command
-      ->add_flag("--no-coverage", request->no_coverage, "Coverage is not told: the first view need not wait for it")
+      ->add_flag("--no-coverage", request->no_coverage,
+                 "Do not measure coverage; saves the search for observable cells before the first view")
       ->group("Run");
   command
       ->add_flag("--audit", request->audit,

@@ -48,7 +48,7 @@ std::vector<double> numbers_of(const char* flag, const std::string& text) {
 
 void check_numbers(const ExploreRequest& request) {
   const auto require = [](double value, const char* option, double least, double most, const char* rule) {
-    detail::require_option(value >= least && value <= most, option, value, rule);  // NaN holds to no rule
+    detail::require_option(value >= least && value <= most, option, value, rule);  // false for NaN
   };
   require(request.resolution_m, "--resolution", 1e-4, 100.0, "in [0.0001, 100] metres");
   require(request.scale.value_or(1.0), "--scale", 1e-6, 1e6, "in [1e-6, 1e6]");
@@ -101,7 +101,7 @@ MeshFileOptions mesh_options_of(const ExploreRequest& request) {
 
 namespace {
 
-// What says how to take a mesh, and what makes a world, is for nothing else.
+// Refuses options for mesh files and generated worlds where they do not apply.
 void check_world_options(const ExploreRequest& request) {
   const bool is_named = is_known(World::names(), request.world);
   if (!is_world_file(request, World::FileKind::Mesh) && (!request.up.empty() || request.scale)) {
@@ -112,7 +112,7 @@ void check_world_options(const ExploreRequest& request) {
   }
 }
 
-// "LENGTH,WIDTH"; none: the world's own.
+// From "LENGTH,WIDTH"; empty: the default of the world.
 WorldOptions world_options_of(const ExploreRequest& request) {
   WorldOptions options{.seed = request.seed};
   if (!request.size.empty()) {
@@ -145,7 +145,7 @@ World world_of(const ExploreRequest& request) {
   const WorldOptions options = world_options_of(request);
   try {
     return World::by_name(request.world, options);
-  } catch (const std::invalid_argument& error) {  // of its size alone: the name is known
+  } catch (const std::invalid_argument& error) {  // about its size; the name is known to exist
     throw std::invalid_argument("--size '" + request.size + "': " + error.what());
   }
 }

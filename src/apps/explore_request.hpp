@@ -17,11 +17,11 @@
 
 namespace vantage::apps {
 
-/// `vantage explore` as it was typed.
+/// Options of `vantage explore` as typed.
 struct ExploreRequest {
   std::string world;
-  std::string up;               // "y", "z"; as the file has it
-  std::optional<double> scale;  // of a mesh file
+  std::string up;               // "y" or "z"; empty: as the file says
+  std::optional<double> scale;  // of a mesh file, metres per unit
   std::string size;
   std::string planner = "harmonic";
   std::string sensor = "panoramic";
@@ -48,30 +48,30 @@ struct ExploreRequest {
   std::vector<std::string> settings;
 };
 
-// What the words mean; each throws std::invalid_argument or std::runtime_error naming the flag or file at fault.
+// What the options mean. Each function throws std::invalid_argument or std::runtime_error with the option or file
+// at fault.
 [[nodiscard]] World world_of(const ExploreRequest& request);
-/// How `--up` and `--scale` have a mesh file taken.
+/// Options of a mesh file, from `--up` and `--scale`.
 [[nodiscard]] MeshFileOptions mesh_options_of(const ExploreRequest& request);
-/// Whether `--world` is a file of this kind, not a name.
+/// Whether `--world` is a file of this kind and not a name.
 [[nodiscard]] bool is_world_file(const ExploreRequest& request, World::FileKind kind);
 [[nodiscard]] RangeSensor sensor_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
-/// `--band`, of a robot that drives; none: it flies.
+/// `--band`; none: the robot flies.
 [[nodiscard]] std::optional<HeightBandOptions> band_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
 [[nodiscard]] RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command,
                                               const std::string& world, const RangeSensor& sensor);
 [[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
-/// The numbers of a list "1,2.5,-3" that `flag` was given, each within 10^6 either way.
+/// The numbers of a list "1,2.5,-3" given to `flag`, each within +-10^6.
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
-/// How far measurements are off.
+/// Noise of depth and poses, from `--noise` and `--pose-noise`.
 [[nodiscard]] SensorNoise noise_of(const ExploreRequest& request);
-/// The box "x0,y0,z0,x1,y1,z1" that `flag` was given.
+/// The box "x0,y0,z0,x1,y1,z1" given to `flag`, metres.
 [[nodiscard]] Box box_of(const char* flag, const std::string& text);
-/// Numbers and ranges that no file is needed for.
+/// Checks numbers and ranges that need no file.
 void check_numbers(const ExploreRequest& request);
-/// That a region has no more cells than fit in memory: the truth keeps a byte and more for each, and a slip of the
-/// resolution must not fill it.
+/// Checks that a region has no more cells than fit into memory. The ground truth takes at least a byte per cell.
 void check_cell_count(const Box& region, double resolution_m);
 
 }  // namespace vantage::apps

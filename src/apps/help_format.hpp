@@ -8,7 +8,7 @@
 
 namespace vantage::apps {
 
-/// How `--help` looks: the kind of an option's value beside its name, the default at the end of what it means.
+/// Layout of `--help`: the kind of an option's value beside its name, the default after its description.
 class HelpFormat : public CLI::Formatter {
  public:
   HelpFormat();
@@ -20,7 +20,7 @@ class HelpFormat : public CLI::Formatter {
   [[nodiscard]] std::string make_option_desc(const CLI::Option* option) const override;
 };
 
-// Checks of what was typed, with a message that a person can read; CLI11 puts the name of the option before it.
+// Checks of typed values, with a message for a person; CLI11 puts the name of the option before it.
 [[nodiscard]] CLI::Validator a_number();
 [[nodiscard]] CLI::Validator a_whole_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 

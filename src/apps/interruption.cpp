@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kInterruptedBySignal = 128;
 
-// What a handler may touch.
+// Lock-free atomics that a signal handler may touch.
 std::atomic<bool> signals_held{false};
 std::atomic<int> signal_seen{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);

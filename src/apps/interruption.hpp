@@ -3,9 +3,9 @@
 
 namespace vantage::apps {
 
-/// SIGINT and SIGTERM while a run goes on, of which there is one at a time. Before there is anything to lose, one
-/// ends the process at once; after `hold` the first is kept for the run to see and the second ends the process. The
-/// exit code is 128 and the signal's number in either case.
+/// SIGINT and SIGTERM during a run; there is one object at a time. Before `hold` a signal ends the process at
+/// once. After it the first signal is kept for the run to see and the second one ends the process. The exit code
+/// is 128 plus the number of the signal in both cases.
 class Interruption {
  public:
   Interruption();
@@ -15,11 +15,11 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
   Interruption& operator=(Interruption&&) = delete;
 
-  /// From the first view on.
+  /// Called at the first view: from now on there is something to lose.
   void hold();
-  /// Whether a signal came since.
+  /// Whether a signal came since `hold`.
   [[nodiscard]] bool asked() const;
-  /// Of the process that a signal ended; 0 where none came.
+  /// Exit code after a signal; 0 if none came.
   [[nodiscard]] int exit_code() const;
 };
 

@@ -10,7 +10,7 @@
 
 namespace {
 
-// What was printed may wait in memory; a full disk or a reader that is gone shows here at the latest.
+// Printed text may still be buffered; a full disk or a closed reader shows here at the latest.
 void check_stdout() {
   std::cout.flush();
   if (!std::cout) {
@@ -21,7 +21,7 @@ void check_stdout() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  (void)std::signal(SIGPIPE, SIG_IGN);  // the stream tells
+  (void)std::signal(SIGPIPE, SIG_IGN);  // the stream reports the error
   CLI::App app("Where should a robot's 3D sensor look next?", "vantage");
   int exit_code = vantage::apps::kDone;
   vantage::apps::add_commands(app, exit_code);

@@ -13,7 +13,7 @@
 namespace vantage::apps {
 namespace {
 
-// A multiple of the resolution without the noise of its last bits: -7.52, not -7.5200000000000005.
+// Removes the rounding noise of a multiple of the resolution: -7.52, not -7.5200000000000005.
 double plain(double metres) { return std::round(metres * 1e9) / 1e9; }
 
 void print(const nlohmann::json& summary, std::ostream& out) {

@@ -15,7 +15,7 @@ NamedGoals::Gap NamedGoals::between(const Pose& a, const Pose& b) {
   return {(a.translation() - b.translation()).norm(), std::abs(angle) * 180.0 / std::numbers::pi};
 }
 
-// Of metres and of degrees, each for itself.
+// Medians of the metres and of the degrees, separately.
 NamedGoals::Gap NamedGoals::median_of(std::vector<Gap> gaps) {
   const auto median = [&](double Gap::*part) {
     const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);

@@ -10,13 +10,13 @@
 
 namespace vantage::apps {
 
-// The places that a planner asked to look from, where each time the recorded view nearest to its goal was chosen: how
-// far they are from the view before and from the one chosen says what such a choice can be worth.
+// Collects how far the goals of a planner are from the previous view and from the recorded view chosen instead
+// (the one nearest to the goal). It shows how meaningful such a choice is.
 class NamedGoals {
  public:
   void add(const Plan& plan, const Pose& last, const Pose& chosen);
 
-  // One sentence.
+  // Prints one sentence.
   void print(std::ostream& out, const std::string& planner) const;
   [[nodiscard]] nlohmann::ordered_json json() const;
 
@@ -29,7 +29,7 @@ class NamedGoals {
   static Gap median_of(std::vector<Gap> gaps);
 
   std::size_t plans_ = 0;
-  std::vector<Gap> from_last_;  // one for every plan that named a place
+  std::vector<Gap> from_last_;  // one per plan with a goal
   std::vector<Gap> from_chosen_;
 };
 

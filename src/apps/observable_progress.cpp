@@ -14,7 +14,7 @@ ObservableProgress::ObservableProgress(bool quiet)
     : terminal_(!quiet && isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
 
 void ObservableProgress::tell(double share) {
-  constexpr double kFirstS = 0.5;  // what is quicker needs no line
+  constexpr double kFirstS = 0.5;  // seconds; a shorter search gets no line
   constexpr double kEveryS = 0.2;
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const bool is_told = told_s_ > 0.0;

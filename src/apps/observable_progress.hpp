@@ -5,15 +5,15 @@
 
 namespace vantage::apps {
 
-/// Tells how far the search for the observable cells of a world is, which goes before the first view: on stderr,
-/// where that is a terminal, one line that is gone when it is done.
+/// Shows the progress of the search for observable cells, which precedes the first view: one line on stderr, if
+/// that is a terminal, which is removed at the end.
 class ObservableProgress {
  public:
   explicit ObservableProgress(bool quiet);
 
   /// Called as ExplorationRunOptions::on_observable_share.
   void tell(double share);
-  /// What it took.
+  /// Duration of the search, seconds.
   [[nodiscard]] double seconds() const { return seconds_; }
 
  private:

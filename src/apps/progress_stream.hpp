@@ -7,13 +7,13 @@
 
 namespace vantage::apps {
 
-/// Where a run tells how it goes: stdout; stderr, if the report takes stdout (--json -); nowhere, if --quiet.
+/// Stream for the progress of a run: stdout; stderr if the report takes stdout (--json -); nowhere with --quiet.
 class ProgressStream {
  public:
   explicit ProgressStream(const ExploreRequest& request);
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
-  /// Whether a person may be looking on: a line can be written over.
+  /// Whether it is a terminal, so that a line can be overwritten.
   [[nodiscard]] bool is_terminal() const { return is_terminal_; }
 
  private:

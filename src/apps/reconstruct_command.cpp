@@ -27,7 +27,7 @@
 namespace vantage::apps {
 namespace {
 
-// `vantage reconstruct` as it was typed.
+// Options of `vantage reconstruct` as typed.
 struct ReconstructRequest {
   std::string object;
   std::string place;
@@ -39,7 +39,7 @@ struct ReconstructRequest {
   std::uint64_t candidates = 320;
   std::string radii;
   std::uint64_t aimed = 320;
-  ExploreRequest run;  // what the commands share
+  ExploreRequest run;  // options that the commands share
 
   ReconstructRequest() {
     run.planner = "next-best-view";
@@ -52,7 +52,7 @@ struct ReconstructRequest {
 
 constexpr std::uint64_t kMostCandidates = 1'000'000;
 
-// The object where it stands: as told, or in the middle of the table, or where its file has it.
+// The object at its place: as given, in the middle of the table, or where its file has it.
 TriangleMesh placed_object(const ReconstructRequest& request) {
   const TriangleMesh mesh = read_mesh_file(request.object, mesh_options_of(request.run));
   double scale = 1.0;
@@ -79,7 +79,7 @@ TriangleMesh placed_object(const ReconstructRequest& request) {
   return placed;
 }
 
-// Of the shells of candidates; none: the scene's own.
+// Radii of the shells of candidates, metres; empty: the default of the scene.
 std::vector<double> radii_of(const ReconstructRequest& request) {
   if (request.radii.empty()) {
     return {};
@@ -91,7 +91,7 @@ std::vector<double> radii_of(const ReconstructRequest& request) {
   return radii_m;
 }
 
-// Rows of x y z.
+// Reads rows of x y z, metres.
 std::vector<Eigen::Vector3d> points_in(const std::string& path) {
   std::ifstream file(path);
   std::vector<Eigen::Vector3d> points;
@@ -104,7 +104,8 @@ std::vector<Eigen::Vector3d> points_in(const std::string& path) {
   return points;
 }
 
-// As many candidates as an icosahedron has faces, at some level, are its; any other number is drawn at random.
+// If the number of candidates is 20 * 4^n, they are the faces of an icosahedron; any other number is drawn at
+// random.
 PlannerSettings settings_for(const ReconstructRequest& request, const ObjectScene& scene) {
   int subdivisions = 0;
   std::uint64_t faces = 20;
@@ -271,7 +272,8 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
 }  // namespace
 
 void add_reconstruct_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("reconstruct", "Let a simulated sensor look at an object from all it needs");
+  CLI::App* command =
+      app.add_subcommand("reconstruct", "Let a simulated sensor view an object until nothing of it is left to see");
   const auto request = std::make_shared<ReconstructRequest>();
   add_object_options(*command, *request);
   add_view_options(*command, *request);

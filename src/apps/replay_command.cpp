@@ -92,7 +92,7 @@ int replay(const ReplayRequest& request) {
     return select_views(request, recording, told);
   }
 
-  // The first planner's plans are those that the record and its page show.
+  // The record and its page show the plans of the first planner.
   const std::unique_ptr<ExplorationPlanner> first = std::move(planners.front());
   RunRecorderSetup setup = recorder_setup(request.run, "replay", request.dataset, recording.sensor());
   setup.planner = first->name();

@@ -44,7 +44,7 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
   if (!recorded.colour.empty()) {
     try {
       pictures.push_back(read_picture(recorded.colour));
-    } catch (const std::runtime_error&) {  // a sheet without colours is still one
+    } catch (const std::runtime_error&) {  // a sheet without colours is still useful
     }
   }
   pictures.push_back(draw_depth(reading.depth, recording.camera().min_range_m, recording.camera().trusted_range_m()));

@@ -12,14 +12,14 @@
 
 namespace vantage::apps {
 
-/// The last frame played: its colours, its depth, and for every planner the map about the sensor's height with the
-/// view chosen next.
+/// Picture of the last frame played: its colours, its depth, and for every planner the map around the height of
+/// the sensor with the view chosen next.
 [[nodiscard]] Picture frame_sheet(const ReplayRecord& record, const Recording& recording,
                                   const RecordedReading& reading, const OccupancyMap& map);
 
-/// Writes report.json, map.ot, floor_plan.png, known.png (cells known over frames) and, of the record that the replay
-/// left, report.html into a folder, which is made; returns the files in order, the record and the folder of the
-/// frames' pictures among them. Throws std::runtime_error naming what cannot be written.
+/// Writes report.json, map.ot, floor_plan.png, known.png (known cells over frames) and report.html (from the
+/// record) into a folder, which is created. Returns the files in order, including the record and the folder of the
+/// frame pictures. Throws std::runtime_error with the path that cannot be written.
 std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
                                                       const std::string& json, const OccupancyMap& map,
                                                       const std::filesystem::path& run_record);

@@ -14,16 +14,16 @@
 
 namespace vantage::apps {
 
-/// `vantage replay` as it was typed.
+/// Options of `vantage replay` as typed.
 struct ReplayRequest {
   std::string dataset;
   std::string format;
   std::string intrinsics;
-  double max_range_m = 0.0;  // 0: as the format has it
+  double max_range_m = 0.0;  // metres; 0: as the format says
   std::size_t every = 1;
   std::string object_box;
   bool select = false;
-  ExploreRequest run;  // what the commands share
+  ExploreRequest run;  // options that the commands share
 
   ReplayRequest() {
     run.planner = "harmonic,next-best-view";
@@ -32,11 +32,12 @@ struct ReplayRequest {
   }
 };
 
-// What the words mean; each throws std::invalid_argument or std::runtime_error naming the flag or file at fault.
+// What the options mean. Each function throws std::invalid_argument or std::runtime_error with the option or file
+// at fault.
 void check_numbers(const ReplayRequest& request);
 [[nodiscard]] Recording recording_of(const ReplayRequest& request);
 [[nodiscard]] OccupancyMapOptions map_options_of(const ReplayRequest& request);
-/// The box of the object that was recorded, if one was.
+/// Box of the recorded object, metres; none without `--object-box`.
 [[nodiscard]] std::optional<Box> object_of(const ReplayRequest& request);
 /// The planners by their names, in the order asked for.
 [[nodiscard]] std::vector<std::unique_ptr<ExplorationPlanner>> planners_of(

@@ -31,7 +31,7 @@ std::size_t first_out_of_use(const Recording& recording, const ReplaySpan& span)
   return std::min(recording.frames().size(), span.every * span.max_views);
 }
 
-// A slip in a file of poses must not make a map as wide as the number it left.
+// An error in a file of poses must not make a map of that size.
 void check_place(const Pose& pose) {
   constexpr double kFurthestM = 1e5;
   if (!(pose.translation().cwiseAbs().maxCoeff() <= kFurthestM)) {
@@ -135,7 +135,7 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
       map.assume_free(platform.body_box(pose));
       insert_ms = milliseconds_of([&] { frame.scan = map.insert(reading.scan.scan); });
     } catch (const std::bad_alloc&) {
-      throw;  // the next frame would find no more of it
+      throw;  // out of memory: the next frame would find no more
     } catch (const std::exception& error) {
       record.skipped.push_back({recording.frames()[i].name, error.what()});
       continue;

@@ -7,11 +7,11 @@ class App;
 
 namespace vantage::apps {
 
-/// `vantage report`: the page, the report and the exports of one record.
+/// Adds `vantage report`: the page, the report and the exports of one record.
 void add_report_command(CLI::App& app);
-/// `vantage compare`: several reports side by side.
+/// Adds `vantage compare`: several reports side by side.
 void add_compare_command(CLI::App& app);
-/// `vantage evaluate`: tables of planners beside their peers.
+/// Adds `vantage evaluate`: tables of planners beside their peers.
 void add_evaluate_command(CLI::App& app);
 
 }  // namespace vantage::apps

@@ -49,7 +49,7 @@ Picture floor_plan(const RunRecord& record, const OccupancyMap& map, const Range
   return draw_floor_plan(map, content);
 }
 
-// Of the world or, where an object was to be seen, of what was seen of it.
+// Plot of the coverage or, for an object, of the seen coverage.
 Picture coverage_plot(const RunRecord& record) {
   LineSeries over_views;
   LineSeries over_metres;
@@ -73,7 +73,7 @@ Picture coverage_plot(const RunRecord& record) {
                                                plot("metres", "path travelled [m]", std::move(over_metres))});
 }
 
-// Four moments, evenly spread over the views, read back from the record.
+// Four moments, evenly spread over the views, read from the record.
 Picture growth_strip(const RunRecord& run, const std::filesystem::path& record) {
   constexpr std::size_t kMoments = 4;
   std::vector<GrowthMoment> moments;
@@ -81,7 +81,7 @@ Picture growth_strip(const RunRecord& run, const std::filesystem::path& record) 
   OccupancyMap map = reader.new_map();
   for (std::size_t views = 1; const std::optional<RecordedCycle> cycle = reader.next(); ++views) {
     apply_changes(*cycle, map);
-    // The first view, the last, and those nearest to the thirds.
+    // The first view, the last, and those nearest to the thirds between.
     const std::size_t due = 1 + (run.views.size() - 1) * moments.size() / (kMoments - 1);
     if (views >= due && moments.size() < kMoments) {
       std::ostringstream caption;
@@ -224,9 +224,9 @@ void give_json(const std::string& json, const std::string& report) {
 
 namespace {
 
-// Makes the folder as a run would, and takes away what was not there before.
+// Makes the folder as a run would, and removes again what did not exist before.
 void try_folder(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> made;  // the innermost first
+  std::vector<std::filesystem::path> made;  // innermost first
   for (std::filesystem::path at = std::filesystem::absolute(folder).lexically_normal();
        !std::filesystem::exists(at) && at.has_relative_path(); at = at.parent_path()) {
     made.push_back(at);

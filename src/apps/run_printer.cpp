@@ -77,7 +77,7 @@ std::string bar_text(const ViewRecord& view, double seconds, const ExpectedViews
     text += format(expected.at_most ? " of at most %zu" : " of %zu", expected.count);
   }
   text += format("  %.1f m", view.path_length_m);
-  if (view.view == 1 || !(seconds > 0.0)) {  // counted from the first, with which the clock starts
+  if (view.view == 1 || !(seconds > 0.0)) {  // the rate is counted from the first view
     return text;
   }
   text += format("  %.1f views/s", (done - 1.0) / seconds);
@@ -94,8 +94,7 @@ void RunPrinter::view(const ViewRecord& view) { terminal_ ? bar(view) : line(vie
 
 void RunPrinter::bar(const ViewRecord& view) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  out_ << "\r" << bar_text(view, seconds, expected_) << "\x1b[K"
-       << std::flush;  // to the end of the line nothing stays
+  out_ << "\r" << bar_text(view, seconds, expected_) << "\x1b[K" << std::flush;  // clears the rest of the line
 }
 
 void RunPrinter::line(const ViewRecord& view) {
@@ -173,7 +172,7 @@ void RunPrinter::bound(const RunRecord& record) {
   out_ << (terminal_ ? "\r\033[K" : "")
        << format("  %-12s %s%.2f m for one who knows the world, to see all of it", "bound",
                  is_met ? "" : "more than ", length_m);
-  if (length_m > 0.0 && record.coverage) {  // less than 1 where it has not seen all
+  if (length_m > 0.0 && record.coverage) {  // the coverage tells whether this run saw all of it, too
     out_ << format("; this run travelled %.2f times as far to see %.2f %%", record.path_length_m() / length_m,
                    100.0 * *record.coverage);
   }

@@ -10,13 +10,13 @@
 
 namespace vantage::apps {
 
-/// How many views a run is going to have.
+/// Number of views that a run is expected to have.
 struct ExpectedViews {
-  std::size_t count = 0;  // 0: nobody knows
-  bool at_most = true;    // it may end before
+  std::size_t count = 0;  // 0: unknown
+  bool at_most = true;    // whether the run may end earlier
 };
 
-/// Prints a run as it goes: one bar that moves where a person watches a terminal, else a line per view.
+/// Prints the progress of a run: one moving bar on a terminal, otherwise a line per view.
 class RunPrinter {
  public:
   RunPrinter(std::ostream& out, bool terminal, ExpectedViews expected = {})
@@ -26,9 +26,9 @@ class RunPrinter {
             std::uint64_t seed);
   void view(const ViewRecord& view);
   void summary(const RunRecord& record);
-  // How long it took to find the observable cells.
+  // Tells how long the search for observable cells took, seconds.
   void observable(double seconds);
-  // Says, on a terminal, what takes time; what comes of it takes the place of that.
+  // Prints on a terminal what takes time; the next output replaces it.
   void working(const char* what, const char* doing);
   void audit(const RunRecord& record);
   void bound(const RunRecord& record);
@@ -43,13 +43,13 @@ class RunPrinter {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What the bar says of a view, `seconds` after the start: share known, metres, views and their rate, and about how
-/// much is left, by how fast the unknown share has shrunk so far. Where no truth is known to take a share of, by how
-/// many views are expected.
+/// Text of the bar for a view, `seconds` after the start: share known, metres, views and their rate, and the
+/// estimated time left, from how fast the unknown share shrinks. Without ground truth the estimate uses the
+/// expected number of views.
 [[nodiscard]] std::string bar_text(const ViewRecord& view, double seconds, const ExpectedViews& expected = {});
-/// The drawn bar alone and the share in words.
+/// The bar itself and the share in per cent.
 [[nodiscard]] std::string drawn_bar(double share);
-/// "3 min": nobody needs it more exactly.
+/// A rounded time such as "3 min".
 [[nodiscard]] std::string rounded_time(double seconds);
 
 }  // namespace vantage::apps

@@ -11,8 +11,8 @@
 
 namespace vantage::apps {
 
-/// Stands before a planner, keeps its last plan, and writes a run that it drives into a folder as it goes. Without a
-/// folder it only stands there.
+/// A planner that passes every call on to another one, keeps its last plan, and writes the run into a folder.
+/// Without a folder it writes nothing.
 class RunRecording final : public ExplorationPlanner {
  public:
   /// `planner` must outlive it. Nothing is written before the first view.
@@ -24,13 +24,15 @@ class RunRecording final : public ExplorationPlanner {
     planner_.report(map, current, result);
   }
 
-  /// After each view, with the map then. Throws std::runtime_error naming what cannot be written.
+  /// Called after each view with the map at that time. Throws std::runtime_error with the path that cannot be
+  /// written.
   void look(const ViewRecord& view, const OccupancyMap& map);
-  /// At the end of the run, before its page can be written.
+  /// Called at the end of the run, before its page is written.
   void finish(const RunRecord& run);
-  /// The file, once the first view is in it.
+  /// The record file, once it holds the first view.
   [[nodiscard]] std::optional<std::filesystem::path> file() const;
-  /// What recording took, beside inserting and planning, as a line of the run's summary; empty where nothing was.
+  /// A line for the summary: the time of recording beside those of inserting and planning; empty if nothing was
+  /// recorded.
   [[nodiscard]] std::string cost(const RunRecord& run) const;
 
  private:
@@ -38,7 +40,7 @@ class RunRecording final : public ExplorationPlanner {
   std::filesystem::path folder_;
   RunRecorderSetup setup_;
   std::optional<RunRecorder> recorder_;
-  std::optional<Plan> plan_;  // since the view before
+  std::optional<Plan> plan_;  // made since the previous view
   double milliseconds_ = 0.0;
 };
 

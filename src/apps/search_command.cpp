@@ -32,9 +32,10 @@ namespace vantage::apps {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kLeastViewM3 = 0.0016;  // the least that the paper's tables show is 1.61 dm^3
+constexpr double kLeastViewM3 =
+    0.0016;  // just below the smallest utility in the tables of Dornhege & Kleiner 2011, 1.61 dm^3
 
-// `vantage search` as it was typed.
+// Options of `vantage search` as typed.
 struct SearchRequest {
   std::string arm = "tracked";
   std::string links = "base_link,sensor";
@@ -42,8 +43,8 @@ struct SearchRequest {
   std::string joints;
   double clear_m = 0.25;
   bool exhaustive = false;
-  std::size_t bound = 0;  // poses
-  ExploreRequest run;     // what the commands share
+  std::size_t bound = 0;  // number of poses; 0: no bound
+  ExploreRequest run;     // options that the commands share
 
   SearchRequest() {
     run.planner = "frontier-void";
@@ -74,7 +75,8 @@ Pose base_of(const SearchRequest& request) {
          Eigen::AngleAxisd(n.size() > 3 ? n[3] * kRadiansPerDegree : 0.0, Eigen::Vector3d::UnitZ());
 }
 
-// The tracked arm looks over its tracks, bent back; any other stands in the middle of its ranges.
+// First joints: the tracked arm looks over its tracks, bent back; any other arm stands in the middle of its
+// ranges.
 Joints start_joints(const SearchRequest& request, const KinematicChain& chain) {
   Joints joints;
   if (!request.joints.empty()) {
@@ -95,7 +97,7 @@ Joints start_joints(const SearchRequest& request, const KinematicChain& chain) {
   return joints;
 }
 
-// The box of the whole body at these joints, and `clear_m` around it, but nothing below the base.
+// Box of the whole body at these joints with `clear_m` around it, metres; nothing below the base.
 Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pose& world_from_base,
             const Joints& joints) {
   const std::vector<Pose> links = chain.link_poses(joints);
@@ -108,7 +110,7 @@ Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pos
       box.extend(world_from_link * end + reach);
     }
   }
-  // The base stands on something.
+  // The base stands on the floor.
   box.min.z() = std::max(box.min.z(), world_from_base.translation().z());
   return box;
 }
@@ -145,7 +147,7 @@ std::unique_ptr<ExplorationPlanner> planner_of(const SearchRequest& request, con
 
 double litres(double cells, double cell_m) { return cells * std::pow(10.0 * cell_m, 3); }
 
-// As the tables of Dornhege & Kleiner 2011.
+// Prints a view like a row of the tables of Dornhege & Kleiner 2011.
 void print_view(std::ostream& out, const ViewRecord& view, double cell_m) {
   char line[160];
   std::snprintf(line, sizeof line, "view %3zu  integration %7.1f ms  search %8.1f ms  %6.0f void cells  %7.2f dm^3\n",
@@ -278,12 +280,13 @@ void add_search_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, run);
   command
       ->add_flag("--exhaustive", request->exhaustive,
-                 "At the end, tell what thousands of poses of the arm would still see of the voids; slow")
+                 "At the end, count the void cells that thousands of poses of the arm could still see; slow")
       ->group("Run");
   command
-      ->add_option("--bound", request->bound,
-                   "At the end, tell how few views could have seen what was to be seen after the first, all known, "
-                   "among so many poses of the arm; slow")
+      ->add_option(
+          "--bound", request->bound,
+          "At the end, bound the number of views needed with full knowledge of the scene, over so many poses of the "
+          "arm; slow")
       ->type_name("POSES")
       ->check(a_whole_number(1'000'000))
       ->group("Run");

@@ -31,16 +31,16 @@ namespace {
 using SelectionJson = nlohmann::ordered_json;
 
 constexpr std::uint64_t kRandomOrders = 100;
-constexpr double kMetresPerRadian = 1.0;  // how much a wrong direction counts beside a wrong place
+constexpr double kMetresPerRadian = 1.0;  // weight of a wrong direction relative to a wrong place
 
-// An order and how it compares.
+// An order of the views and how it compares.
 struct Contender {
   ViewOrderCurve curve;
   double above_random_volume = 0.0;  // share of the random orders with a smaller area
   double above_random_surface = 0.0;
-  double above_random_void = 0.0;     // with a larger one: more void is left
-  double choose_ms = 0.0;             // per view; 0 where nothing was chosen
-  std::optional<NamedGoals> goals{};  // where views were chosen by them
+  double above_random_void = 0.0;     // share of the random orders with a larger area: more void is left
+  double choose_ms = 0.0;             // per view; 0 if nothing was chosen
+  std::optional<NamedGoals> goals{};  // if views were chosen by goals
 };
 
 struct Comparison {
@@ -55,12 +55,12 @@ struct Comparison {
   std::size_t void_cells = 0;  // before the first view
 };
 
-// Tells how far choosing has come: one bar over all that choose, or a line for each that is done.
+// Shows the progress of choosing: one bar over all choosers, or a line for each that is done.
 class ChoosingPrinter {
  public:
   ChoosingPrinter(ProgressStream& told, std::size_t choices) : told_(told), choices_(choices) {}
 
-  // Before a view is chosen.
+  // Called before a view is chosen.
   void choosing(const std::string& name, std::size_t view, std::size_t views) {
     if (!told_.is_terminal()) {
       return;
@@ -78,7 +78,7 @@ class ChoosingPrinter {
       told_.stream() << "chosen by " << contender.curve.name << std::endl;
     }
   }
-  // Once everybody has chosen.
+  // Called when all are done.
   void finish() {
     if (told_.is_terminal()) {
       told_.stream() << "\r\x1b[K";
@@ -92,7 +92,7 @@ class ChoosingPrinter {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The curve in the middle, by the area given; leaves them in its order.
+// The median curve by `area`; sorts the curves.
 template <class Area>
 const ViewOrderCurve& median_of(std::vector<ViewOrderCurve>& curves, const Area& area) {
   std::sort(curves.begin(), curves.end(), [&](const auto& a, const auto& b) { return area(a) < area(b); });
@@ -144,8 +144,8 @@ void add_choosers(const ReplayRequest& request, const Recording& recording, cons
   const auto threads = static_cast<std::size_t>(request.run.threads);
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
   const auto planners = planners_of(request, sensor, platform);
-  // What a planner asks for, by the view nearest to it; and the views judged by what it looks for with its next view,
-  // and by all that it looks for.
+  // Choosers for each planner: the view nearest to its goal, the view for what its next view seeks, and the view
+  // for all that it seeks.
   std::vector<std::pair<std::string, ChooseView>> choosers{{"expected cells", most_expected_cells(views, sensor)}};
   std::map<std::string, NamedGoals> goals;
   for (const auto& planner : planners) {
@@ -179,7 +179,7 @@ Comparison compare(const ReplayRequest& request, const Recording& recording, Pro
   const RecordedViews views = views_of(request, recording, comparison);
   std::vector<double> random_volume;
   std::vector<double> random_surface;
-  std::vector<double> random_void;  // negative: the less is left, the better
+  std::vector<double> random_void;  // negative, because less void is better
   std::vector<ViewOrderCurve> random;
   for (std::uint64_t i = 0; i < kRandomOrders; ++i) {
     random.push_back(views.curve("random, the median", views.random_order(0, request.run.seed + i)));
@@ -240,7 +240,7 @@ void print_table(std::ostream& out, const Comparison& comparison) {
   }
 }
 
-// Up to eight numbers of views, evenly spread, the first and the last among them.
+// Up to eight numbers of views, evenly spread, including the first and the last.
 std::vector<std::size_t> columns_of(std::size_t views) {
   const std::size_t count = std::min<std::size_t>(views, 8);
   std::vector<std::size_t> columns;
@@ -252,7 +252,7 @@ std::vector<std::size_t> columns_of(std::size_t views) {
 
 void print_void_table(std::ostream& out, const Comparison& comparison) {
   if (comparison.void_cells == 0) {
-    return;  // what was hit encloses nothing
+    return;  // the hits enclose no volume
   }
   const std::vector<std::size_t> columns = columns_of(comparison.frames.size());
   char text[128];

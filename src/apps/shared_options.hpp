@@ -7,16 +7,16 @@ namespace CLI {
 class App;
 }
 
-// Options that several commands have; each is asked for, checked and explained once.
+// Options that several commands have: added, checked and described once.
 namespace vantage::apps {
 
-/// --sensor, --robot-radius and --noise, under this heading of the help.
+/// Adds --sensor, --robot-radius and --noise under this heading of the help.
 void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* group);
-/// --set; `about` says whose settings they are.
+/// Adds --set; `about` says whose settings they are.
 void add_setting_option(CLI::App& command, ExploreRequest& request, const char* about);
-/// --resolution, --max-views, --seed and --threads.
+/// Adds --resolution, --max-views, --seed and --threads.
 void add_run_options(CLI::App& command, ExploreRequest& request);
-/// --out, --json and --quiet.
+/// Adds --out, --json and --quiet.
 void add_output_options(CLI::App& command, ExploreRequest& request);
 
 }  // namespace vantage::apps

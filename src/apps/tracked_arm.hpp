@@ -3,7 +3,7 @@
 
 namespace vantage::apps {
 
-/// examples/tracked_arm.urdf, as text.
+/// The text of examples/tracked_arm.urdf.
 extern const char* const kTrackedArm;
 
 }  // namespace vantage::apps

@@ -21,7 +21,7 @@ double gap_m(const Pose& a, const Pose& b, double metres_per_radian) {
   return (a.translation() - b.translation()).norm() + metres_per_radian * std::abs(angle);
 }
 
-// The cells that count: those of the object, or a box that no view leaves.
+// The cells that count: those of the object, or a box that contains all views.
 VoxelBox cells_that_count(const RecordedViews& views, const VoxelFrame& frame, double range_m) {
   Box box;
   for (const Scan& scan : views.scans()) {
@@ -32,7 +32,7 @@ VoxelBox cells_that_count(const RecordedViews& views, const VoxelFrame& frame, d
   return {frame.cell_of(box.min), frame.cell_of(box.max) + VoxelIndex{1, 1, 1}};
 }
 
-// How far returns came from: the share of those seen so far that came from beyond a distance.
+// Ranges of the returns so far: the share that came from beyond a distance.
 class RangeShares {
  public:
   RangeShares(double cell_m, double range_m)
@@ -61,13 +61,13 @@ class RangeShares {
   std::vector<double> beyond_;
 };
 
-// How many cells a view is expected to make known, and how many of them are marked.
+// The expected number of cells that a view makes known, and how many of them are marked.
 struct ExpectedGain {
   double cells = 0.0;
   double marked = 0.0;
 };
 
-// The chance of every cell of a box to become known, one value per cell; only what was touched is cleared again.
+// The probability of each cell of a box to become known. Only touched values are cleared.
 class Chances {
  public:
   explicit Chances(const VoxelBox& box)
@@ -87,7 +87,7 @@ class Chances {
     }
     value = std::max(value, static_cast<float>(chance));
   }
-  /// Marks cells, for as long as no others are marked.
+  /// Marks these cells instead of those marked before.
   void mark(const std::vector<VoxelIndex>& cells) {
     marked_.assign(chance_.size(), false);
     for (const VoxelIndex& cell : cells) {
@@ -96,7 +96,7 @@ class Chances {
       }
     }
   }
-  /// The sum over all cells, and that over the marked ones; afterwards every chance is 0 again.
+  /// Sums over all cells and over the marked ones; then sets every value to 0.
   ExpectedGain take_sums() {
     ExpectedGain gain;
     for (const std::size_t position : touched_) {
@@ -130,7 +130,7 @@ ExpectedGain expected_gain(const OccupancyMap& map, const Pose& pose, const std:
   const Eigen::Vector3d from = pose.translation();
   for (const Eigen::Vector3f& direction : directions) {
     const Eigen::Vector3d to = from + range_m * (pose.linear() * direction.cast<double>());
-    std::optional<double> began;  // the share of returns from beyond where the unknown began
+    std::optional<double> began;  // share of the returns from beyond the start of the unknown
     for (const VoxelIndex& cell : VoxelRay(map.frame(), from, to)) {
       const Occupancy state = map.at(cell);
       if (state == Occupancy::Occupied) {
@@ -149,7 +149,7 @@ ExpectedGain expected_gain(const OccupancyMap& map, const Pose& pose, const std:
   return chances.take_sums();
 }
 
-// Asked view by view, it learns from each how far returns come.
+// Expected gains of views. It learns the ranges of the returns from view to view.
 class ExpectedGains {
  public:
   ExpectedGains(const RecordedViews& views, const RangeSensor& sensor)
@@ -159,7 +159,7 @@ class ExpectedGains {
         directions_(sensor.rays_for(views.options().resolution_m).directions()),
         chances_(cells_that_count(views, VoxelFrame{views.options().resolution_m}, sensor.max_range_m)) {}
 
-  /// The gains of the views `left`, in their order.
+  /// Gains of the views `left`, in their order.
   std::vector<ExpectedGain> of(const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left,
                                const std::vector<VoxelIndex>& marked) {
     shares_.add(views_->scans()[last]);
@@ -181,10 +181,10 @@ class ExpectedGains {
   Chances chances_;
 };
 
-// A view that shows this share of the most that any shows of what is sought will do.
+// A view is good enough if it shows this share of the sought cells that the best one shows.
 constexpr double kEnough = 0.5;
 
-// By what each gain is worth; of equal ones the first.
+// Index of the gain of the largest worth; of several, the first.
 template <class Worth>
 std::size_t best_of(std::span<const std::size_t> left, const std::vector<ExpectedGain>& gains, const Worth& worth) {
   const auto best =

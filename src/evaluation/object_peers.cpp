@@ -31,7 +31,7 @@ std::vector<Pose> admitted_views(const ObjectPeerSetup& setup, const std::vector
   return admitted;
 }
 
-// Views along a spiral from the top of a shell to its bottom, as far from each other as from the next turn.
+// Views on a golden-angle spiral from the top of the first shell to its bottom, evenly spread.
 std::vector<Pose> spiral_views(const ObjectPeerSetup& setup, std::size_t count, double turned_rad) {
   const Eigen::Vector3d middle = setup.scene->box.centre();
   const double radius_m = setup.scene->radii_m.front();
@@ -50,7 +50,7 @@ std::vector<Pose> spiral_views(const ObjectPeerSetup& setup, std::size_t count, 
 std::vector<Pose> evenly_spaced(const ObjectPeerSetup& setup) {
   Dice dice(setup.seed);
   const double turned_rad = 2.0 * std::numbers::pi * dice.share();
-  constexpr std::size_t kMost = 100;  // times as many on the whole sphere as are admitted
+  constexpr std::size_t kMost = 100;  // at most this many times as many views are tried as are wanted
   for (std::size_t count = setup.views; count <= kMost * setup.views; ++count) {
     std::vector<Pose> views = admitted_views(setup, spiral_views(setup, count, turned_rad));
     if (views.size() >= setup.views) {
@@ -61,7 +61,7 @@ std::vector<Pose> evenly_spaced(const ObjectPeerSetup& setup) {
   throw std::invalid_argument("evenly-spaced: the robot's body fits nowhere on the shell of views");
 }
 
-// Takes views of a list, in an order that the derived class decides.
+// Takes the views of a list in an order that the derived class decides.
 class ListPeer : public ObjectPeer {
  public:
   ListPeer(std::string_view name, const ObjectPeerSetup& setup, std::vector<Pose> views)
@@ -97,9 +97,9 @@ class ListPeer : public ObjectPeer {
   }
 
  protected:
-  // Takes note of a view that was taken.
+  // Called with the pose of the sensor before each new plan.
   virtual void came(const Pose&) {}
-  // The next of those left; none: it is over.
+  // Index of the next view among those left; none: the run is over.
   [[nodiscard]] virtual std::optional<std::size_t> best() = 0;
   [[nodiscard]] const std::vector<Pose>& views() const { return views_; }
   [[nodiscard]] const std::vector<std::size_t>& left() const { return left_; }
@@ -112,7 +112,7 @@ class ListPeer : public ObjectPeer {
   std::optional<std::pair<OccupancyMap::Revision, Plan>> planned_;
 };
 
-// In the order of the list.
+// Takes the views in the order of the list.
 class OrderedPeer final : public ListPeer {
  public:
   OrderedPeer(std::string_view name, const ObjectPeerSetup& setup, std::vector<Pose> views, bool begins)

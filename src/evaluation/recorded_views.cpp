@@ -17,7 +17,7 @@ double mean_of(const std::vector<double>& values) {
                         : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Cells seen so far, and how many they are.
+// The cells seen so far and their number.
 class SeenCells {
  public:
   explicit SeenCells(std::size_t cells) : seen_(cells, false) {}
@@ -80,8 +80,8 @@ class CellNumbers {
   std::size_t count_ = 0;
 };
 
-// All cells inside the hull of the occupied ones: the void cells of a map that knows nothing but its corners, and
-// these.
+// All cells inside the hull of the occupied ones: the void cells of a map that knows only its corners, and these
+// corners.
 std::vector<VoxelIndex> cells_in_hull(const OccupancyMap& map) {
   OccupancyMap corners(map.options());
   const ConvexHull hull = occupied_hull(map);
@@ -150,13 +150,13 @@ RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions&
   }
 }
 
-// With an object the map ends with what is known around it: beyond, there is nothing to look for.
+// With an object the map has a region that ends with what is known around it, because nothing beyond counts.
 OccupancyMap RecordedViews::map_before() const {
   if (!object_) {
     return OccupancyMap(options_);
   }
   const Eigen::Vector3d cell = Eigen::Vector3d::Constant(options_.resolution_m);
-  Box all{object_->min - cell, object_->max + cell};  // with the cells that it cuts
+  Box all{object_->min - cell, object_->max + cell};  // with the cells that its faces cut
   for (const Scan& scan : scans_) {
     all.extend(scan.world_from_sensor.translation() + cell);
     all.extend(scan.world_from_sensor.translation() - cell);
@@ -183,7 +183,7 @@ ViewOrderCurve RecordedViews::curve(std::string name, std::vector<std::size_t> o
     result.surface.push_back(static_cast<double>(hit.count()));
     result.void_cells.push_back(void_cells_ - inside.count());
   }
-  for (std::size_t view = 0; view < size(); ++view) {  // what all of them make known
+  for (std::size_t view = 0; view < size(); ++view) {  // box of everything that the views make known
     known.add(known_[view]);
     hit.add(hit_[view]);
   }
@@ -221,7 +221,8 @@ std::vector<std::size_t> RecordedViews::random_order(std::size_t start, std::uin
   std::vector<std::size_t> order = recorded_order();
   std::swap(order.front(), order.at(start));
   std::mt19937_64 engine(seed);
-  for (std::size_t i = order.size(); i-- > 2;) {  // Fisher & Yates, by hand: the same on every standard library
+  for (std::size_t i = order.size();
+       i-- > 2;) {  // Fisher-Yates by hand, so that it is the same with every standard library
     std::swap(order[i], order[1 + engine() % i]);
   }
   return order;

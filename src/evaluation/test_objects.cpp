@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// A point of a surface for u and v in [0, 1]; outside is where du x dv points.
+// A surface: a point for u and v in [0, 1]. The outer side is where du x dv points.
 using Patch = std::function<Vector3d(double u, double v)>;
 
 void add_patch(TriangleMesh& mesh, const Patch& patch, int along_u, int along_v) {
@@ -40,7 +40,7 @@ void add_patch(TriangleMesh& mesh, const Patch& patch, int along_u, int along_v)
   }
 }
 
-// Along a curve, round, with a cap at each end that is not joined to the other.
+// A round tube along a curve, with a separate cap at each end.
 void add_tube(TriangleMesh& mesh, const std::function<Vector3d(double)>& curve,
               const std::function<double(double)>& radius_m, int pieces) {
   const auto ring = [&](double u, double v) -> Vector3d {
@@ -68,7 +68,7 @@ void add_rod(TriangleMesh& mesh, const Vector3d& from, const Vector3d& to, doubl
       mesh, [&](double u) -> Vector3d { return from + u * (to - from); }, [=](double) { return radius_m; }, 8);
 }
 
-// A circle of wire, level.
+// A level ring of wire about the z axis.
 void add_ring(TriangleMesh& mesh, double radius_m, double height_m, double wire_m) {
   add_tube(
       mesh,
@@ -78,7 +78,8 @@ void add_ring(TriangleMesh& mesh, double radius_m, double height_m, double wire_
       [=](double) { return wire_m; }, 48);
 }
 
-// A profile of radius and height turned about z, from the axis below, outside, up and inside down to the axis.
+// A profile of (radius, height) turned about z. It goes from the axis at the bottom along the outside, then along
+// the inside down to the axis.
 void add_turned(TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& profile) {
   const auto last = static_cast<double>(profile.size() - 1);
   const auto at = [&](double u) -> Eigen::Vector2d {

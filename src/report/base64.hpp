@@ -6,7 +6,7 @@
 
 namespace vantage::detail {
 
-/// Bytes as letters (RFC 4648).
+/// Encodes bytes in base64 (RFC 4648).
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 }  // namespace vantage::detail

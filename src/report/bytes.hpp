@@ -9,7 +9,7 @@
 
 namespace vantage::detail {
 
-/// Numbers as bytes, the lowest first; small ones in few bytes where they are put as `count` or `integer`.
+/// Writes numbers as bytes, little endian; `count` and `integer` use few bytes for small numbers.
 class ByteWriter {
  public:
   void byte(std::uint8_t value) { bytes_.push_back(static_cast<char>(value)); }
@@ -20,14 +20,14 @@ class ByteWriter {
   }
   void real(double value) { word(std::bit_cast<std::uint64_t>(value), 8); }
   void small_real(float value) { word(std::bit_cast<std::uint32_t>(value), 4); }
-  /// Seven bits a byte.
+  /// Variable length, seven bits per byte.
   void count(std::uint64_t value) {
     for (; value >= 0x80U; value >>= 7U) {
       byte(static_cast<std::uint8_t>(value | 0x80U));
     }
     byte(static_cast<std::uint8_t>(value));
   }
-  /// 0, -1, 1, -2 ... as counts 0, 1, 2, 3 ...
+  /// Variable length with a sign: 0, -1, 1, -2 ... are the counts 0, 1, 2, 3 ...
   void integer(std::int64_t value) {
     count((static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63));
   }
@@ -41,7 +41,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// The inverse; throws std::runtime_error when the bytes are spent.
+/// Reads what a ByteWriter wrote. Throws std::runtime_error if too few bytes are left.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -73,7 +73,7 @@ class ByteReader {
     return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
   }
   std::string_view text() { return take(static_cast<std::size_t>(count())); }
-  /// How many things follow, each of at least `least_bytes`: a count that the rest can hold.
+  /// Number of items that follow, each of at least `least_bytes`. Throws if the remaining bytes cannot hold them.
   std::size_t length(std::size_t least_bytes) {
     const std::uint64_t value = count();
     if (value > bytes_.size() / least_bytes) {

@@ -12,7 +12,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr float kUnit = 127.0F;                            // of a component of a direction
+constexpr float kUnit = 127.0F;                            // the value of 1 in a component of a direction
 constexpr std::size_t kMostBricks = std::size_t{1} << 22;  // 3 GB as a map
 
 bool brick_is_addressable(const VoxelIndex& brick) {
@@ -29,7 +29,7 @@ void put(ByteWriter& out, const Pose& pose) {
   }
 }
 
-// Not by Eigen's commas: a list of them that an error cuts short ends the process.
+// Not with Eigen's comma initialiser: if reading throws in the middle of one, its assertion ends the process.
 Eigen::Vector3d point_from(ByteReader& in) {
   Eigen::Vector3d point;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -62,7 +62,7 @@ std::optional<double> optional_from(ByteReader& in) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-// A place as steps from the one before.
+// Writes a cell as its difference from the previous one.
 void put(ByteWriter& out, const VoxelIndex& at, VoxelIndex& before) {
   out.integer(std::int64_t{at.x} - before.x);
   out.integer(std::int64_t{at.y} - before.y);
@@ -187,7 +187,7 @@ void read_plan(ByteReader& in, RecordedCycle& cycle) {
   }
 }
 
-// Words that differ, a bit for each of them first.
+// Writes a bit mask of the words that differ, then these words.
 void put_difference(ByteWriter& out, const BrickPlane& now, const BrickPlane& before) {
   std::uint8_t differ = 0;
   for (std::size_t word = 0; word < Brick::kWords; ++word) {

@@ -8,12 +8,13 @@
 
 namespace vantage::detail {
 
-/// The cells of all bricks after the last cycle, which the next one is told against.
+/// The cells of all bricks after the last cycle; the next cycle is encoded as the difference.
 using BrickStates = std::unordered_map<VoxelIndex, BrickState>;
 
-/// One cycle as bytes. Of bricks only what differs from `before` is told, and `before` follows.
+/// Encodes a cycle. Bricks are written as their difference from `before`, which is then brought up to date.
 [[nodiscard]] std::string encode(const RecordedCycle& cycle, BrickStates& before);
-/// The inverse. Throws std::runtime_error if the bytes are not those of a cycle; `before` is then of no more use.
+/// Decodes a cycle and brings `before` up to date. Throws std::runtime_error if the bytes are not a cycle;
+/// `before` must then not be used any more.
 [[nodiscard]] RecordedCycle decode(std::string_view bytes, BrickStates& before);
 
 }  // namespace vantage::detail

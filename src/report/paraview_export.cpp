@@ -15,13 +15,13 @@ namespace {
 
 using Part = std::pair<std::size_t, std::filesystem::path>;
 
-// One series: a folder of parts and the file that lists them.
+// A time series: a folder of parts and the .pvd file that lists them.
 class Series {
  public:
   Series(const std::filesystem::path& folder, const std::string& name, std::string suffix)
       : file_(folder / (name + ".pvd")), folder_(folder / name), suffix_(std::move(suffix)) {}
 
-  // Where the part of a moment goes.
+  // Adds a time step and returns the path of its part.
   std::filesystem::path at(std::size_t view) {
     if (parts_.empty()) {
       std::filesystem::create_directories(folder_);
@@ -81,7 +81,7 @@ void write_path(const std::vector<Eigen::Vector3d>& behind, const std::vector<Po
                 const std::filesystem::path& file) {
   detail::VtkPolyData data;
   data.points = behind;
-  if (behind.size() == 1) {  // VTK stumbles over a line without a second end
+  if (behind.size() == 1) {  // VTK cannot read a line with a single point
     data.points.push_back(behind.front());
   }
   data.line_lengths = {static_cast<std::int32_t>(data.points.size())};

@@ -9,22 +9,22 @@
 
 namespace vantage::detail {
 
-/// In place of the view after which something ended: it has not.
+/// `death` of what still exists.
 inline constexpr std::uint16_t kNever = 0xFFFF;
 
-/// A cell that belonged to a set from one view on until another.
+/// A cell that was in a set from one view until another.
 struct TimedCell {
   VoxelIndex cell;
   std::uint16_t birth = 0;
   std::uint16_t death = kNever;
 };
 
-/// The times at which cells joined and left a set that is told brick by brick.
+/// Records when cells join and leave a set that is given brick by brick.
 class PlaneHistory {
  public:
-  /// The cells of a brick in the set after view `now`; views come in order.
+  /// Sets the cells of a brick that are in the set after view `now`. Views must come in order.
   void set(const VoxelIndex& brick, const BrickPlane& cells, std::uint16_t now);
-  /// Every stay of a cell in the set, those that last included, ordered by cell and birth.
+  /// Every stay of a cell in the set, also those that have not ended, ordered by cell and birth.
   [[nodiscard]] std::vector<TimedCell> stays() const;
 
  private:

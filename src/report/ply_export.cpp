@@ -17,7 +17,7 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-// From deep blue to pale yellow, the brighter the higher.
+// Colour of a height in [0, 1]: from deep blue (low) to pale yellow (high).
 Colour colour_of(double share) {
   constexpr std::array<std::array<double, 3>, 5> kStops{
       {{43, 58, 103}, {63, 95, 138}, {91, 138, 154}, {207, 208, 164}, {255, 247, 234}}};
@@ -52,7 +52,7 @@ std::vector<VoxelIndex> occupied_cells(const OccupancyMap& map) {
   return cells;
 }
 
-// A PLY file of coloured vertices and, unless there are none, triangles.
+// Writes a PLY file of coloured vertices and, if there are any, triangles.
 void write_ply(const std::vector<Eigen::Vector3d>& vertices,
                const std::vector<std::array<std::uint32_t, 3>>& triangles, const std::filesystem::path& file) {
   double low = std::numeric_limits<double>::infinity();
@@ -92,7 +92,7 @@ void write_ply(const std::vector<Eigen::Vector3d>& vertices,
 void write_ply_mesh(const OccupancyMap& map, const std::filesystem::path& file) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::unordered_map<VoxelIndex, std::uint32_t> numbers;  // of the cell whose lowest corner a vertex is
+  std::unordered_map<VoxelIndex, std::uint32_t> numbers;  // vertex number by the cell whose lowest corner it is
   const auto vertex = [&](const VoxelIndex& corner) {
     const auto [at, is_new] = numbers.try_emplace(corner, static_cast<std::uint32_t>(vertices.size()));
     if (is_new) {

@@ -11,11 +11,11 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kChunkLevel = 1;  // the fastest: cells that change lie together and pack well anyhow
+constexpr int kChunkLevel = 1;  // the fastest; cells that change lie together and compress well anyway
 constexpr std::size_t kSizes = 9;
 constexpr std::size_t kFrame = kSizes + 4;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
-constexpr std::uint64_t kMostPacked = 1100;  // plain bytes for one: deflate packs no more than 1032 into it
+constexpr std::uint64_t kMostPacked = 1100;  // most unpacked bytes per packed byte; deflate reaches at most 1032
 
 const Bytef* data_of(std::string_view bytes) { return reinterpret_cast<const Bytef*>(bytes.data()); }
 
@@ -66,7 +66,7 @@ std::optional<Chunk> read_chunk(std::istream& in, std::string& problem) {
     problem = "a chunk is cut off or damaged";
     return std::nullopt;
   }
-  // A damaged length must not ask for memory that the file cannot fill.
+  // A damaged length must not allocate more than the file can fill.
   const std::istream::pos_type here = in.tellg();
   in.seekg(0, std::ios::end);
   const std::streamoff left = in.tellg() - here;

@@ -9,17 +9,18 @@
 
 namespace vantage::detail {
 
-/// What the first chunk of a record says.
+/// What the first chunk of a record holds.
 struct RecordHead {
   RunRecord run;  ///< what is known before the first cycle
   RangeSensor sensor;
   std::optional<VoxelBox> region;
 };
 
-// As JSON, and back; what is missing keeps its default. Reading throws std::runtime_error for what is none.
+// To JSON and back. Missing keys keep their defaults. Reading throws std::runtime_error for text that is not such
+// JSON.
 [[nodiscard]] std::string head_json(const RecordHead& head);
 [[nodiscard]] RecordHead head_of(const std::string& json);
-/// What is known only at the end of a run.
+/// What is known only at the end of a run, as JSON.
 [[nodiscard]] std::string end_json(const RunRecord& run);
 void read_end(const std::string& json, RunRecord& run);
 

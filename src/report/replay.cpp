@@ -16,7 +16,7 @@ namespace {
 
 using Planes = std::unordered_map<VoxelIndex, BrickPlane>;
 
-// Those cells of a brick that have a free neighbour, by the direction of the neighbour.
+// For each direction of kFaceNeighbours, the cells of a brick whose neighbour there is free.
 std::array<BrickPlane, 6> faces_of(const OccupancyMap& map, const VoxelIndex& brick, const BrickPlane& cells) {
   std::array<BrickPlane, 6> faces{};
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -32,7 +32,7 @@ std::array<BrickPlane, 6> faces_of(const OccupancyMap& map, const VoxelIndex& br
   return faces;
 }
 
-// Bricks whose faces or frontier the change may have touched.
+// Bricks whose faces or frontier may have changed.
 std::vector<VoxelIndex> touched_by(const std::vector<BrickState>& changes) {
   std::vector<VoxelIndex> touched;
   touched.reserve(7 * changes.size());
@@ -56,7 +56,7 @@ Planes planes_of(const std::vector<VoxelIndex>& cells) {
   return planes;
 }
 
-// What there is to see, kept up to date cycle by cycle.
+// What the replay shows, kept up to date cycle by cycle.
 class Follower {
  public:
   explicit Follower(OccupancyMap map) : map_(std::move(map)) {}
@@ -85,7 +85,7 @@ class Follower {
   }
 
  private:
-  // Hidden as soon as what lay before them has changed: only a plan tells anew where voids are.
+  // Void faces are hidden as soon as the cells before them change; only the next plan recounts the voids.
   void follow_voids(std::uint16_t now) {
     const Planes planes = planes_of(void_cells(map_));
     for (const VoxelIndex& brick : std::exchange(void_bricks_, {})) {

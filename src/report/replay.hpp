@@ -13,19 +13,20 @@
 
 namespace vantage::detail {
 
-/// A record made ready to be looked at: everything knows from which view on and until which it is to be seen.
+/// A record prepared for display: every item has the view at which it appears and the view at which it disappears.
 struct Replay {
   RunRecord run;
   RangeSensor sensor;
-  VoxelBox bounds;                                 ///< of every cell below
-  std::array<std::vector<TimedQuad>, 6> surfaces;  ///< of occupied cells towards free ones, by direction
-  std::array<std::vector<TimedQuad>, 6> voids;     ///< of void cells towards free ones, where a planner counts voids
-  std::vector<TimedCell> frontiers;                ///< frontier cells
-  std::vector<std::size_t> known_cells;            ///< free or occupied, after each view
-  std::vector<RecordedCycle> cycles;               ///< without their changes, one per view
+  VoxelBox bounds;                                 ///< box of all cells below
+  std::array<std::vector<TimedQuad>, 6> surfaces;  ///< faces of occupied cells towards free ones, by direction
+  std::array<std::vector<TimedQuad>, 6>
+      voids;                             ///< faces of void cells towards free ones; only if the planner counts voids
+  std::vector<TimedCell> frontiers;      ///< frontier cells
+  std::vector<std::size_t> known_cells;  ///< free and occupied cells after each view
+  std::vector<RecordedCycle> cycles;     ///< one per view, without `changes`
 };
 
-/// Reads all of a record; errors as RunRecordReader. Views after the first 65534 are left out.
+/// Reads a whole record. Views after the first 65534 are left out. Throws as RunRecordReader.
 [[nodiscard]] Replay replay_of(const std::filesystem::path& record);
 
 }  // namespace vantage::detail

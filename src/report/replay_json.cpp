@@ -27,7 +27,7 @@ json point_json(const Eigen::Vector3d& point) {
   return {to_millimetres(point.x()), to_millimetres(point.y()), to_millimetres(point.z())};
 }
 
-// One value of every item after the other.
+// Appends one value of each item (column by column).
 template <class Items, class Value>
 void put_column(ByteWriter& out, const Items& items, const Value& value) {
   for (const auto& item : items) {
@@ -66,7 +66,7 @@ json cells_json(const std::vector<TimedCell>& cells, const VoxelIndex& lo) {
   return {{"count", cells.size()}, {"data", packed_columns(columns)}};
 }
 
-// Where each potential stands among the others of its cycle: 0 for the lowest, 255 for the highest.
+// Rank of each potential within its cycle: 0 for the lowest, 255 for the highest.
 std::vector<std::uint8_t> ranks_of(const std::vector<FieldArrow>& field) {
   std::vector<std::size_t> order(field.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> ranks_of(const std::vector<FieldArrow>& field) {
   return ranks;
 }
 
-// The distance of samples, in cells: the smallest step between two that differ along an axis.
+// Spacing of the samples in cells.
 std::int32_t step_of(const std::vector<FieldArrow>& field) {
   std::int32_t step = 0;
   for (const FieldArrow& arrow : field) {
@@ -145,7 +145,7 @@ json plan_json(const RecordedCycle& cycle) {
           {"stages", {cycle.survey_ms, cycle.choose_ms, cycle.path_ms}}};
 }
 
-// All that is to be seen, places that lie beside the map's cells included.
+// Box of all cells that are shown: the known ones, and voids and samples of the field outside them.
 VoxelBox extent_of(const Replay& replay) {
   VoxelBox extent = replay.bounds;
   const auto hold = [&extent](const VoxelIndex& cell) {

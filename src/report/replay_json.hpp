@@ -7,7 +7,7 @@
 
 namespace vantage::detail {
 
-/// A replay as the page reads it: numbers as JSON, lists of cells as columns of 16-bit numbers, lowest byte first,
+/// A replay as the page reads it: numbers as JSON; lists of cells as columns of 16-bit little endian numbers,
 /// packed by deflate, in base64.
 [[nodiscard]] nlohmann::json replay_json(const Replay& replay);
 

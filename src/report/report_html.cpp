@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-// A run as the page's script reads it. No "<", which could end that script.
+// A run as the script of the page reads it. It must hold no "<", which could end that script.
 std::string run_script(const json& run) {
   const std::string text = run.dump(-1, ' ', false, json::error_handler_t::replace);
   std::string safe;
@@ -44,14 +44,14 @@ json parsed_report(const std::string& text) {
 
 json run_json(json report, const detail::Replay* replay) {
   json run = {{"report", std::move(report)}};
-  // Of another run, or of one that was still going on: then it does not belong to the report.
+  // A record of another run, or of one that was still going on, does not fit the report.
   if (replay != nullptr && !replay->cycles.empty() && replay->cycles.size() == run["report"]["cycles"].size()) {
     run["replay"] = detail::replay_json(*replay);
   }
   return run;
 }
 
-// The page with every {{name}} replaced by the file of that name, and {{runs}} by the runs.
+// Writes the page: every {{name}} is replaced by the file of that name, {{runs}} by the runs.
 void write_page(const std::string& runs, const std::filesystem::path& html) {
   std::string out;
   const std::string whole = detail::page_file("page.html");

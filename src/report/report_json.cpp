@@ -20,7 +20,7 @@ ordered_json or_null(const std::optional<T>& value) {
 ordered_json pose_json(const Pose& pose) {
   Eigen::Quaterniond q(pose.linear());
   if (q.w() < 0.0) {
-    q.coeffs() = -q.coeffs();  // the same rotation; one of the two spellings always
+    q.coeffs() = -q.coeffs();  // the same rotation; qw >= 0 makes it unique
   }
   const Eigen::Vector3d t = pose.translation();
   return ordered_json::array({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
@@ -41,7 +41,7 @@ ordered_json times_json(const RunRecord& record) {
   std::vector<double> plan_ms;
   for (const ViewRecord& view : record.views) {
     insert_ms.push_back(view.insert_ms);
-    if (view.plan_ms > 0.0) {  // 0: the plan before was still being followed
+    if (view.plan_ms > 0.0) {  // 0: the previous plan was still followed
       plan_ms.push_back(view.plan_ms);
     }
   }
@@ -100,7 +100,7 @@ ordered_json summary_json(const RunRecord& record) {
   return summary;
 }
 
-// A world's file name may be any bytes: what is not UTF-8 is replaced, never thrown at the end of a long run.
+// A file name may hold any bytes. What is not UTF-8 is replaced, so that nothing throws at the end of a long run.
 std::string dump(const ordered_json& value, int indent = -1) {
   return value.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -53,7 +53,7 @@ class RunRecordReader::State {
     if (over) {
       return std::nullopt;
     }
-    over = true;  // unless all goes well
+    over = true;  // unless everything below succeeds
     const std::optional<detail::Chunk> chunk = detail::read_chunk(in, tail);
     if (!chunk) {
       return std::nullopt;

@@ -20,7 +20,7 @@
 namespace vantage {
 namespace detail {
 
-// A file that only grows, by all of what is appended or by nothing.
+// A file that only grows: an append writes everything or nothing.
 class AppendFile {
  public:
   AppendFile(std::filesystem::path path, bool sync)
@@ -80,7 +80,7 @@ bool on_lattice(const VoxelIndex& cell, std::int32_t step) {
   return cell.x % step == 0 && cell.y % step == 0 && cell.z % step == 0;
 }
 
-// Fall of phi per cell; a face behind which there is no cell lets nothing through.
+// Descent of phi per cell along each axis; a closed face contributes nothing.
 Eigen::Vector3f fall_at(const HarmonicField& field, LaplaceProblem::Position at) {
   const auto& neighbours = field.problem.neighbours(at);
   const auto phi = [&](LaplaceProblem::Position neighbour) {
@@ -94,7 +94,7 @@ Eigen::Vector3f fall_at(const HarmonicField& field, LaplaceProblem::Position at)
   return steepest > 0.0 ? (fall / steepest).normalized().cast<float>() : Eigen::Vector3f(Eigen::Vector3f::Zero());
 }
 
-// On a lattice that is just wide enough to leave no more than `most` samples.
+// Samples of a field on a lattice, with the least spacing that leaves at most `most` samples.
 std::vector<FieldArrow> samples_of(const HarmonicField& field, std::size_t most) {
   std::vector<FieldArrow> samples;
   if (most == 0) {
@@ -139,7 +139,7 @@ class RunRecorder::State {
     file.append(detail::kRecordMagic);
   }
 
-  // The head waits for the first map, which knows the resolution and the region.
+  // The head is written with the first map, because it holds the resolution and the region.
   void begin(const OccupancyMap* map) {
     if (begun) {
       return;
@@ -190,7 +190,7 @@ void RunRecorder::record(const OccupancyMap& map, ViewRecord view, const Plan* p
   RecordedCycle cycle;
   if (plan != nullptr) {
     view.utility = plan->goal.utility;
-    // A planner that counts none of a kind does not know better than the host.
+    // If the planner counted none of a kind, the count of the host stays.
     view.frontier_cells = plan->statistics.frontier_cells > 0 ? plan->statistics.frontier_cells : view.frontier_cells;
     view.void_cells = plan->statistics.void_cells > 0 ? plan->statistics.void_cells : view.void_cells;
     view.outcome = plan->outcome;
@@ -208,7 +208,7 @@ void RunRecorder::record(const OccupancyMap& map, ViewRecord view, const Plan* p
   }
   cycle.view = std::move(view);
   cycle.changes = changes_since(map, state.revision);
-  state.finished = true;  // for good, should this fail: what is told against it would be missing
+  state.finished = true;  // also if this throws: later cycles would be encoded against one that is not in the file
   state.file.append(detail::packed(detail::ChunkKind::Cycle, detail::encode(cycle, state.states)));
   state.finished = false;
   state.revision = map.revision();

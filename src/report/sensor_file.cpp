@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 14> kFields{"projection",
                                                    "max_range_m",
                                                    "reports_no_return"};
 
-/// Reads fields of one object; every error names the field.
+/// Reads the fields of one JSON object. Every error names the field.
 class Fields {
  public:
   explicit Fields(const json& object) : object_(object) {
@@ -82,7 +82,7 @@ class Fields {
     }
     return has(key) ? object_.at(key).get<std::string>() : otherwise;
   }
-  /// `<name>_rad` or `<name>_deg`, in radians.
+  /// Reads `<name>_rad` or `<name>_deg`; radians.
   [[nodiscard]] std::optional<double> angle(const std::string& name) const {
     const std::optional<double> radians = number((name + "_rad").c_str());
     const std::optional<double> degrees = number((name + "_deg").c_str());
@@ -158,7 +158,7 @@ RangeSensor sensor_of(const json& object) {
   return sensor;
 }
 
-// The library's own messages begin with a tag in brackets and speak of its parser: keep the line and the cause.
+// Messages of the JSON library begin with a tag in brackets. This keeps the line and the cause.
 std::string without_tag(const std::string& message) {
   const std::size_t end = message.find("] ");
   return message.rfind('[', 0) == 0 && end != std::string::npos ? message.substr(end + 2) : message;

@@ -7,7 +7,7 @@
 namespace vantage::detail {
 namespace {
 
-// A rectangle by the axes of its plane: `u` along its width, `v` along its height, `w` the way it looks.
+// A rectangle in the axes of its plane: `u` along its width, `v` along its height, `w` along its normal.
 struct Flat {
   std::int32_t u;
   std::int32_t v;
@@ -15,7 +15,7 @@ struct Flat {
   TimedQuad quad;
 };
 
-// Joins neighbours in a sorted list wherever `next_to(a, b)` says that b continues a.
+// Joins neighbours in a sorted list if `next_to(a, b)`: b continues a.
 template <class NextTo>
 std::vector<Flat> joined(const std::vector<Flat>& flats, std::uint16_t TimedQuad::*extent, const NextTo& next_to) {
   std::vector<Flat> longer;

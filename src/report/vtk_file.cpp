@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kVtkLevel = 6;
 
-// Before packed bytes stand how many blocks there are, their length, the length of a last, shorter one (0: none is),
-// and the packed length of each; all in letters of their own.
+// Packed data in VTK's format: a header with the number of blocks, the block length, the length of a last, shorter
+// block (0: none) and the packed length of each block, then the packed data. Header and data are encoded in base64
+// separately.
 std::string packed_letters(const std::string& bytes) {
   ByteWriter header;
   if (bytes.empty()) {
@@ -48,7 +49,7 @@ void write_file(const std::filesystem::path& file, std::string_view type, std::s
   write_whole_file(file, out.str());
 }
 
-// Which points each cell of a list takes, and where it ends.
+// The connectivity and offsets arrays of cells with these numbers of points.
 std::string cell_arrays(std::size_t points, const std::vector<std::int32_t>& lengths) {
   std::vector<std::int32_t> connectivity(points);
   std::iota(connectivity.begin(), connectivity.end(), 0);

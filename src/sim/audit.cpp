@@ -34,7 +34,7 @@ std::vector<VoxelIndex> unknown_beside_free(const OccupancyMap& map) {
 }
 
 std::vector<VoxelIndex> places_within_reach(const OccupancyMap& map, const Platform& platform, const Pose& current) {
-  constexpr std::int32_t kNear = 2;  // cells, for a pose whose own cell is too tight
+  constexpr std::int32_t kNear = 2;  // cells; how far a start is searched if the pose's own cell is too tight
   if (!map.frame().addressable(current.translation())) {
     return {};
   }
@@ -61,12 +61,12 @@ std::vector<VoxelIndex> places_within_reach(const OccupancyMap& map, const Platf
   return places;
 }
 
-// The faces between cells that a segment crosses across one axis.
+// The cell faces that a segment crosses along one axis.
 struct Faces {
-  std::int32_t step = 0;                                   // to the next cell
-  std::int32_t left = 0;                                   // to cross
-  double next = std::numeric_limits<double>::infinity();   // share of the segment at the next one
-  double delta = std::numeric_limits<double>::infinity();  // from one to the next
+  std::int32_t step = 0;                                   // +1 or -1, to the next cell
+  std::int32_t left = 0;                                   // faces still to cross
+  double next = std::numeric_limits<double>::infinity();   // position of the next face, as a share of the segment
+  double delta = std::numeric_limits<double>::infinity();  // from one face to the next, likewise
 };
 
 std::array<Faces, 3> faces_between(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -91,8 +91,8 @@ std::array<Faces, 3> faces_between(const VoxelFrame& frame, const Eigen::Vector3
   return faces;
 }
 
-// Whether all cells that the segment touches, but the one it starts in, are known to be free. Where it crosses
-// several faces at once, through an edge or a corner, these are all cells about that.
+// Whether all cells that the segment touches, except the one it starts in, are free. Where it crosses several
+// faces at once (an edge or a corner), all cells around that point count.
 bool is_free_line(const OccupancyMap& map, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   constexpr double kAtOnce = 1e-9;
   VoxelIndex cell = map.frame().cell_of(from);
@@ -110,7 +110,7 @@ bool is_free_line(const OccupancyMap& map, const Eigen::Vector3d& from, const Ei
         --faces[axis].left;
       }
     }
-    for (unsigned int part = 1; part < 8; ++part) {  // every choice of the faces crossed
+    for (unsigned int part = 1; part < 8; ++part) {  // every subset of the faces crossed at once
       const VoxelIndex touched = cell + VoxelIndex{(part & 1U) != 0U ? step[0] : 0, (part & 2U) != 0U ? step[1] : 0,
                                                    (part & 4U) != 0U ? step[2] : 0};
       if (touched != cell && map.at(touched) != Occupancy::Free) {

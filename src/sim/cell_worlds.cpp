@@ -20,18 +20,18 @@ void fill(SolidCells& solid, const VoxelIndex& lo, const VoxelIndex& hi, bool va
 
 void carve(SolidCells& solid, const VoxelIndex& lo, const VoxelIndex& hi) { fill(solid, lo, hi, false); }
 
-// A hall of this many cells with walls, floor and ceiling one cell thick.
+// A hall of this many cells. Its walls, floor and ceiling are one cell thick.
 SolidCells hall(const VoxelIndex& extent) {
   SolidCells solid({{0, 0, 0}, extent}, 1);
   carve(solid, {1, 1, 1}, extent - VoxelIndex{1, 1, 1});
   return solid;
 }
 
-// Not std::uniform_int_distribution, whose numbers differ between standard libraries.
+// Not std::uniform_int_distribution, because its numbers differ between standard libraries.
 class WorldDice {
  public:
   explicit WorldDice(std::uint64_t seed) : engine_(seed) {}
-  // In [lo, hi].
+  // A random integer in [lo, hi].
   std::int32_t between(std::int32_t lo, std::int32_t hi) {
     const auto sides = static_cast<std::uint64_t>(std::max(hi - lo, 0)) + 1;
     return lo + static_cast<std::int32_t>(engine_() % sides);
@@ -48,7 +48,7 @@ std::int32_t cells_of(double metres, double own_m) {
 constexpr std::int32_t kDoorHeight = 10;  // 2 m above the floor
 constexpr std::int32_t kDoorWidth = 6;    // 1.2 m
 
-// Cells along x from `x0` to `x1`: rooms between the walls at both ends, each at least 3 m wide where there is space.
+// Splits the cells along x from `x0` to `x1` into rooms, each at least 3 m wide where there is space.
 std::vector<std::pair<std::int32_t, std::int32_t>> split_rooms(WorldDice& dice, std::int32_t x0, std::int32_t x1) {
   std::vector<std::pair<std::int32_t, std::int32_t>> rooms;
   while (x1 - x0 > 40) {
@@ -60,7 +60,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> split_rooms(WorldDice& dice, 
   return rooms;
 }
 
-// Tables and cupboards: boxes against the floor that leave the way from the door free.
+// Puts tables and cupboards on the floor, clear of the path from the door.
 void furnish(SolidCells& solid, WorldDice& dice, const VoxelIndex& lo, const VoxelIndex& hi) {
   for (std::int32_t piece = dice.between(1, 3); piece > 0; --piece) {
     const VoxelIndex size{dice.between(3, 8), dice.between(2, 4), dice.between(2, 9)};

@@ -18,7 +18,7 @@ inline constexpr double kWorldCellM = 0.2;
 [[nodiscard]] SolidCells maze_cells(const WorldOptions& options);
 [[nodiscard]] SolidCells two_storey_cells();
 
-/// The surfaces of the cells, which are the region too.
+/// A world whose surfaces are those of the cells. The region is the box of the cells.
 [[nodiscard]] World world_of_cells(std::string name, const SolidCells& solid);
 
 }  // namespace vantage

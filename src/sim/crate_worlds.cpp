@@ -13,11 +13,11 @@ namespace {
 
 constexpr VoxelFrame kCells{0.025};
 constexpr double kCrateInsetM = 0.0025;
-// The crates stand against a wall.
+// The wall behind the crates: its first cell along x.
 constexpr std::int32_t kWall = 44;
-// What a map of it holds: the floor's layer and 1.5 m above it, 2.5 m wide.
+// The mapped region, in cells: the layer of the floor and 1.5 m above it, 2.5 m wide.
 constexpr VoxelBox kPlace{{-20, -50, -1}, {46, 50, 60}};
-// The laboratory around that, so that a ray past the crates meets something within a Kinect's range.
+// The laboratory around it, so that a ray past the crates meets a surface within the range of a Kinect.
 const Box kLaboratory{{-2.0, -2.0, -kCrateInsetM}, {kWall * 0.025 + kCrateInsetM, 2.0, 2.5}};
 
 class CrateScene {
@@ -35,13 +35,13 @@ class CrateScene {
     fill(outside);
     fill(outside.grown(-1), 0);
   }
-  // The same without its lid.
+  // The same without a lid.
   void open_box(const VoxelBox& outside) {
     fill(outside);
     fill({outside.lo + VoxelIndex{1, 1, 1}, outside.hi - VoxelIndex{1, 1, 0}}, 0);
   }
   void cut(const VoxelBox& opening) { fill(opening, 0); }
-  // A two-by-four, 38 mm by 89 mm, with its length along its own x axis and its middle at `world_from_plank`.
+  // A two-by-four, 38 mm by 89 mm, along its own x axis, with its centre at `world_from_plank`.
   void plank(double length_m, const Pose& world_from_plank) {
     TriangleMesh wood;
     const Eigen::Vector3d half(0.5 * length_m, 0.5 * 0.089, 0.5 * 0.038);
@@ -66,7 +66,7 @@ class CrateScene {
   TriangleMesh planks_;
 };
 
-// A plank whose middle is at `middle_m`, turned about the vertical and then lifted at its far end.
+// Pose of a plank with its centre at `middle_m`, turned about the vertical, then with its far end lifted.
 Pose lying(const Eigen::Vector3d& middle_m, double yaw_rad, double lift_rad = 0.0) {
   return Eigen::Translation3d(middle_m) * Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(-lift_rad, Eigen::Vector3d::UnitY());
@@ -74,7 +74,7 @@ Pose lying(const Eigen::Vector3d& middle_m, double yaw_rad, double lift_rad = 0.
 
 }  // namespace
 
-// A computer's tower, two boxes open at the top and some two-by-fours: three on the floor before them.
+// A computer tower, two boxes open at the top, and three two-by-fours on the floor before them.
 World crates_open_world() {
   CrateScene scene;
   scene.fill({{26, -26, 0}, {44, -18, 17}});
@@ -86,8 +86,8 @@ World crates_open_world() {
   return scene.world("crates-open", {{14, -27, 0}, {kWall, 23, 18}});
 }
 
-// Two large closed boxes that nothing sees into, and smaller ones with a small opening each: two on the large ones,
-// open to the robot, and one on the floor, open above.
+// Two large closed boxes that no view sees into, and three smaller ones with an opening: two on the large ones,
+// open towards the robot, and one on the floor, open at the top.
 World crates_closed_world() {
   CrateScene scene;
   scene.closed_box({{26, -24, 0}, {44, 0, 14}});

@@ -5,8 +5,8 @@
 
 namespace vantage {
 
-// The two scenes of Dornhege & Kleiner 2011, V-B, on an open floor before a robot that stands at the origin and looks
-// along +x. Boxes are made of cells of 2.5 cm with surfaces 2.5 mm inside them; planks lie as they fell.
+// Two scenes on an open floor before a robot at the origin that looks along +x. Boxes are made of cells of 2.5 cm
+// with surfaces 2.5 mm inside them; planks lie askew. (Dornhege & Kleiner 2011, V-B)
 [[nodiscard]] World crates_open_world();
 [[nodiscard]] World crates_closed_world();
 

@@ -84,7 +84,7 @@ struct ExplorationRun::Progress {
   double body_radius_m = 0.0;
   double path_length_m = 0.0;
   double since_scan_m = 0.0;
-  std::vector<Eigen::Vector3d> passed;  // since the scan before
+  std::vector<Eigen::Vector3d> passed;  // since the previous scan
   std::vector<VoxelIndex> observable;
   SurfaceCoverage surface;
   SeenSurface seen;
@@ -100,7 +100,7 @@ ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
       scene_(world.mesh),
       truth_(truth_of(world, options_)),
       map_(options_.map) {
-  (void)SimulatedSensor(scene_, sensor, options_.noise);  // checks both
+  (void)SimulatedSensor(scene_, sensor, options_.noise);  // validates sensor and noise
 }
 
 void ExplorationRun::check_start(const Pose& start) const {
@@ -122,7 +122,8 @@ void ExplorationRun::check_start(const Pose& start) const {
   }
 }
 
-// In a band, at all its heights. Of the clearance only what is truly free: nobody vouches for what is not.
+// Declares the space at the start free; in a band at all heights of it. Of the clearance only truly free cells are
+// declared.
 void ExplorationRun::assume_start_free(const Pose& start) {
   OccupancyMap declared({.resolution_m = map_.resolution_m(), .region = options_.map.region});
   assume_free(declared, *platform_, start);
@@ -192,7 +193,7 @@ void ExplorationRun::scan(Progress& progress) {
   progress.since_scan_m = 0.0;
 }
 
-// Views overlap by a fifth. The last one is left to be reported with the plan that comes of it.
+// Turns once on the spot. Views overlap by a fifth. The last view is reported with the plan that follows.
 void ExplorationRun::look_around(Progress& progress, const OnView& on_view) {
   constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
   const auto turns = static_cast<std::size_t>(std::ceil(kFullTurnRad / (0.8 * sensor_.horizontal_angle_rad())));
@@ -222,7 +223,7 @@ void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner, Plan&
   progress.record.leftover = plan.leftover;
 }
 
-// In a band a column of spheres goes the way of the one about the sensor.
+// In a band the body is a column of spheres over all heights of it.
 bool ExplorationRun::collides(const Pose& from, const Pose& to, double radius_m) const {
   if (!options_.band) {
     return scene_.touches(from.translation(), to.translation(), radius_m);
@@ -254,9 +255,8 @@ void ExplorationRun::move(Progress& progress, const Pose& to) {
   progress.pose = to;
 }
 
-// To the goal, or to where a scan on the way has closed it, made it needless or spent the budget, or somebody stops
-// the run. The last scan is
-// left to be reported with the plan that comes of it.
+// Follows the path to the goal, or until `check` is not Good, the budget is spent or somebody stops the run. The
+// last scan is reported with the plan that follows.
 void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
   for (std::size_t next = 1; next < plan.path.size(); ++next) {
     const Pose from = progress.pose;
@@ -280,7 +280,8 @@ void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& 
   scan(progress);
 }
 
-// From the lattice that coverage looks from and, for an object is small beside it, from shells around the object.
+// Looks from the lattice of the coverage and, because an object is small compared with it, from shells around the
+// object.
 void ExplorationRun::measure_observable(Progress& progress, const Pose& start) const {
   if (options_.object_surface.empty()) {
     return;

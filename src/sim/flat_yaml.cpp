@@ -17,7 +17,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-// A # begins a comment outside quotes, at the start or after a blank.
+// A # starts a comment if it is outside quotes and at the start of the line or after a blank.
 std::string without_comment(const std::string& line) {
   char quote = '\0';
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -102,7 +102,7 @@ class FlatYamlReader {
     }
   }
 
-  // A part of a list in brackets, which may go on over lines.
+  // Takes a part of a list in brackets, which may span several lines.
   void take_flow(const std::string& text) {
     const std::size_t end = text.find(']');
     if (end != std::string::npos && !trimmed(text.substr(end + 1)).empty()) {
@@ -139,7 +139,7 @@ class FlatYamlReader {
 
   std::filesystem::path path_;
   FlatYaml values_;
-  std::string key_;  // whose list may follow
+  std::string key_;  // the key whose list may follow
   bool flow_ = false;
   std::size_t line_ = 0;
 };

@@ -8,12 +8,11 @@
 
 namespace vantage::detail {
 
-/// The words of each key, one or a list of them.
+/// The values of each key: one scalar or a list of scalars.
 using FlatYaml = std::map<std::string, std::vector<std::string>>;
 
-/// Reads a YAML file of keys with a scalar or a list of scalars each, block ("- 1") or flow ("[1, 2]"), plain or
-/// quoted, and comments. Whatever else there is in YAML is refused. Throws std::runtime_error naming the file and the
-/// line.
+/// Reads a YAML file of keys with a scalar or a list of scalars each: block ("- 1") or flow ("[1, 2]"), plain or
+/// quoted, with comments. Any other YAML is refused. Throws std::runtime_error with the path and the line.
 [[nodiscard]] FlatYaml read_flat_yaml(const std::filesystem::path& path);
 
 }  // namespace vantage::detail

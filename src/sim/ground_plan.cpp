@@ -14,7 +14,7 @@ namespace {
 constexpr double kWallHeightM = 10.0;
 constexpr double kInsetPixels = 0.01;
 
-// The box of a box's corners in another frame; x and y only.
+// Bounds of the corners of a box in another frame; x and y only.
 Box turned_box(const Pose& to_from, const Box& box) {
   Box turned;
   for (const double x : {box.min.x(), box.max.x()}) {
@@ -30,15 +30,15 @@ bool overlap_in_plane(const Box& a, const Box& b, double slack) {
          b.min.y() + slack < a.max.y();
 }
 
-// Walls along one axis of the pixels. A wall runs on along pixels that have a free one on the same side, and where it
-// ends it turns: around a convex edge (the wall ends early by the inset) or into a concave one (it runs on by the
-// inset), so that the walls are closed.
+// Builds the walls along one axis of the pixels. A wall continues along pixels that are free on the same side. At
+// its end it is shortened by the inset at a convex corner and extended by the inset at a concave one, so that the
+// walls are closed.
 class WallBuilder {
  public:
   WallBuilder(const GroundPlan& plan, TriangleMesh& mesh)
       : plan_(plan), extent_(plan.solid.box().extent()), mesh_(mesh) {}
 
-  // `axis` is the one across the walls, `sign` the side of their free pixels.
+  // `axis` is normal to the walls; `sign` is the side of the free pixels.
   void add_all(int axis, std::int32_t sign) {
     const std::int32_t lines = axis == 0 ? extent_.x : extent_.y;
     const std::int32_t length = axis == 0 ? extent_.y : extent_.x;
@@ -107,7 +107,7 @@ Box GroundPlan::bounds() const {
   return bounds;
 }
 
-// Two rectangles miss each other exactly if an axis of either separates them.
+// Separating axes: two rectangles are disjoint exactly if an axis of one of them separates them.
 bool GroundPlan::touches_solid(const Box& box) const {
   constexpr double kRoundingPixels = 1e-6;
   const double slack_m = kRoundingPixels * pixel_m;
@@ -145,7 +145,7 @@ RangeSensor in_plane(const RangeSensor& sensor) {
   if (sensor.projection == RangeSensor::Projection::Pinhole) {
     row.fy = sensor.fx;
     row.cy = 0.0;
-  } else {  // as far apart down as across
+  } else {  // the same angle per ray vertically as horizontally
     row.vertical_fov_rad = std::min(sensor.horizontal_fov_rad / static_cast<double>(sensor.width), std::numbers::pi);
   }
   return row;

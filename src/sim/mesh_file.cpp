@@ -24,14 +24,14 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostVertices = std::size_t{1} << 27;  // 1.6 GB; a small file can place a part many times
-constexpr unsigned kMostCorners = 1000;  // splitting a polygon takes the square of its corners and more
+constexpr std::size_t kMostVertices = std::size_t{1} << 27;  // 1.6 GB; a small file can place one part many times
+constexpr unsigned kMostCorners = 1000;                      // triangulating a polygon takes quadratic time and more
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
 }
 
-// What the importer made of a file, before anything follows its indices.
+// Checks a part of the imported scene before anything follows its indices.
 void check_part(const std::filesystem::path& path, const aiMesh* part) {
   if (part == nullptr || (part->mNumVertices > 0 && part->mVertices == nullptr) ||
       (part->mNumFaces > 0 && part->mFaces == nullptr)) {
@@ -78,8 +78,8 @@ void add_part(const aiMesh& part, const aiMatrix4x4& file_from_part, TriangleMes
   }
 }
 
-// Every node's parts where its transforms and those of the nodes above it place them, in the order of the file. Nodes
-// may be nested as deep as the file likes: they wait in a list, not on the stack.
+// Places the parts of every node by the transforms of the node and its parents, in the order of the file. Nodes
+// may be nested arbitrarily deep, so they wait in a list, not on the stack.
 TriangleMesh placed_parts(const std::filesystem::path& path, const aiScene& scene) {
   struct Waiting {
     const aiNode* node;
@@ -111,7 +111,7 @@ TriangleMesh placed_parts(const std::filesystem::path& path, const aiScene& scen
   return mesh;
 }
 
-// Transforms of the file and the scale asked for may take a vertex out of the numbers.
+// The transforms of the file and the scale may make a vertex infinite.
 void check_vertices(const std::filesystem::path& path, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite()) {
@@ -141,7 +141,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   return bytes;
 }
 
-// Assimp trusts the counts and indices of a PLY file: it gets none that was not checked.
+// Assimp trusts the counts and indices of a PLY file, so PLY files are checked first.
 const aiScene* parsed(const std::filesystem::path& path, Assimp::Importer& importer) {
   std::array<char, 3> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
@@ -157,7 +157,7 @@ const aiScene* parsed(const std::filesystem::path& path, Assimp::Importer& impor
   return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "ply");
 }
 
-// As triangles. What its faces point to is checked before it is split: Assimp does not.
+// Triangulates. Face indices are checked before, because Assimp does not check them.
 const aiScene* triangulated(const std::filesystem::path& path, Assimp::Importer& importer) {
   const aiScene* scene = nullptr;
   try {
@@ -188,7 +188,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
     refuse(path, "is not a file");
   }
   Assimp::Importer importer;
-  // What a COLLADA file says of its axis, Assimp obeys: the scene's y is up.
+  // Assimp obeys the axis of a COLLADA file: the y axis of its scene is up.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up.has_value());
   const TriangleMesh mesh = placed_parts(path, *triangulated(path, importer));
   if (mesh.triangles.empty()) {

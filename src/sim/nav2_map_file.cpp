@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-// The values of a file by their keys; every error names the file and the key.
+// The values of a map file by key. Every error names the file and the key.
 class MapKeys {
  public:
   explicit MapKeys(const std::filesystem::path& path) : path_(path), values_(detail::read_flat_yaml(path)) {}

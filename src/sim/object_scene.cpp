@@ -41,7 +41,7 @@ ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, 
     scene.box = object.bounds();
     scene.box.min.array() -= kMarginM;
     scene.box.max.array() += kMarginM;
-    if (options.table) {  // not the table itself
+    if (options.table) {  // leaves out the table itself
       scene.box.min.z() = std::max(scene.box.min.z(), kTableTopM + 0.5 * options.resolution_m);
     }
   }

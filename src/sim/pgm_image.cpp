@@ -12,7 +12,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr std::uint32_t kMostAlong = 1U << 24U;  // pixels along a side
+constexpr std::uint32_t kMostAlong = 1U << 24U;  // pixels along one side
 constexpr std::uint32_t kMostGrey = 65535;
 
 class PgmReader {
@@ -47,9 +47,10 @@ class PgmReader {
     }
     image.brightest = brightest;
     const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    const std::size_t bytes_each = plain || brightest > 255 ? 2 : 1;  // plain: a digit and a blank at least
+    const std::size_t bytes_each =
+        plain || brightest > 255 ? 2 : 1;  // a plain pixel has at least a digit and a blank
     if (!plain) {
-      ++at_;  // one blank, and then the pixels
+      ++at_;  // one blank separates the header from the pixels
     }
     if (bytes_.size() + (plain ? 1 : 0) < at_ || pixels > (bytes_.size() + (plain ? 1 : 0) - at_) / bytes_each) {
       refuse("is cut off: it has fewer than the " + std::to_string(image.width) + " x " +
@@ -78,7 +79,7 @@ class PgmReader {
     return value;
   }
 
-  // The next one in digits; blanks and comments go before it.
+  // Reads the next number in digits, after blanks and comments.
   std::uint32_t number(const char* what, std::uint32_t most) {
     while (at_ < bytes_.size() && (std::isspace(static_cast<int>(byte(at_))) != 0 || bytes_[at_] == '#')) {
       at_ = bytes_[at_] == '#' ? std::min(bytes_.find('\n', at_), bytes_.size()) : at_ + 1;

@@ -44,7 +44,7 @@ constexpr std::array<PlyType, 16> kPlyTypes{{{"char", 1, true, false},
 struct PlyProperty {
   std::string_view name;
   const PlyType* type;
-  const PlyType* length_type;  // of a list; else null
+  const PlyType* length_type;  // of a list; null for a scalar
 };
 
 struct PlyElement {
@@ -57,7 +57,7 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
   std::uint64_t vertices = 0;
-  std::size_t end = 0;  // the first byte of the body
+  std::size_t end = 0;  // first byte of the body
 };
 
 [[noreturn]] void refuse_ply(const std::string& what) { throw std::runtime_error("is a damaged PLY file: " + what); }
@@ -70,7 +70,7 @@ std::string quoted(std::string_view text) {
   return "'" + shown + (text.size() > kShown ? "...'" : "'");
 }
 
-// The next line, without its end, taken off `text`; throws where there is none.
+// Takes the next line, without its end, off `text`. Throws if there is none.
 std::string_view take_line(std::string_view& text, const char* what) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos && text.find_first_not_of(" \t\r") == std::string_view::npos) {
@@ -84,7 +84,7 @@ std::string_view take_line(std::string_view& text, const char* what) {
   return line;
 }
 
-// The next word taken off `line`; empty at its end.
+// Takes the next word off `line`; empty at its end.
 std::string_view take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(" \t"));
@@ -145,7 +145,7 @@ PlyProperty property_of(std::string_view words) {
   return property;
 }
 
-// The vertices, of which there must be one element, in space.
+// Checks that there is exactly one vertex element and that it has three coordinates.
 void check_vertices(PlyHeader& header) {
   const auto is_vertex = [](const PlyElement& element) { return element.name == "vertex"; };
   const auto found = std::find_if(header.elements.begin(), header.elements.end(), is_vertex);
@@ -201,7 +201,7 @@ bool holds_corners(const PlyElement& element, const PlyProperty& property) {
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-// A body of words: a line for every element.
+// Reads an ascii body: one line per element.
 class PlyWords {
  public:
   explicit PlyWords(std::string_view body) : body_(body) {}
@@ -230,7 +230,7 @@ class PlyWords {
       refuse_ply(quoted(word) + " is not a number");
     }
   }
-  /// A word takes two bytes at least, with the blank that ends it; the last has none.
+  /// A word takes at least two bytes with the blank after it; the last one has none.
   [[nodiscard]] bool may_hold(std::uint64_t values, std::uint64_t /*bytes*/) const {
     return values <= (body_.size() + line_.size() + 1) / 2;
   }
@@ -266,7 +266,7 @@ class PlyBytes {
   }
   void pass(const PlyType& type) { (void)take(type.bytes); }
   [[nodiscard]] bool may_hold(std::uint64_t /*values*/, std::uint64_t bytes) const { return bytes <= body_.size(); }
-  // Some writers end the file as if it were text.
+  // Some writers end the file with line breaks.
   [[nodiscard]] bool spent() const { return body_.find_first_not_of("\r\n") == std::string_view::npos; }
 
  private:
@@ -309,7 +309,7 @@ void check_list(Body& body, const PlyHeader& header, const PlyElement& element, 
 
 template <class Body>
 void check_element(Body& body, const PlyHeader& header, const PlyElement& element) {
-  std::uint64_t bytes = 0;  // of one, with empty lists
+  std::uint64_t bytes = 0;  // of one element whose lists are empty
   for (const PlyProperty& property : element.properties) {
     bytes += (property.length_type != nullptr ? property.length_type : property.type)->bytes;
   }

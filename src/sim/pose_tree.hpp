@@ -10,8 +10,8 @@
 
 namespace vantage::detail {
 
-/// Cells that a sensor may look from, in boxes within boxes: what is asked of one of them, whole boxes can be left
-/// out of that no line reaches.
+/// A bounding box tree of the cells that a sensor may look from. A query can skip whole boxes that no line of
+/// sight reaches.
 class PoseTree {
  public:
   explicit PoseTree(std::vector<VoxelIndex> poses) : poses_(std::move(poses)) {
@@ -20,22 +20,22 @@ class PoseTree {
     }
   }
 
-  /// Calls `ask(pose)` for the poses, nearer boxes first, until one says true; whether one did. Boxes further from
-  /// `cell` than `furthest_cells` (centre to centre), and those of which `is_solid(cell)` hides every pose, are left
-  /// out.
+  /// Calls `ask(pose)` for the poses, nearer boxes first, until one returns true; returns whether one did. Skips
+  /// boxes that are further from `cell` than `furthest_cells` (centre to centre, in cells) and boxes that cells
+  /// with `is_solid` occlude completely.
   template <class IsSolid, class Ask>
   bool any(const VoxelIndex& cell, double furthest_cells, const IsSolid& is_solid, const Ask& ask) const {
     return !nodes_.empty() && any_in(0, {cell, furthest_cells}, is_solid, ask);
   }
 
  private:
-  static constexpr std::size_t kLeaf = 4;  // poses
+  static constexpr std::size_t kLeaf = 4;  // most poses of a leaf
 
   struct Node {
     VoxelBox box;
     std::size_t first = 0;
     std::size_t end = 0;
-    std::size_t near = 0;  // its two halves; 0: none
+    std::size_t near = 0;  // node of the first half; 0: a leaf
     std::size_t far = 0;
   };
   struct Query {
@@ -75,7 +75,7 @@ class PoseTree {
     return at;
   }
 
-  // Squared, between the centres of the cell and the nearest of the box.
+  // Squared distance in cells between the centre of the cell and the nearest cell centre of the box.
   static double distance_squared(const Node& node, const VoxelIndex& cell) {
     const auto gap = [](std::int32_t lo, std::int32_t hi, std::int32_t at) {
       return static_cast<double>(std::max({lo - at, at - (hi - 1), 0}));
@@ -104,8 +104,8 @@ class PoseTree {
            any_in(in_order ? node.far : node.near, query, is_solid, ask);
   }
 
-  // Whether one slice of cells on their way stops all lines from the centre of the cell to those of the box. A slice
-  // that does not has a free cell, mostly among the first that are looked at.
+  // Whether one slice of cells between them blocks all lines from the centre of the cell to those of the box. A
+  // slice that does not usually shows a free cell among its first cells.
   template <class IsSolid>
   static bool is_hidden(const VoxelBox& box, const VoxelIndex& cell, const IsSolid& is_solid) {
     const std::array<std::int32_t, 3> lo = axes_of(box.lo - cell);
@@ -147,7 +147,7 @@ class PoseTree {
     return false;
   }
 
-  // Of the lines to all (across, along) in these ranges.
+  // Range of the slopes of the lines to all points (across, along) in these ranges.
   static Range slopes(std::int32_t lo, std::int32_t hi, const Range& along) {
     return {lo / (lo < 0 ? along.lo : along.hi), hi / (hi < 0 ? along.hi : along.lo)};
   }

@@ -11,8 +11,8 @@
 namespace vantage {
 namespace {
 
-// Akenine-Moeller 2001: a triangle misses a box exactly if one of 13 axes separates them. `half` is half the box's
-// edge.
+// Overlap test of a triangle and a box by 13 separating axes. `half` is half the edge of the box. (Akenine-Moeller
+// 2001)
 class TriangleCellTest {
  public:
   explicit TriangleCellTest(const std::array<Eigen::Vector3d, 3>& corners) : corners_(corners) {

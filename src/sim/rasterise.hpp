@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// Marks every cell of the grid that a triangle passes. `grazed_share` of a cell's edge, from each face inwards,
-/// counts as grazed only.
+/// Marks every cell of the grid that a triangle passes. A triangle that passes only within `grazed_share` of the
+/// cell's edge from its faces marks the cell as grazed.
 void rasterise(const TriangleMesh& mesh, const VoxelFrame& frame, double grazed_share, VoxelGrid<CellTruth>& cells);
 
 }  // namespace vantage

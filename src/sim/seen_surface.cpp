@@ -13,10 +13,11 @@ namespace {
 
 const double kLeastCosine = std::cos(85.0 * std::numbers::pi / 180.0);
 
-// A point this much off the surface, of the distance looked over, is on one side of it in single precision.
+// Offset from the surface, as a share of the viewing distance, that puts a point on one side of it in single
+// precision.
 constexpr double kOffSurface = 1e-5;
 
-// How many of 16 directions lead into the open from one side of a surface.
+// Counts how many of 16 directions on one side of a surface leave the object.
 int open_directions(const TriangleScene& scene, const Eigen::Vector3d& point, const Eigen::Vector3d& side,
                     double size_m) {
   Dice dice(7);
@@ -107,7 +108,7 @@ double SeenSurface::share() const {
   return samples_.empty() ? 1.0 : static_cast<double>(seen_count_) / static_cast<double>(samples_.size());
 }
 
-// Places are tried in an order that jumps about, for what cannot be seen from one is rarely seen from its neighbour.
+// Places are tried in random order, because what one place does not see, its neighbour rarely sees either.
 std::size_t SeenSurface::observable_count(const Platform& platform, std::span<const Eigen::Vector3d> places) const {
   std::vector<Eigen::Vector3d> shuffled(places.begin(), places.end());
   Dice dice(1);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
-// States in the order of their cost, a bucket for each whole number of cells: no step is shorter than one, so what a
-// state leads to comes in a later bucket, but for rounding, and then later in the same.
+// A queue of states in the order of their cost, with one bucket per whole number of cells. No step is shorter than
+// one cell, so a successor lies in a later bucket or, after rounding, later in the same one.
 class Buckets {
  public:
   void push(std::size_t state, float cost) {
@@ -24,8 +24,8 @@ class Buckets {
     buckets_[bucket].push_back({state, cost});
   }
 
-  // Calls `settle(state)` in the order of cost, unless `cost[state]` has become less since it was pushed, until
-  // `done()` says so between two buckets.
+  // Calls `settle(state)` in the order of cost, bucket by bucket, until `done()` is true between two buckets.
+  // Skips entries whose state has become cheaper since they were pushed.
   template <class Settle, class Done>
   void run(const std::vector<float>& cost, const Settle& settle, const Done& done) {
     for (std::size_t bucket = 0; bucket < buckets_.size() && !done(); ++bucket) {
@@ -47,7 +47,7 @@ class Buckets {
   std::vector<std::vector<Entry>> buckets_;
 };
 
-// Calls `use(number, length)` for every cell that a wide step leads to.
+// Calls `use(number, length)` for every reachable cell that one wide step leads to.
 template <class Use>
 void for_each_step(const ReachableSpace& space, std::size_t cell, const Use& use) {
   for (const WideStep& step : wide_steps()) {
@@ -58,7 +58,7 @@ void for_each_step(const ReachableSpace& space, std::size_t cell, const Use& use
   }
 }
 
-// Dijkstra over cells and the sets visited on the way there: state = visited * cells + cell.
+// Dijkstra over pairs of a cell and the sets visited so far: state = visited * cells + cell.
 class VisitSearch {
  public:
   VisitSearch(const ReachableSpace& space, std::span<const std::uint16_t> member, std::size_t sets)
@@ -93,7 +93,7 @@ class VisitSearch {
     return (visited_before | member_[cell]) * space_.size() + cell;
   }
 
-  // Back along the steps by which each state got its cost.
+  // The path to a state, found backwards along the steps that gave the costs.
   Visit way_to(std::size_t state) const {
     Visit visit{{}, cost_[state]};
     while (cost_[state] > 0.0F) {

@@ -13,8 +13,8 @@
 namespace vantage {
 namespace {
 
-// Only cells joined to a pose through free cells, and the surfaces that bound them, can be seen at all: a walk along
-// a line of sight goes from face to face.
+// Cells that can be seen at all: those joined to a pose through free cells, and the surfaces that bound them,
+// because a line of sight goes from face to face.
 std::vector<VoxelIndex> candidates(const Sight& sight, const VoxelBox& region, const std::vector<VoxelIndex>& poses) {
   VoxelGrid<std::uint8_t> reached(region, 0);
   std::vector<VoxelIndex> queue;
@@ -53,7 +53,7 @@ bool Sight::sees(const VoxelIndex& pose, const VoxelIndex& cell) const {
 }
 
 bool Sight::sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const {
-  constexpr double kInside = 0.49;  // cells from the middle
+  constexpr double kInside = 0.49;  // cells from the centre
   if (sees(pose, cell)) {
     return true;
   }
@@ -79,7 +79,7 @@ bool Sight::sees_point(const VoxelIndex& pose, const VoxelIndex& cell, const Eig
       return false;
     }
   }
-  // From the cell outwards: what hides it is usually near it.
+  // From the cell outwards, because an occluder is usually near the cell.
   for (const VoxelIndex& passed : VoxelRay(frame_, to, from)) {
     if (passed != cell && !is_free(passed)) {
       return false;

@@ -9,15 +9,16 @@
 
 namespace vantage {
 
-/// Whether a sensor at the centre of one cell of the true world sees another cell (Truth::observable has the words).
+/// Tells whether a sensor at the centre of one cell of the true world sees another cell; rules as
+/// Truth::observable.
 class Sight {
  public:
   Sight(const VoxelGrid<CellTruth>& cells, const VoxelFrame& frame, const RangeSensor& sensor, bool can_tilt)
       : cells_(cells), frame_(frame), sensor_(sensor), can_tilt_(can_tilt) {}
 
-  /// The middle of the cell.
+  /// Whether it sees the centre of the cell.
   [[nodiscard]] bool sees(const VoxelIndex& pose, const VoxelIndex& cell) const;
-  /// The middle of the cell, or a point just inside one of its faces, edges or corners.
+  /// Whether it sees the centre of the cell, or a point just inside one of its faces, edges or corners.
   [[nodiscard]] bool sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const;
   [[nodiscard]] bool is_free(const VoxelIndex& cell) const {
     return cells_.value_or(cell, CellTruth::Free) == CellTruth::Free;
@@ -35,7 +36,7 @@ class Sight {
   bool can_tilt_;
 };
 
-/// The cells of the region that at least one of the poses sees, in raster order; `on_share` as Truth::observable.
+/// Cells of the region that at least one pose sees, in raster order; `on_share` as in Truth::observable.
 [[nodiscard]] std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region,
                                                  const std::vector<VoxelIndex>& poses, int threads,
                                                  const std::function<void(double)>& on_share = {});

@@ -23,12 +23,12 @@ void validate(const SensorNoise& noise) {
                          noise.angle_rad, "in [0, pi]");
 }
 
-// Own transforms of the engine's bits: the distributions of the standard library differ between its implementations.
+// Random numbers made from the bits of the engine, because the distributions differ between standard libraries.
 class Chance {
  public:
   Chance(std::uint64_t seed, std::uint64_t scan) : engine_(seed * 0x9E3779B97F4A7C15ULL + scan) {}
   double uniform() { return (static_cast<double>(engine_() >> 11U) + 0.5) * 0x1p-53; }
-  // Box & Muller 1958.
+  // Standard normal (Box & Muller 1958).
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * uniform());
@@ -38,7 +38,7 @@ class Chance {
   std::mt19937_64 engine_;
 };
 
-// Where a sensor is that is said to be at `pose`.
+// The true pose of a sensor that is reported at `pose`.
 Pose misplaced(const Pose& pose, const SensorNoise& noise, Chance& chance) {
   Pose actual = pose;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

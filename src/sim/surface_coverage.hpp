@@ -10,15 +10,15 @@
 
 namespace vantage {
 
-/// Which points of a surface have been measured: those with a return within a gap. They lie in a hash of cells as
-/// wide as the gap, and leave it once met.
+/// Tells which points of a surface have been measured: those with a return within a gap, metres. Unmeasured points
+/// are kept in a hash of cells as wide as the gap.
 class SurfaceCoverage {
  public:
   SurfaceCoverage(const std::vector<Eigen::Vector3d>& samples, double gap_m);
 
-  /// Counts the returns of a scan.
+  /// Adds the returns of a scan.
   void add(const Scan& scan);
-  /// Share of the samples measured so far; 1 if there are none.
+  /// Share of the samples measured so far, in [0, 1]; 1 if there are none.
   [[nodiscard]] double share() const {
     return total_ == 0 ? 1.0 : static_cast<double>(measured_) / static_cast<double>(total_);
   }

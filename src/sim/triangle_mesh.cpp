@@ -8,9 +8,9 @@ VoxelIndex unit(int axis, std::int32_t sign) {
   return {axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
 }
 
-// One face of a solid cell. Along each of its four edges the surface either goes on flat, turns away at a convex edge
-// (the face ends early by the inset) or turns towards the empty side at a concave one (it runs on by the inset): so
-// the inset surface is closed.
+// Builds one face of a solid cell. Along each of its four edges the surface continues flat, turns away at a convex
+// edge (the face is shortened by the inset) or turns towards the empty side at a concave one (it is extended by
+// the inset), so that the inset surface is closed.
 class FaceBuilder {
  public:
   FaceBuilder(const VoxelGrid<std::uint8_t>& solid, const VoxelFrame& frame, double inset_m, bool outside_solid)

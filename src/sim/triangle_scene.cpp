@@ -29,7 +29,8 @@ struct TriangleScene::Embree {
 
 namespace {
 
-// From Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi region of the triangle that holds the point.
+// The nearest point of a triangle, by the Voronoi region that holds the point. (Ericson, Real-Time Collision
+// Detection, 5.1.5)
 Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                     const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a;
@@ -89,8 +90,9 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
 }  // namespace
 
 TriangleScene::Embree::Embree(TriangleMesh triangles) : mesh(std::move(triangles)) {
-  mesh.vertices.emplace_back(0.0F, 0.0F, 0.0F);  // Embree reads 16 bytes of each vertex: the last needs a successor
-  device = rtcNewDevice("threads=1");  // one building thread: the same hierarchy, hence the same ties, every time
+  mesh.vertices.emplace_back(0.0F, 0.0F,
+                             0.0F);    // Embree reads 16 bytes per vertex, so the last one needs a successor
+  device = rtcNewDevice("threads=1");  // one thread builds, so the hierarchy and its ties are always the same
   if (device == nullptr) {
     throw std::runtime_error("Embree could not be started");
   }
@@ -158,7 +160,7 @@ bool TriangleScene::touches(const Eigen::Vector3d& from_m, const Eigen::Vector3d
   if (length_m > 0.0 && hit_distance(from_m, (to_m - from_m) / length_m, length_m)) {
     return true;
   }
-  // The sphere may safely move by its clearance: nothing can be met before.
+  // The sphere may move by its clearance without touching anything.
   for (double s = 0.0;;) {
     const Eigen::Vector3d centre = length_m > 0.0 ? Eigen::Vector3d(from_m + s / length_m * (to_m - from_m)) : from_m;
     const double clearance_m = distance(centre, radius_m + kMostStepM) - radius_m;

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kGrazedShare = 0.02;
 constexpr double kLatticeM = 0.4;
+// Surfaces are kept this far around the region. No preset sensor has a longer range, so nothing further away ends
+// a ray through the region.
 constexpr double kBeyondM =
     25.0;  // further than any preset ranges: surfaces beyond cannot end a ray through the region
 
@@ -34,7 +36,7 @@ VoxelBox covering(const VoxelFrame& frame, const VoxelBox& region, const Box& me
   return {frame.cell_of(outer.min) - VoxelIndex{1, 1, 1}, frame.cell_of(outer.max) + VoxelIndex{2, 2, 2}};
 }
 
-// The layer of the region.
+// Cells of a world that is a plane, in the layer of the region.
 VoxelGrid<CellTruth> cells_of_plan(const GroundPlan& plan, const VoxelFrame& frame, const VoxelBox& covered,
                                    const VoxelBox& region) {
   VoxelGrid<CellTruth> cells({{covered.lo.x, covered.lo.y, region.lo.z}, {covered.hi.x, covered.hi.y, region.hi.z}},
@@ -50,7 +52,7 @@ VoxelGrid<CellTruth> cells_of_plan(const GroundPlan& plan, const VoxelFrame& fra
   return cells;
 }
 
-// The largest set of nonzero cells joined face to face; of equals the first in raster order.
+// The largest set of nonzero cells joined face to face; of several, the first in raster order.
 std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitted) {
   VoxelGrid<std::uint8_t> seen(admitted.box(), 0);
   std::vector<VoxelIndex> largest;
@@ -111,7 +113,7 @@ Truth Truth::in_band(const HeightBandOptions& options) const {
   VoxelGrid<CellTruth> cells({{box.lo.x, box.lo.y, layer}, {box.hi.x, box.hi.y, layer + 1}}, CellTruth::Free);
   for_each_cell(cells.box(), [&](const VoxelIndex& column) {
     for (VoxelIndex cell{column.x, column.y, lowest}; cell.z < above; ++cell.z) {
-      cells[column] = std::max(cells[column], at(cell));  // free < grazed < occupied
+      cells[column] = std::max(cells[column], at(cell));  // Free < Grazed < Occupied
     }
     if (cells[column] == CellTruth::Free && band.plane().at(column) == Occupancy::Occupied) {
       cells[column] = CellTruth::Occupied;  // a drop

@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-// Of how many unseen cells, evenly spread in raster order, the hardest to come into sight of becomes a witness.
+// Number of unseen cells, evenly spread in raster order, among which the next witness is chosen.
 constexpr std::size_t kTriedWitnesses = 24;
 
 class Watchman {
@@ -57,8 +57,8 @@ class Watchman {
   }
 
  private:
-  // Which of the observable cells the sensor does not see from any place of the way. Middles are asked first, of the
-  // whole way: most cells need no more.
+  // The observable cells that the sensor sees from no place of the route. Centres are tested first along the whole
+  // route, because that suffices for most cells.
   std::vector<std::size_t> unseen_from(const Visit& visit) const {
     std::vector<std::uint8_t> seen(cells_.size(), 0);
     detail::share_work(cells_.size(), threads_, [&](std::size_t i) {
@@ -80,8 +80,8 @@ class Watchman {
     return unseen;
   }
 
-  // Of some of the unseen cells the one whose nearest place of sight is furthest from the way; none if they are seen
-  // from nowhere.
+  // Among some of the unseen cells, the one whose nearest viewing place is furthest from the route; none if no
+  // place sees any of them.
   std::optional<VoxelIndex> hardest(const std::vector<std::size_t>& unseen, const Visit& visit) const {
     const std::vector<float> distance = distances_from(space_, visit.cells);
     std::vector<std::uint32_t> nearest_first(space_.size());
@@ -115,7 +115,7 @@ class Watchman {
   ReachableSpace space_;
   Sight sight_;
   std::vector<VoxelIndex> cells_;
-  std::vector<std::uint16_t> member_;  // of each place, the witnesses it sees
+  std::vector<std::uint16_t> member_;  // for each place, the witnesses that it sees
 };
 
 }  // namespace

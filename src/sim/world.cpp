@@ -17,7 +17,7 @@ using Builder = World (*)(const WorldOptions&);
 struct Named {
   std::string_view name;
   Builder build;
-  bool sized = false;  // takes WorldOptions::length_m and width_m
+  bool sized = false;  // whether it takes WorldOptions::length_m and width_m
 };
 
 World rooms_world(const WorldOptions&) { return world_of_cells("rooms", rooms_cells()); }
@@ -29,7 +29,7 @@ World table_world(const WorldOptions&) {
   World world;
   world.name = "table";
   world.region = {{-1.8, -1.8, 0.0}, {1.8, 1.8, 2.0}};
-  constexpr double kBehind = 1e-3;  // the room's walls lie just outside the region, never on the border of its cells
+  constexpr double kBehind = 1e-3;  // walls lie just outside the region, so never on the border of its cells
   const Eigen::Vector3d behind = Eigen::Vector3d::Constant(kBehind);
   world.mesh.add_box({world.region.min - behind, world.region.max + behind});
   world.mesh.add_box({{-0.4, -0.5, 0.387277}, {0.4, 0.5, 0.427277}});
@@ -114,7 +114,7 @@ World World::from_map(std::string name, const OccupancyMap& map) {
       solid[cell] = 0;
     }
   });
-  constexpr double kInsetShare = 0.05;  // as the built-in worlds: 1 cm of 0.2 m
+  constexpr double kInsetShare = 0.05;  // as in the built-in worlds: 1 cm of 0.2 m
   World world;
   world.name = std::move(name);
   world.mesh = surface_of_cells(solid, map.frame(), kInsetShare * map.resolution_m());

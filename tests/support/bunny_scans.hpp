@@ -14,7 +14,7 @@
 
 namespace vantage::test {
 
-/// One of the ten range scans of the Stanford bunny: its points in its own frame, metres, and where they lie.
+/// One of the ten range scans of the Stanford bunny: points in its own frame, metres, and its pose.
 struct BunnyScan {
   std::string name;
   Pose world_from_scan = Pose::Identity();
@@ -33,7 +33,7 @@ inline std::string unpacked(const std::filesystem::path& file) {
   return text;
 }
 
-/// The scans that `bun.conf` lists: p_world = R(q)^T p + t.
+/// Reads the scans that `bun.conf` lists: p_world = R(q)^T p + t.
 inline std::vector<BunnyScan> bunny_scans(const std::filesystem::path& folder) {
   std::vector<BunnyScan> scans;
   std::ifstream list(folder / "bun.conf");

@@ -8,7 +8,7 @@
 
 namespace vantage::test {
 
-/// Inserts `scan` into a new map and expects the cells and the counts of its definition. Returns the number of cells.
+/// Inserts `scan` into a new map and expects the cells and counts of the definition. Returns the number of cells.
 inline std::size_t compare_with_definition(const Scan& scan, const OccupancyMapOptions& options, RayPolicy policy) {
   OccupancyMap map(options);
   const ScanCells expected = scan_cells(scan, map, policy);

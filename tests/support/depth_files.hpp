@@ -11,7 +11,7 @@
 
 namespace vantage::test {
 
-/// Writes numbers as a PNG file of one channel of 16 bits.
+/// Writes numbers as a PNG file with one channel of 16 bits.
 inline void write_depth(const std::filesystem::path& file, int width, int height,
                         const std::vector<std::uint16_t>& numbers) {
   const cv::Mat image(height, width, CV_16UC1, const_cast<std::uint16_t*>(numbers.data()));
@@ -27,7 +27,7 @@ inline std::string bytes_in(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What a call says when it throws, or "" if it does not.
+/// The message of the Error that a call throws, or "" if it does not throw.
 template <class Error, class Call>
 std::string message_of(Call&& call) {
   try {

@@ -6,7 +6,8 @@
 
 namespace vantage::test {
 
-/// A map with much free space, so that rays get somewhere: a box of free cells with things and holes in it.
+/// A map with much free space, so that rays reach far: a box of free cells that holds boxes and single cells of other
+/// states.
 inline OccupancyMap hollow_map(std::mt19937& engine, double resolution_m) {
   OccupancyMap map({.resolution_m = resolution_m});
   std::uniform_int_distribution<std::int32_t> extent(10, 90);

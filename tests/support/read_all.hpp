@@ -8,7 +8,7 @@
 
 namespace vantage::test {
 
-/// What is in a file, byte by byte.
+/// Content of a file, byte by byte.
 inline std::string read_all(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

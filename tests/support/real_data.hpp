@@ -6,7 +6,7 @@
 
 namespace vantage::test {
 
-/// A file or folder of the real data, or an empty path where VANTAGE_DATA is not set.
+/// Path of a file or folder below VANTAGE_DATA; empty if that is not set.
 inline std::filesystem::path real_data(const std::filesystem::path& relative) {
   const char* root = std::getenv("VANTAGE_DATA");
   return root == nullptr || *root == '\0' ? std::filesystem::path() : std::filesystem::path(root) / relative;
@@ -14,7 +14,7 @@ inline std::filesystem::path real_data(const std::filesystem::path& relative) {
 
 }  // namespace vantage::test
 
-/// Declares `variable`, a file or folder of the real data, or skips the test and says how to run it.
+/// Declares `variable`, a path below VANTAGE_DATA, or skips the test and says how to run it.
 #define VANTAGE_REAL_DATA(variable, relative)                                                        \
   const std::filesystem::path variable = ::vantage::test::real_data(relative);                       \
   if (variable.empty()) {                                                                            \

@@ -3,8 +3,8 @@
 
 namespace vantage::test {
 
-/// Whether an address sanitizer makes everything several times as slow. Laws over many random worlds then run over
-/// fewer: it is how memory is used that is on trial, not how often the law holds.
+/// Whether an address sanitizer is on, which makes everything several times slower. Laws over many random worlds
+/// then use fewer of them: the sanitizer checks the use of memory, not how often a law holds.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr bool kSanitized = true;
 #else

@@ -8,7 +8,7 @@
 
 namespace vantage::test {
 
-/// A folder of its own for one test, gone with it.
+/// A new folder for one test, removed at the end of it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -7,13 +7,13 @@
 
 namespace vantage::test {
 
-/// The chain of the arm that the examples carry.
+/// The kinematic chain of examples/tracked_arm.urdf.
 inline KinematicChain tracked_arm() {
   return KinematicChain::from_urdf(std::filesystem::path(VANTAGE_EXAMPLES) / "tracked_arm.urdf", "base_link",
                                    "sensor");
 }
 
-/// Values of all joints, each drawn from its range.
+/// Random values of all joints, each within its range.
 inline Joints random_joints(const KinematicChain& chain, std::mt19937_64& engine) {
   Joints joints;
   for (const JointRange& range : chain.ranges()) {

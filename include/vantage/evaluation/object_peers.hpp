@@ -19,31 +19,33 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What the peers of a planner of views of an object are told.
+/// What a peer of the object planner is given.
 struct ObjectPeerSetup {
-  std::shared_ptr<const Platform> platform;  ///< what carries the sensor; never null
-  const ObjectScene* scene = nullptr;        ///< outlives the peer
-  const Truth* truth = nullptr;              ///< outlives the peer: views are those admitted in it
-  const SeenSurface* surface = nullptr;      ///< outlives the peer; for one who knows the truth
-  std::size_t views = 8;                     ///< how many views are to be spread evenly, > 0
-  std::uint64_t seed = 1;                    ///< of everything random
+  std::shared_ptr<const Platform> platform;  ///< what carries the sensor; not null
+  const ObjectScene* scene = nullptr;        ///< the scene; must outlive the peer
+  const Truth* truth = nullptr;              ///< ground truth; must outlive the peer; views are admitted in it
+  const SeenSurface* surface = nullptr;  ///< what has been seen; must outlive the peer; only `oracle-greedy` needs it
+  std::size_t views = 8;                 ///< number of views of `evenly-spaced`, > 0
+  std::uint64_t seed = 1;                ///< seed of everything random: the turn of the spiral, the random order
 };
 
-/// A planner to compare with: it looks at an object from the shells of a scene in an order that owes nothing to the
-/// map, but for the way from view to view.
+/// A planner to compare with. It takes views from the shells of a scene in an order that does not depend on the
+/// map; only the path from view to view does.
 class ObjectPeer : public ExplorationPlanner {
  public:
-  /// Where it would begin; none: wherever it is put.
+  /// The view it would start with; none: it starts anywhere.
   [[nodiscard]] virtual std::optional<Pose> first_view() = 0;
 };
 
-/// A peer by NAME:
-/// - `evenly-spaced`: so many views evenly spread over the first shell, as far as it is admitted, along a spiral;
-/// - `random-views`: views of the shells in an order drawn from the seed;
-/// - `furthest-view`: always the view furthest from all that were taken;
-/// - `oracle-greedy`: knows the truth, and takes the view that shows most of the surface not seen yet: a bound for
-///   those who choose one view at a time.
-/// Throws std::invalid_argument listing the names if there is no such peer, or naming what the setup lacks.
+/// Makes a peer by NAME:
+/// - `evenly-spaced`: `views` views spread evenly over the admitted part of the first shell, in the order of a
+///   spiral;
+/// - `random-views`: views of the shells in a random order;
+/// - `furthest-view`: always the view furthest from all views taken;
+/// - `oracle-greedy`: always the view that shows most of the true surface not yet seen. It knows the ground truth;
+///   it is the best that a greedy choice can do.
+///
+/// Throws std::invalid_argument if there is no such peer, with the list of names, or if the setup lacks something.
 [[nodiscard]] std::unique_ptr<ObjectPeer> make_object_peer(std::string_view name, const ObjectPeerSetup& setup);
 /// The names `make_object_peer` knows.
 [[nodiscard]] std::span<const std::string_view> object_peer_names();

@@ -17,63 +17,63 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What was known after each of the views of an order, as shares of what is known after all of them.
+/// What was known after each view of an order, as shares of what is known after all of them.
 struct ViewOrderCurve {
   std::string name = {};                ///< who chose
   std::vector<std::size_t> order = {};  ///< numbers of the views
-  std::vector<double> volume = {};      ///< cells known (free or occupied), after 1, 2, ... views
+  std::vector<double> volume = {};      ///< known cells (free or occupied) after 1, 2, ... views
   std::vector<double> surface = {};     ///< cells in which a return ended, after 1, 2, ... views
-  /// Void cells left, after 1, 2, ... views: unknown, inside the convex hull of all that the views together hit
-  /// (Dornhege & Kleiner 2011, IV-B). One hull for all orders: that of the views so far grows with them.
+  /// Number of void cells left after 1, 2, ... views: unknown cells inside the convex hull of everything that the
+  /// views together hit. The hull is the same for all orders. (Dornhege & Kleiner 2011, IV-B)
   std::vector<std::size_t> void_cells = {};
 
-  /// Area under the curve of the volume: its mean over the numbers of views.
+  /// Area under the curve of the volume: its mean over the numbers of views, in [0, 1].
   [[nodiscard]] double volume_area() const;
   /// The same of the surface.
   [[nodiscard]] double surface_area() const;
-  /// The same of the void cells left: their mean over the numbers of views. The less, the better.
+  /// The mean number of void cells left; less is better.
   [[nodiscard]] double void_area() const;
 };
 
-/// Views that were taken by a real sensor, to be chosen among: how good would another order have been?
+/// Views that a real sensor has taken, as candidates: how good would another order have been?
 ///
-/// Which cells a scan frees or hits does not depend on the scans before it, so every order ends with the same cells
-/// known, and what counts is how soon.
+/// Which cells a scan frees or hits does not depend on the scans before it. So every order ends with the same
+/// known cells, and what counts is how soon.
 class RecordedViews {
  public:
-  /// Inserts every scan into a map of its own. With an `object`, only its cells count and all else is known to be
-  /// free, as Vasquez-Gomez et al. have it. Throws std::invalid_argument as OccupancyMap, and if there is no scan,
-  /// the object's box is empty, or the cells known are too far apart (2^31 in their box).
+  /// Inserts every scan into a map of its own. With an `object` (metres, world frame) only its cells count, and
+  /// everything else is known to be free. Throws std::invalid_argument as OccupancyMap, if there is no scan, if
+  /// the box is empty, and if the box of the known cells has more than 2^31 cells.
   RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions& options,
                 const std::optional<Box>& object = std::nullopt);
 
-  /// How many views there are.
+  /// Number of views.
   [[nodiscard]] std::size_t size() const { return scans_.size(); }
   /// The scans, by number.
   [[nodiscard]] const std::vector<Scan>& scans() const { return scans_; }
-  /// Of the map that they are to be inserted in.
+  /// Options of the map for the scans.
   [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
-  /// The box whose cells count; none: all do.
+  /// The box whose cells count, metres; none: all cells.
   [[nodiscard]] const std::optional<Box>& object() const { return object_; }
-  /// The map before the first view: nothing known, but for what is known around an object.
+  /// The map before the first view: empty, except for what is known around an object.
   [[nodiscard]] OccupancyMap map_before() const;
 
-  /// Void cells before the first view: all that lie inside the convex hull of what the views together hit, as the map
-  /// of all of them has it. None where that hull is empty.
+  /// Void cells before the first view: all cells inside the convex hull of what the views together hit. 0 if that
+  /// hull is empty.
   [[nodiscard]] std::size_t void_cells() const { return void_cells_; }
 
-  /// What an order, each view at most once, would have made known. Throws std::out_of_range for a wrong number.
+  /// The curve of an order with each view at most once. Throws std::out_of_range for a wrong number.
   [[nodiscard]] ViewOrderCurve curve(std::string name, std::vector<std::size_t> order) const;
-  /// The recorded order, from its first view.
+  /// The recorded order.
   [[nodiscard]] std::vector<std::size_t> recorded_order() const;
-  /// For every number of views those spread evenly over the recording, first and last included: each point of the
-  /// curve has views of its own, which no order could take one after the other.
+  /// For every number of views, those spread evenly over the recording, first and last included. Each point of the
+  /// curve has its own views, so no single order has this curve.
   [[nodiscard]] ViewOrderCurve evenly_spaced(std::string name) const;
-  /// An order drawn at random behind the first view `start`.
+  /// A random order that starts with `start`.
   [[nodiscard]] std::vector<std::size_t> random_order(std::size_t start, std::uint64_t seed) const;
-  /// What the greedy order is greedy for: cells known, cells hit, or void cells known.
+  /// What a greedy order maximises: known cells, hit cells, or known void cells.
   enum class Measure : std::uint8_t { Volume, Surface, Void };
-  /// The order behind `start` that adds the most at every step, which only who has seen all views can know.
+  /// The order after `start` that adds most at every step, with full knowledge of all views.
   [[nodiscard]] std::vector<std::size_t> greedy_order(std::size_t start, Measure measure) const;
 
  private:
@@ -87,46 +87,47 @@ class RecordedViews {
   std::vector<std::vector<std::uint32_t>> inside_;  // of those known, the ones inside the hull
 };
 
-/// Chooses one of the views `left` (never empty) for what `map` lacks; `last` is the one taken last. Those made below
-/// learn from view to view: each serves one order.
+/// Chooses one of the views `left` (never empty) for the map so far; `last` is the view taken last. Those made
+/// below learn from view to view, so each serves one order.
 using ChooseView =
     std::function<std::size_t(const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left)>;
 
-/// The order that comes of choosing every next view behind `start` by what the map knows from those before it.
+/// The order in which `choose` takes the views after `start`, each chosen by the map of those before it.
 [[nodiscard]] std::vector<std::size_t> chosen_order(const RecordedViews& views, std::size_t start,
                                                     const ChooseView& choose);
 
-/// The next best view of the paper (Vasquez-Gomez et al. 2013, eq. 4): the one that sees most unknown cells, exactly
-/// counted. Where a recorded pose lies in unknown space its own cell is all it sees: a robot could not be sent there.
+/// Chooses the view that sees most unknown cells, exactly counted. A pose in unknown space sees only its own cell.
+/// (Vasquez-Gomez et al. 2013, eq. 4)
 [[nodiscard]] ChooseView most_unknown_cells(const RecordedViews& views, const RangeSensor& sensor,
                                             std::size_t threads = 1);
 
-/// The view that is expected to make most cells known. As far as a ray is unknown, it may go on: with the probability
-/// that a return of the views so far came from further away than the cell, given that it came from further than where
-/// the unknown began. A cell counts by the most likely ray to reach it.
+/// Chooses the view that is expected to make most cells known. A ray goes on through the unknown with the
+/// probability that an earlier return came from further away than the cell, given that it came from beyond the
+/// start of the unknown. A cell counts by its most likely ray.
 [[nodiscard]] ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& sensor);
 
-/// The unknown cells that a view is wanted for, given what `map` knows; `last` is the view taken last.
+/// The unknown cells that the next view is wanted for, given `map`; `last` is the view taken last.
 using SoughtCells = std::function<std::vector<VoxelIndex>(const OccupancyMap& map, std::size_t last)>;
 
 /// What `planner` seeks with its next view (Plan::sought).
 [[nodiscard]] SoughtCells sought_next(const RecordedViews& views, ExplorationPlanner& planner);
-/// All that planners seek who explore frontiers: the unknown cells beside them.
+/// All unknown cells beside frontiers.
 [[nodiscard]] SoughtCells sought_behind_frontiers();
-/// All that a planner seeks who looks into voids: their cells (Dornhege & Kleiner 2011, IV-B).
+/// All void cells (Dornhege & Kleiner 2011, IV-B).
 [[nodiscard]] SoughtCells sought_in_voids();
 
-/// Of the views that are expected to show at least half as many as any of the cells sought, by the same chances, the
-/// one that is expected to make most cells known; where none of these can be seen, of all.
+/// Among the views that are expected to show at least half as many of the sought cells as any view, chooses the
+/// one that is expected to make most cells known; among all views if none shows a sought cell. Expectations as in
+/// most_expected_cells.
 [[nodiscard]] ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
                                                  SoughtCells sought);
 
-/// Is told what a planner asked for behind the view `last`, and which view was chosen for it.
+/// Called with the plan after the view `last` and the view chosen for it.
 using GoalObserver = std::function<void(const Plan& plan, std::size_t last, std::size_t chosen)>;
 
-/// The view nearest to where `planner` wants to look from, a radian off the direction counting as
-/// `metres_per_radian`. Where it names no place, the view furthest, by the same measure, from all that were taken:
-/// `observer`, if there is one, can tell how often.
+/// Chooses the view nearest to the goal of `planner`; a radian between the directions counts as
+/// `metres_per_radian`. If the plan has no goal, chooses the view furthest, by the same measure, from all views
+/// taken. `observer` may be empty.
 [[nodiscard]] ChooseView nearest_to_goal(const RecordedViews& views, ExplorationPlanner& planner,
                                          double metres_per_radian, GoalObserver observer = {});
 

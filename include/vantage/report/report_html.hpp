@@ -8,19 +8,19 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// One run of a page.
+/// One run on a page.
 struct ReportedRun {
-  std::string report;            ///< its report_json
-  std::filesystem::path record;  ///< of a RunRecorder, for the replay; empty: curves and numbers only
+  std::string report;            ///< the JSON text of report_json
+  std::filesystem::path record;  ///< the record of a RunRecorder, for the replay; empty: only curves and figures
 };
 
-/// One page that shows a run to people: a replay in three dimensions beside curves that follow it. It opens from disk
-/// with any browser of today and needs nothing else, no network either. Several runs stand side by side, their curves
-/// one upon the other, with medians and quartiles by planner. Throws std::invalid_argument if there is no run or a
-/// report is not one, std::runtime_error naming a file that cannot be read or written.
+/// Writes one HTML page that shows runs: a 3D replay beside curves that follow it. The page opens from disk in any
+/// current browser and needs no network. Several runs stand side by side with their curves in one plot and with
+/// medians and quartiles by planner. Throws std::invalid_argument if there is no run or a report is not a
+/// report_json, std::runtime_error with the path of a file that cannot be read or written.
 void write_report_html(std::span<const ReportedRun> runs, const std::filesystem::path& html);
 
-/// The page of one record, finished or not: what a robot's night left behind, in the morning.
+/// Writes the page of one record, finished or not. Throws as above.
 void write_report_html(const std::filesystem::path& record, const std::filesystem::path& html);
 
 }  // namespace vantage

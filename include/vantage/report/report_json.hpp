@@ -8,12 +8,13 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The record of a run as one JSON object, indented, with a line per cycle. Its keys are a contract and never change
-/// meaning; what is not known is null. Poses are [x, y, z, qx, qy, qz, qw], world_from_sensor, with qw >= 0. The
-/// times of planning are over the views after which a plan was made.
+/// Returns the record of a run as one indented JSON object with one line per cycle. The keys are a contract and
+/// never change their meaning; a value that is not known is null. Poses are [x, y, z, qx, qy, qz, qw],
+/// world_from_sensor, metres, qw >= 0. The planning times cover the views after which a plan was made.
 [[nodiscard]] std::string report_json(const RunRecord& record);
 
-/// Writes report_json to a file, replacing it. Throws std::runtime_error naming the file if it cannot be written.
+/// Writes report_json to a file and replaces what was there. Throws std::runtime_error with the path if it cannot
+/// be written.
 void write_report_json(const RunRecord& record, const std::filesystem::path& file);
 
 }  // namespace vantage

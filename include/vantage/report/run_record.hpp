@@ -12,10 +12,10 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How a whole run ended.
+/// How a whole run ended: as the planner said, or because the budget of views was spent or somebody stopped it.
 enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget, Interrupted };
 
-/// What the outcome of a planner that is done makes of the run; Budget for Move.
+/// The outcome of a run that ended with this outcome of the planner. Move gives Budget: the planner was not done.
 [[nodiscard]] constexpr RunOutcome run_outcome_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::Explored:
@@ -48,61 +48,66 @@ enum class RunOutcome : std::uint8_t { Explored, Unreachable, Blocked, Budget, I
 
 /// One integrated scan of a run and what was known after it.
 struct ViewRecord {
-  std::size_t view = 0;                    ///< 1 for the first scan
-  Pose pose = Pose::Identity();            ///< world_from_sensor of the scan
-  std::optional<double> coverage;          ///< after this scan, where the true world is known
-  std::optional<double> surface_coverage;  ///< after this scan, where an object was to be seen: measured within a gap
-  std::optional<double> seen_coverage;     ///< the same: share of its surface that was in an image (SeenSurface)
-  double path_length_m = 0.0;              ///< travelled so far
-  double insert_ms = 0.0;                  ///< time to integrate the scan
-  double plan_ms = 0.0;                    ///< 0 where the plan before was still being followed
-  double utility = 0.0;                    ///< of the goal chosen after this scan
-  std::size_t frontier_cells = 0;          ///< after this scan; as last counted where no plan was made
-  std::size_t void_cells = 0;              ///< after this scan; planners that look for voids
-  Outcome outcome = Outcome::Move;         ///< of the plan made after this scan
-  /// Successive sensor positions since the scan before, this scan's the last; may be empty where nothing has moved.
+  std::size_t view = 0;          ///< number of the scan, from 1
+  Pose pose = Pose::Identity();  ///< world_from_sensor of the scan
+  /// Share of the observable cells that the map knows with the right state, in [0, 1]; none without ground truth.
+  std::optional<double> coverage;
+  /// Share of the surface samples of an object with a measured point near them; none without an object.
+  std::optional<double> surface_coverage;
+  /// Share of the surface samples of an object that an image has shown (SeenSurface); none without an object.
+  std::optional<double> seen_coverage;
+  double path_length_m = 0.0;       ///< path of the sensor so far, metres
+  double insert_ms = 0.0;           ///< time to integrate the scan, milliseconds
+  double plan_ms = 0.0;             ///< time of the plan, milliseconds; 0 if the previous plan was still followed
+  double utility = 0.0;             ///< utility of the goal chosen after this scan, in the unit of the planner
+  std::size_t frontier_cells = 0;   ///< after this scan; the last count if no plan was made
+  std::size_t void_cells = 0;       ///< after this scan; only planners that look for voids count them
+  Outcome outcome = Outcome::Move;  ///< outcome of the plan made after this scan
+  /// Sensor positions since the previous scan, world frame, metres; the last is that of this scan. May be empty if
+  /// the sensor has not moved.
   std::vector<Eigen::Vector3d> passed = {};
 };
 
-/// What is proven of the way that a run has to go.
+/// A proven lower bound on the path of a run (watchman_route).
 struct PathBound {
-  double length_m = 0.0;  ///< no way from the start that sees everything is shorter
-  bool is_met = false;    ///< there is one that long
+  double length_m = 0.0;  ///< metres; no route over cells from the start that sees everything is shorter
+  bool is_met = false;    ///< whether some path has this length
 };
 
-/// What a check of the end of a run by brute force found (sim's `audit`, which has the words).
+/// Result of the brute-force check at the end of a run; see `audit` (sim/audit.hpp).
 struct AuditRecord {
   std::size_t cells_checked = 0;      ///< unknown cells beside free ones
-  std::size_t looked_at_in_vain = 0;  ///< of these, in view of the run from places that differ, and still unknown
-  std::size_t observable_left = 0;    ///< of these, the others that could still be observed
+  std::size_t looked_at_in_vain = 0;  ///< observable ones that were in view from different cells and stayed unknown
+  std::size_t observable_left = 0;    ///< the other observable ones; 0 for a run that explored everything
 };
 
-/// The record of a run, by whatever host: enough for the report, the pictures and the tables.
+/// The record of a run of any host: what reports, pictures and tables need.
 struct RunRecord {
-  std::string command;                       ///< "explore", "reconstruct", "search", "replay"
-  std::string world;                         ///< name or file
-  std::string planner;                       ///< by its NAME
-  std::uint64_t seed = 1;                    ///< of everything random in the run
-  int threads = 1;                           ///< the planner was given
-  double resolution_m = 0.0;                 ///< edge of a cell of the map
-  RunOutcome outcome = RunOutcome::Budget;   ///< how the run ended
-  std::string reason;                        ///< one sentence, for a person
-  std::optional<double> coverage;            ///< at the end, where the true world is known
-  std::size_t observable_cells = 0;          ///< cells the sensor could ever see there, by the truth
-  std::optional<double> surface_coverage;    ///< at the end, where an object was to be seen: measured within a gap
-  std::optional<double> seen_coverage;       ///< the same: share of its surface that was in an image
-  std::optional<double> seen_observable;     ///< the same, of what any admitted pose could see
-  Leftover leftover;                         ///< frontier or void cells given up
-  std::size_t collisions = 0;                ///< of the body with the true world
-  std::uint64_t integration_operations = 0;  ///< cell updates by scans
-  std::uint64_t planning_operations = 0;     ///< PlanStatistics::ray_operations, summed
-  double peak_memory_mb = 0.0;               ///< of the whole process
-  std::optional<PathBound> path_bound;       ///< for one who knows the world, where it was sought
-  std::optional<AuditRecord> audit;          ///< of the end, where it was asked for
-  std::vector<ViewRecord> views;             ///< one entry per scan
-  std::vector<Eigen::Vector3d> travelled;    ///< successive sensor positions, the start first
+  std::string command;                      ///< "explore", "reconstruct", "search", "replay"
+  std::string world;                        ///< name or file of the world
+  std::string planner;                      ///< its NAME (make_planner)
+  std::uint64_t seed = 1;                   ///< seed of everything random in the run
+  int threads = 1;                          ///< threads given to the planner
+  double resolution_m = 0.0;                ///< edge of a cell of the map, metres
+  RunOutcome outcome = RunOutcome::Budget;  ///< how the run ended
+  std::string reason;                       ///< one sentence, for a person
+  std::optional<double> coverage;           ///< at the end; see ViewRecord::coverage
+  std::size_t observable_cells = 0;         ///< cells that the sensor could see at all, by the ground truth
+  std::optional<double> surface_coverage;   ///< at the end; see ViewRecord::surface_coverage
+  std::optional<double> seen_coverage;      ///< at the end; see ViewRecord::seen_coverage
+  /// Samples seen, as a share of those that any admitted pose could see; none without an object.
+  std::optional<double> seen_observable;
+  Leftover leftover;                         ///< frontier cells that no view was planned for at the end, by cause
+  std::size_t collisions = 0;                ///< motions in which the body touched a true surface
+  std::uint64_t integration_operations = 0;  ///< cells updated by all scans
+  std::uint64_t planning_operations = 0;     ///< sum of PlanStatistics::ray_operations
+  double peak_memory_mb = 0.0;               ///< peak memory of the whole process, MiB
+  std::optional<PathBound> path_bound;       ///< lower bound with full knowledge of the world; none if not asked for
+  std::optional<AuditRecord> audit;          ///< brute-force check of the end; none if not asked for
+  std::vector<ViewRecord> views;             ///< one per scan
+  std::vector<Eigen::Vector3d> travelled;    ///< successive sensor positions, the start first; world frame, metres
 
-  /// Travelled in all, metres.
+  /// Length of the whole path, metres; 0 without a scan.
   [[nodiscard]] double path_length_m() const { return views.empty() ? 0.0 : views.back().path_length_m; }
 };
 

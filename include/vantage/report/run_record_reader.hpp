@@ -15,7 +15,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Reads what a RunRecorder wrote, cycle by cycle, also while it is still being written or after it was cut off.
+/// Reads what a RunRecorder wrote, cycle by cycle. The record may still be growing or may have been cut off.
 ///
 ///     RunRecordReader reader("night.run");
 ///     OccupancyMap map = reader.new_map();
@@ -25,31 +25,30 @@ namespace VANTAGE_EXPORT vantage {
 ///     if (!reader.tail().empty()) std::cerr << reader.tail() << '\n';
 class RunRecordReader {
  public:
-  /// Reads the head of the record. Throws std::runtime_error naming the file if it cannot be read, is no record or
-  /// ends within its head.
+  /// Reads the head of the record. Throws std::runtime_error with the path if the file cannot be read, is no
+  /// record or ends within its head.
   explicit RunRecordReader(const std::filesystem::path& file);
-  RunRecordReader(RunRecordReader&&) noexcept;             ///< The one moved from is of no more use.
-  RunRecordReader& operator=(RunRecordReader&&) noexcept;  ///< The one moved from is of no more use.
+  RunRecordReader(RunRecordReader&&) noexcept;             ///< The object moved from must not be used.
+  RunRecordReader& operator=(RunRecordReader&&) noexcept;  ///< The object moved from must not be used.
   RunRecordReader(const RunRecordReader&) = delete;
   RunRecordReader& operator=(const RunRecordReader&) = delete;
   ~RunRecordReader();
 
   /// The sensor of the run.
   [[nodiscard]] const RangeSensor& sensor() const;
-  /// An empty map with the resolution and region of the one that was recorded; with a resolution of 0.1 m where no
-  /// cycle was.
+  /// An empty map with the resolution and region of the recorded map; 0.1 m if there is no cycle.
   [[nodiscard]] OccupancyMap new_map() const;
 
-  /// The next cycle; none where the record ends, whether as it should or not.
+  /// The next cycle; none at the end of the record, complete or not.
   [[nodiscard]] std::optional<RecordedCycle> next();
 
-  /// The run as far as it has been read: all of it after `next` has returned none. A record that was not finished
-  /// has the outcome Budget and says so in `reason`.
+  /// The run as far as it has been read; all of it once `next` has returned none. An unfinished record has the
+  /// outcome Budget and says so in `reason`.
   [[nodiscard]] const RunRecord& run() const;
   /// Whether the end of the run has been read.
   [[nodiscard]] bool finished() const;
-  /// After the last cycle: one sentence on what follows that could not be used, as after a crash; empty where all
-  /// was read.
+  /// One sentence on unusable bytes after the last cycle, for example after a crash; empty if everything was read.
+  /// Valid once `next` has returned none.
   [[nodiscard]] const std::string& tail() const;
 
  private:

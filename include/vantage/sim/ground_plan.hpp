@@ -11,33 +11,33 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A floor as pixels, solid or free: the world of a robot that drives in one plane (a nav2 map, read_nav2_map).
-/// Aggregate; `validate` is called once by everything that takes one.
+/// A floor plan as pixels, solid or free: the world of a robot that drives in one plane (read_nav2_map). Whoever
+/// takes one calls `validate`.
 struct GroundPlan {
   double pixel_m = 0.05;  ///< edge of a pixel, metres, > 0
-  double x_m = 0.0;       ///< where the lower left corner of pixel (0, 0) lies in the world
-  double y_m = 0.0;       ///< see `x_m`
-  double yaw_rad = 0.0;   ///< from the world's x axis to the pixels', counter-clockwise
-  /// Pixels (x, y, 0), (0, 0) the lowest left one; nonzero is solid. Outside of them all is solid.
+  double x_m = 0.0;       ///< world position of the lower left corner of pixel (0, 0), metres
+  double y_m = 0.0;       ///< the same along y
+  double yaw_rad = 0.0;   ///< angle from the world's x axis to that of the pixels, counter-clockwise
+  /// Pixels (x, y, 0) with (0, 0) at the lower left; nonzero is solid. Everything outside is solid.
   VoxelGrid<std::uint8_t> solid = {};
 
-  /// Throws std::invalid_argument naming the field, its value and the rule; the pixels are one layer from (0, 0, 0)
-  /// on, and at least one is free.
+  /// Throws std::invalid_argument with the field, its value and the rule. The pixels must be one layer that starts
+  /// at (0, 0, 0), with at least one free pixel.
   void validate() const;
   /// `world_from_pixels`, both in metres.
   [[nodiscard]] Pose world_from_plan() const;
-  /// The smallest box that holds every pixel; as high as a pixel, from z = 0.
+  /// The smallest box that holds every pixel, world frame, metres; from z = 0, one pixel high.
   [[nodiscard]] Box bounds() const;
-  /// Whether the open rectangle that is x and y of `box` holds a part of a solid pixel, or of what is outside.
-  /// Overlaps of less than a millionth of a pixel are let pass as rounding.
+  /// Whether the open rectangle x, y of `box` overlaps a solid pixel or the outside. Overlaps of less than a
+  /// millionth of a pixel count as rounding.
   [[nodiscard]] bool touches_solid(const Box& box) const;
-  /// The borders between solid and free pixels as upright walls, z from -10 m to 10 m, each moved a hundredth of a
-  /// pixel into its solid pixel, so that a ray that ends on one ends within a solid pixel.
+  /// The borders between solid and free pixels as upright walls, z from -10 m to 10 m. Each is moved a hundredth
+  /// of a pixel into its solid pixel, so that a ray that ends on it ends within a solid pixel.
   [[nodiscard]] TriangleMesh walls() const;
 };
 
-/// A sensor of a robot that drives, in the plane of its own layer of cells: one row of rays, level, of as many
-/// columns as the sensor has. Rays that leave the plane would tell nothing of it.
+/// The sensor of a robot that drives, restricted to its plane: one level row of rays with as many columns as
+/// `sensor` has. Other rays would leave the plane.
 [[nodiscard]] RangeSensor in_plane(const RangeSensor& sensor);
 
 }  // namespace vantage

@@ -7,11 +7,11 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A map as nav2's and ROS 1's map_server keep it: a YAML file with `image` (a PGM file, plain or binary, beside it),
-/// `resolution` (metres a pixel), `origin` ([x, y, yaw] of the lower left corner), `negate`, `occupied_thresh`,
-/// `free_thresh`, and `mode`, which must be trinary where it is given; other keys are ignored, as there. With p the
-/// darkness of a pixel in [0, 1] (its brightness if `negate`), p < free_thresh is free and all else, occupied or not
-/// known, is solid. Throws std::runtime_error naming the file and what is wrong with it.
+/// Reads a map of nav2 or of ROS 1's map_server: a YAML file with `image` (a PGM file, plain or binary, beside
+/// it), `resolution` (metres per pixel), `origin` ([x, y, yaw] of the lower left corner), `negate`,
+/// `occupied_thresh` and `free_thresh`. `mode`, if given, must be trinary; other keys are ignored. With the
+/// darkness p of a pixel in [0, 1] (its brightness if `negate`), p < free_thresh is free; everything else,
+/// occupied or unknown, is solid. Throws std::runtime_error with the path and the error.
 [[nodiscard]] GroundPlan read_nav2_map(const std::filesystem::path& path);
 
 }  // namespace vantage

@@ -17,38 +17,40 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How an object is put before a sensor.
+/// Options of object_scene.
 struct ObjectSceneOptions {
-  std::string name = "object";                   ///< World::name
-  bool table = false;                            ///< in the world `table`, else in free space
-  std::optional<Box> object_box = std::nullopt;  ///< what is to be reconstructed; else 3 cm around the object
-  std::vector<double> radii_m = {};  ///< of the shells of views; none: one from which all of the box is in view
-  double resolution_m = 0.02;        ///< of the map, > 0
+  std::string name = "object";  ///< World::name
+  bool table = false;           ///< whether it stands in the world `table`; else it hangs in free space
+  std::optional<Box> object_box = std::nullopt;  ///< box to reconstruct, metres; none: the object with 3 cm around it
+  std::vector<double> radii_m =
+      {};  ///< radii of the shells of views, metres; empty: one from which the whole box is in view
+  double resolution_m = 0.02;  ///< edge of a cell of the map, metres, > 0
 };
 
-/// Top of the world `table`, metres.
+/// Height of the table top in the world `table`, metres.
 inline constexpr double kTableTopM = 0.427277;
 
-/// An object in the world in which it is looked at.
+/// An object in its world.
 struct ObjectScene {
   World world;                  ///< the object and what it stands on
-  Box box;                      ///< of the object, unknown at first
-  std::vector<double> radii_m;  ///< of shells of views about the middle of the box
+  Box box;                      ///< box of the object, unknown at first, metres
+  std::vector<double> radii_m;  ///< radii of the shells of views about the middle of the box, metres
 };
 
-/// Puts an object, which lies where it is to be, into its world. Where no radius is given there is one: near enough
-/// that the sensor resolves cells and reaches the far side of the box, and else so far off that a sphere around the
-/// box fits into the image; never in the box, on the table at most 1.5 m (Vasquez-Gomez et al. 2013).
+/// Puts an object, given at its place in the world, into its world. If no radius is given there is one shell, far
+/// enough that a sphere around the box fits into the image, but so near that the sensor resolves cells and reaches
+/// the far side of the box; never inside the box, and on the table at most 1.5 m (Vasquez-Gomez et al. 2013).
 [[nodiscard]] ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor,
                                        const ObjectSceneOptions& options);
 
-/// A first view of the object: drawn from the seed among the admitted views of the first shell from which the box
-/// appears at least 0.9 times as large as from any other. Throws std::invalid_argument if none is admitted.
+/// A first view of the object: drawn from the seed among those admitted views of the first shell in which the box
+/// appears at least 0.9 times as large as in the best of them. Throws std::invalid_argument if no view is
+/// admitted.
 [[nodiscard]] Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platform& platform,
                                    std::uint64_t seed);
 
-/// What the planner `next-best-view` is told of a scene (make_planner): the box, the shells, and that views aimed at
-/// what is left stand no further off than the furthest shell and as near as a third of that.
+/// Settings of the planner `next-best-view` for a scene (make_planner): the box, the shells, and the distance of
+/// aimed views, from a third of the largest radius to that radius.
 [[nodiscard]] PlannerSettings planner_settings(const ObjectScene& scene);
 
 }  // namespace vantage

@@ -12,14 +12,14 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Surfaces as triangles, in metres, z up. Both sides of a triangle are solid to a sensor: the winding says nothing.
+/// Surfaces as triangles; metres, z up. Both sides stop a ray; the winding does not matter to a sensor.
 struct TriangleMesh {
-  std::vector<Eigen::Vector3f> vertices;                ///< points, metres
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three positions in `vertices` each
+  std::vector<Eigen::Vector3f> vertices;                ///< positions, metres
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three indices into `vertices` each
 
-  /// The smallest box whose closure holds every vertex of a triangle; empty for an empty mesh.
+  /// The smallest box whose closure holds every vertex that a triangle uses; empty for an empty mesh.
   [[nodiscard]] Box bounds() const;
-  /// Adds the triangles of `other`, scaled about its origin and then moved by `this_from_other`.
+  /// Adds the triangles of `other`, scaled about its origin, then moved by `this_from_other`.
   void append(const TriangleMesh& other, const Pose& this_from_other = Pose::Identity(), double scale = 1.0);
   /// Adds the quadrilateral a, b, c, d (in order around it) as two triangles.
   void add_quad(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
@@ -28,9 +28,9 @@ struct TriangleMesh {
   void add_box(const Box& box);
 };
 
-/// The faces between solid and empty cells of a grid (what lies outside it is solid where `outside_solid`), each
-/// moved `inset_m` into its solid cell. Without an inset every surface would lie on the border of two cells, where
-/// rounding alone decides which of them a ray ends in.
+/// Makes the faces between solid and empty cells of a grid, each moved `inset_m` metres into its solid cell. What
+/// lies outside the grid is solid if `outside_solid`. Without an inset a surface lies on the border of two cells,
+/// and rounding decides in which of them a ray ends.
 [[nodiscard]] TriangleMesh surface_of_cells(const VoxelGrid<std::uint8_t>& solid, const VoxelFrame& frame,
                                             double inset_m, bool outside_solid = true);
 

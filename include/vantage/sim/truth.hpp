@@ -18,7 +18,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a cell of the true world holds.
+/// State of a cell of the true world.
 enum class CellTruth : std::uint8_t {
   Free,    ///< no surface
   Grazed,  ///< surfaces only within 2 % of the cell's edge from its faces: rounding and a few rays decide what a map
@@ -26,47 +26,49 @@ enum class CellTruth : std::uint8_t {
   Occupied,  ///< a surface passes
 };
 
-/// A world as cells, at one resolution and in one region: what a map of it ought to say.
+/// A world as cells of one resolution in one region: what a perfect map of it says.
 class Truth {
  public:
-  /// Rasterises the world exactly (separating axes of each triangle and cell; of each solid pixel and cell where the
-  /// world is a plane). Throws std::invalid_argument for a resolution that is not positive or a region that is empty,
-  /// and if the world is a plane and the region not one layer of cells.
+  /// Rasterises the world exactly (separating axes of each triangle and cell; solid pixels and cells if the world
+  /// is a plane). `resolution_m` > 0. Throws std::invalid_argument for a resolution that is not positive, an empty
+  /// region, and a region that is not one layer of cells if the world is a plane.
   Truth(const World& world, double resolution_m, const Box& region);
 
-  /// The same for a robot that explores the plane of a band of heights (HeightBand): a column is occupied if a cell
-  /// of the band is, else grazed if one is, else free. Throws as HeightBand.
+  /// The ground truth of the plane of a band of heights (HeightBand): a column is occupied if a cell of the band
+  /// is or if it is a drop (FloorRule), else grazed if a cell is, else free. Throws as HeightBand.
   [[nodiscard]] Truth in_band(const HeightBandOptions& band) const;
 
   /// True state of a cell.
   [[nodiscard]] CellTruth at(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free); }
-  /// True states of the region and, around it, of what a ray may end on.
+  /// True states of the region and of the cells around it in which a ray may end.
   [[nodiscard]] const VoxelGrid<CellTruth>& cells() const { return cells_; }
-  /// Every cell of the region as known: free ones free, grazed and occupied ones occupied. What Platform asks about.
+  /// The region as a map in which every cell is known; grazed cells are occupied. A Platform is asked in this map.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
 
-  /// A pose drawn from the seed in the largest space of admitted cells joined face to face, looking along a drawn
-  /// direction, level. None if the platform is admitted nowhere.
+  /// A random pose in the largest space of admitted cells joined face to face: level, in a random direction,
+  /// without roll. None if the platform is admitted nowhere.
   [[nodiscard]] std::optional<Pose> draw_start(const Platform& platform, std::uint64_t seed) const;
 
-  /// The observable cells: cells of the region, free or not, that the sensor sees from at least one of the poses that
-  /// the platform admits, taken on a lattice of 0.4 m (the nearest whole number of cells, at least one) in the space
-  /// reachable from `start`, `start`'s own cell included. A pose sees a cell when the straight line between their
-  /// centres passes free cells only, the distance is within the sensor's range (its lower end for surfaces only),
-  /// and, for a free cell and a sensor that does not report rays without a return, the line goes on to a surface
-  /// within range: nothing else would clear the cell. Orientation is free, but for a platform that cannot tilt the
-  /// cell must be in view of the level sensor turned towards it. Only cells that touch `within`, if given. In raster
-  /// order; the same for any number of threads. `on_share` is told which share of the cells has been asked, now and
-  /// then, from one thread at a time.
+  /// The observable cells: cells of the region, free or not, that the sensor sees from at least one pose. Poses
+  /// are taken in the space reachable from `start`, on a lattice of 0.4 m (rounded to whole cells, at least one)
+  /// and in the cell of `start`. A pose sees a cell if
+  /// - the straight line between the two centres passes free cells only,
+  /// - the distance is within the sensor's range (the minimum range counts for surfaces only), and
+  /// - for a free cell and a sensor that does not report rays without return, the line goes on to a surface within
+  ///   range.
+  ///
+  /// The orientation is free; if the platform cannot tilt, the level sensor turned towards the cell must have it
+  /// in its field of view. With `within`, only cells that touch that box. In raster order; the same for any number
+  /// of threads. `on_share` is called now and then with the share of cells done, from one thread at a time.
   [[nodiscard]] std::vector<VoxelIndex> observable(const Platform& platform, const RangeSensor& sensor,
                                                    const Pose& start, int threads = 1,
                                                    const std::function<void(double share)>& on_share = {},
                                                    const std::optional<Box>& within = std::nullopt) const;
 
-  /// Share of `cells` that the map knows with the right state; 1 if there are none.
+  /// Share of `cells` that the map knows with the right state, in [0, 1]; 1 if there are none.
   [[nodiscard]] double coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const;
 
-  /// The lattice that `observable` looks from.
+  /// The cells that `observable` looks from.
   [[nodiscard]] std::vector<VoxelIndex> lattice(const Platform& platform, const Pose& start) const;
 
  private:

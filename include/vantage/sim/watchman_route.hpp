@@ -10,34 +10,36 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How a watchman_route is sought.
+/// Options of watchman_route.
 struct WatchmanOptions {
-  /// Cells that the route is drawn through sight of, one by one, at most, in [1, 12]. Memory and time double with
-  /// every one: 4 bytes times 2^k for each cell that can be reached.
+  /// Largest number of witnesses, in [1, 12]. Memory and time double with each: 4 bytes times 2^witnesses per
+  /// reachable cell.
   std::size_t max_witnesses = 8;
   int threads = 1;  ///< for lines of sight, > 0
 };
 
-/// A way through a world that is known, and what it proves.
+/// The optimal route with full knowledge of the world, or a lower bound on it.
 struct WatchmanRoute {
-  double length_m = 0.0;              ///< metres; no route that sees everything is shorter
-  bool sees_all = false;              ///< it does itself: so it is the shortest
-  double seen = 0.0;                  ///< share of the observable cells that it sees
-  std::vector<VoxelIndex> cells;      ///< where it goes, from the start on
-  std::vector<VoxelIndex> witnesses;  ///< the cells to see which takes that long
+  double length_m = 0.0;              ///< metres; no route over the steps below that sees everything is shorter
+  bool sees_all = false;              ///< whether this route sees everything: then it is the optimal one
+  double seen = 0.0;                  ///< share of the observable cells that it sees, in [0, 1]
+  std::vector<VoxelIndex> cells;      ///< the route, from the start
+  std::vector<VoxelIndex> witnesses;  ///< the cells that the route was made to see
 };
 
-/// The shortest route of one who knows the world, from `start` to sight of every observable cell (Truth::observable):
-/// the watchman route problem (Chin & Ntafos 1986), and the measure of a planner that does not know it.
+/// Finds the shortest route from `start` that sees every observable cell (Truth::observable), given full knowledge
+/// of the world: the watchman route problem. Its length is a lower bound for planners, up to the 5 % below.
 ///
-/// The route is the shortest one that sees a few witnesses, to which the one hardest to come into sight of is added
-/// until the route sees everything else, too. So it is never longer than the shortest route that sees everything,
-/// and once it does, it is that route. The sensor goes from cell to cell of those that it can be brought to, in 98
-/// directions (up to two cells along every axis, corners cut), which is at most 5 % further than the straight line,
-/// and looks everywhere at once, all along. It sees a cell if one of 27 points of it is in sight, its middle and
-/// points of its faces, edges and corners: a ray of a real sensor need not hit the middle.
+/// The route is the shortest one that sees a few witness cells. While it misses some cell, the one that is hardest
+/// to get into sight becomes a further witness. So the route is never longer than the optimal one, and once it
+/// sees everything it is the optimal one.
 ///
-/// Throws std::invalid_argument naming the option at fault, or if the platform cannot be at `start`.
+/// The sensor moves between reachable cells in 98 directions (up to two cells along each axis, corners cut), which
+/// is at most 5 % longer than the straight line. It looks in all directions all along. It sees a cell if one of 27
+/// points of the cell (centre, faces, edges, corners) is in sight.
+///
+/// Throws std::invalid_argument with the option at fault, or if the platform cannot be at `start`. (Chin & Ntafos
+/// 1986)
 [[nodiscard]] WatchmanRoute watchman_route(const Truth& truth, const Platform& platform, const RangeSensor& sensor,
                                            const Pose& start, const WatchmanOptions& options = {});
 
