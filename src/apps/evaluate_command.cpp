@@ -29,7 +29,7 @@
 namespace vantage::apps {
 namespace {
 
-using nlohmann::json;
+using TrialJson = nlohmann::json;
 
 // Options of `vantage evaluate objects`.
 struct EvaluateRequest {
@@ -86,7 +86,7 @@ RangeSensor sensor_named(const std::string& name, const ExploreRequest& shared) 
   return sensor;
 }
 
-json result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spread) {
+TrialJson result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spread) {
   const TriangleMesh object = object_of(trial.object);
   const RangeSensor sensor = sensor_named(trial.sensor, shared);
   const ObjectScene scene = object_scene(object, sensor, {.name = trial.object, .resolution_m = trial.resolution_m});
@@ -123,15 +123,16 @@ json result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spr
   }
   const auto began = std::chrono::steady_clock::now();
   const RunRecord record = run.run(*planner, start);
-  json result{{"key", trial.key()},
-              {"object", trial.object},
-              {"planner", trial.planner},
-              {"seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count()},
-              {"outcome", to_string(record.outcome)},
-              {"observable", *record.seen_observable > 0.0 ? *record.seen_coverage / *record.seen_observable : 0.0},
-              {"seen", json::array()},
-              {"path_m", json::array()},
-              {"plan_ms", json::array()}};
+  TrialJson result{
+      {"key", trial.key()},
+      {"object", trial.object},
+      {"planner", trial.planner},
+      {"seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count()},
+      {"outcome", to_string(record.outcome)},
+      {"observable", *record.seen_observable > 0.0 ? *record.seen_coverage / *record.seen_observable : 0.0},
+      {"seen", TrialJson::array()},
+      {"path_m", TrialJson::array()},
+      {"plan_ms", TrialJson::array()}};
   for (const ViewRecord& view : record.views) {
     result["seen"].push_back(*view.seen_coverage);
     result["path_m"].push_back(view.path_length_m);
@@ -140,11 +141,11 @@ json result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spr
   return result;
 }
 
-std::map<std::string, json> results_in(const std::string& file) {
-  std::map<std::string, json> results;
+std::map<std::string, TrialJson> results_in(const std::string& file) {
+  std::map<std::string, TrialJson> results;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
-    json result = json::parse(line, nullptr, false);
+    TrialJson result = TrialJson::parse(line, nullptr, false);
     if (result.is_object() && result.contains("key")) {  // an interrupted run may leave half a line
       results.insert_or_assign(result.at("key").get<std::string>(), result);
     }
@@ -162,27 +163,28 @@ double quantile(std::vector<double> values, double share) {
 }
 
 // The value after so many views, or the last one.
-double at_view(const json& list, std::size_t view) {
+double at_view(const TrialJson& list, std::size_t view) {
   return list.empty() ? 0.0 : list.at(std::min(view, list.size()) - 1).get<double>();
 }
 
-void print_row(const std::string& object, const std::string& planner, const std::vector<const json*>& results) {
+void print_row(const std::string& object, const std::string& planner, const std::vector<const TrialJson*>& results) {
   constexpr std::size_t kShown = 10;
   std::printf("| %s | %s |", object.c_str(), planner.c_str());
   const auto over = [&](const auto& value) {
     std::vector<double> values;
     values.reserve(results.size());
-    for (const json* result : results) {
+    for (const TrialJson* result : results) {
       values.push_back(value(*result));
     }
     return values;
   };
   for (std::size_t view = 1; view <= kShown; ++view) {
-    std::printf(" %.0f", 100.0 * quantile(over([&](const json& r) { return at_view(r.at("seen"), view); }), 0.5));
+    std::printf(" %.0f",
+                100.0 * quantile(over([&](const TrialJson& r) { return at_view(r.at("seen"), view); }), 0.5));
   }
-  const auto enough = over([](const json& r) {
+  const auto enough = over([](const TrialJson& r) {
     const double wanted = 0.95 * r.at("observable").get<double>();
-    const json& seen = r.at("seen");
+    const TrialJson& seen = r.at("seen");
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i].get<double>() >= wanted) {
         return static_cast<double>(i + 1);
@@ -190,14 +192,15 @@ void print_row(const std::string& object, const std::string& planner, const std:
     }
     return 99.0;
   });
-  const auto views = over([](const json& r) { return static_cast<double>(r.at("seen").size()); });
-  const auto last = over([](const json& r) { return 100.0 * r.at("seen").back().get<double>(); });
+  const auto views = over([](const TrialJson& r) { return static_cast<double>(r.at("seen").size()); });
+  const auto last = over([](const TrialJson& r) { return 100.0 * r.at("seen").back().get<double>(); });
   std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.0f | %.1f | %.1f | %.1f |\n",
-              quantile(over([](const json& r) { return 100.0 * r.at("observable").get<double>(); }), 0.5),
+              quantile(over([](const TrialJson& r) { return 100.0 * r.at("observable").get<double>(); }), 0.5),
               quantile(enough, 0.5), quantile(enough, 0.25), quantile(enough, 0.75), quantile(last, 0.5),
-              quantile(views, 0.5), quantile(over([](const json& r) { return at_view(r.at("path_m"), 5); }), 0.5),
-              quantile(over([](const json& r) { return r.at("path_m").back().get<double>(); }), 0.5),
-              quantile(over([](const json& r) { return r.at("seconds").get<double>(); }), 0.5));
+              quantile(views, 0.5),
+              quantile(over([](const TrialJson& r) { return at_view(r.at("path_m"), 5); }), 0.5),
+              quantile(over([](const TrialJson& r) { return r.at("path_m").back().get<double>(); }), 0.5),
+              quantile(over([](const TrialJson& r) { return r.at("seconds").get<double>(); }), 0.5));
 }
 
 void evaluate_objects(EvaluateRequest& request) {
@@ -211,13 +214,13 @@ void evaluate_objects(EvaluateRequest& request) {
       request.objects.emplace_back(name);
     }
   }
-  std::map<std::string, json> done =
-      request.results.empty() ? std::map<std::string, json>() : results_in(request.results);
+  std::map<std::string, TrialJson> done =
+      request.results.empty() ? std::map<std::string, TrialJson>() : results_in(request.results);
   std::ofstream out;
   if (!request.results.empty()) {
     out.open(request.results, std::ios::app);
   }
-  std::map<std::pair<std::string, std::string>, std::vector<json>> rows;
+  std::map<std::pair<std::string, std::string>, std::vector<TrialJson>> rows;
   const std::size_t all = request.objects.size() * request.sensors.size() * request.resolutions_m.size() *
                           request.starts * request.planners.size();
   std::size_t count = 0;
@@ -250,8 +253,8 @@ void evaluate_objects(EvaluateRequest& request) {
       "the end | views | path after 5, m | path | s |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& object : request.objects) {
     for (const std::string& planner : request.planners) {
-      std::vector<const json*> results;
-      for (const json& result : rows[{object, planner}]) {
+      std::vector<const TrialJson*> results;
+      for (const TrialJson& result : rows[{object, planner}]) {
         results.push_back(&result);
       }
       print_row(object, planner, results);

@@ -336,7 +336,8 @@ TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {
   EXPECT_NE(message("best", {}).find("there is no planner 'best'; there are: "), std::string::npos);
   EXPECT_NE(message("frontier-gain", {{"hypothesis", "3"}}).find("has no setting 'hypothesis'"), std::string::npos);
   EXPECT_NE(message("frontier-gain", {{"hypotheses", "many"}}).find("must be a whole number"), std::string::npos);
-  EXPECT_EQ(message("frontier-gain", {{"hypotheses", "0"}}), "FrontierGainOptions::hypotheses is 0, must be in [1, 1e+06]");
+  EXPECT_EQ(message("frontier-gain", {{"hypotheses", "0"}}),
+            "FrontierGainOptions::hypotheses is 0, must be in [1, 1e+06]");
   EXPECT_EQ(message("frontier-gain", {{"hypotheses", "30"}, {"cost_per_m", "2.5"}}), "");
   EXPECT_EQ(message("frontier-void", {{"mode", "travelling"}, {"views", "5"}}), "");
   EXPECT_NE(
