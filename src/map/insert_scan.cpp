@@ -96,7 +96,6 @@ class ScanInserter {
       const std::uint64_t changed = (touched & ~brick.known[word]) | (occupied ^ brick.occupied[word]);
       brick.known[word] |= touched;
       brick.occupied[word] = occupied;
-      brick.once_occupied[word] |= occupied;
       any_change |= changed;
       report_.cells_hit += static_cast<std::size_t>(std::popcount(marks.hit[word]));
       report_.cells_cleared += static_cast<std::size_t>(std::popcount(marks.passed[word]));

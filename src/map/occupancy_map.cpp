@@ -254,7 +254,7 @@ void OccupancyMap::set(const VoxelIndex& cell, Occupancy occupancy) {
   const std::int8_t steps = occupancy == Occupancy::Unknown ? std::int8_t{0}
                             : occupancy == Occupancy::Free  ? min_steps_
                                                             : max_steps_;
-  write(cell, occupancy, steps, Past::Forgotten);
+  write(cell, occupancy, steps);
 }
 
 void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
@@ -268,7 +268,7 @@ void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
   ++revision_;
   const std::int8_t steps = to_steps(log_odds);
   const Occupancy state = steps >= 0 ? Occupancy::Occupied : Occupancy::Free;
-  for_each_cell(inside, [&](const VoxelIndex& cell) { write(cell, state, steps, Past::Kept); });
+  for_each_cell(inside, [&](const VoxelIndex& cell) { write(cell, state, steps); });
 }
 
 void OccupancyMap::assume_free(const Box& box) {
@@ -279,7 +279,7 @@ void OccupancyMap::assume_free(const Box& box) {
   ++revision_;
   for_each_cell(inside, [&](const VoxelIndex& cell) {
     if (at(cell) == Occupancy::Unknown) {
-      write(cell, Occupancy::Free, miss_steps_, Past::Kept);
+      write(cell, Occupancy::Free, miss_steps_);
     }
   });
 }
@@ -323,7 +323,7 @@ void OccupancyMap::mark_changed(BrickDirectory::Number number) {
   stored.changed = revision_;
 }
 
-void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t steps, Past past) {
+void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t steps) {
   const VoxelIndex address = Brick::of_cell(cell);
   if (state == Occupancy::Unknown && directory_.find(address) == BrickDirectory::kNone) {
     return;
@@ -343,10 +343,6 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
   }
   brick.known[word] = state == Occupancy::Unknown ? brick.known[word] & ~bit : brick.known[word] | bit;
   brick.occupied[word] = state == Occupancy::Occupied ? brick.occupied[word] | bit : brick.occupied[word] & ~bit;
-  if (past == Past::Forgotten) {
-    brick.once_occupied[word] &= ~bit;
-  }
-  brick.once_occupied[word] |= brick.occupied[word];
   brick.log_odds[offset] = steps;
 }
 

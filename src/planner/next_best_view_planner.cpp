@@ -247,11 +247,15 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     return plan;
   }
   // Lines 22 to 25.
-  plan.outcome = any_worthwhile ? Outcome::Blocked : Outcome::Explored;
-  (any_worthwhile ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
-  plan.reason = any_worthwhile ? "there is no way to any view that sees enough of the object"
-                               : "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
-                                     " unknown cells of the object; all together see " + std::to_string(left.size());
+  if (tried_.try_resting_again()) {
+    return reconstruct(map, current);
+  }
+  const bool cut_off = any_worthwhile || tried_.any_rests();
+  plan.outcome = cut_off ? Outcome::Unreachable : Outcome::Explored;
+  (cut_off ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
+  plan.reason = cut_off ? "there is no way to any view that sees enough of the object"
+                        : "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
+                              " unknown cells of the object; all together see " + std::to_string(left.size());
   return plan;
 }
 

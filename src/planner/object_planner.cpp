@@ -39,7 +39,10 @@ void check(const ObjectPlannerOptions& options) {
 }  // namespace
 
 ObjectPlanner::ObjectPlanner(const PlannerSetup& setup, const ObjectPlannerOptions& options)
-    : setup_(setup), options_(options) {
+    : setup_(setup),
+      options_(options),
+      tried_(setup.sensor,
+             {.goal_tolerance_m = setup.goal_tolerance_m, .goal_tolerance_rad = setup.goal_tolerance_rad}) {
   setup.validate();
   check(options);
 }
@@ -100,53 +103,80 @@ std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(const OccupancyM
   return admitted;
 }
 
-Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  detail::Stopwatch stopwatch;
-  follow(map, orthonormalised(current));
-  Plan plan;
-  plan.statistics.survey_ms = stopwatch.lap_ms();
-  std::vector<Candidate> tried = candidates(map, current);
-  plan.statistics.views_scored = tried.size();
-  plan.statistics.evaluate_ms = stopwatch.lap_ms();
-
+// The nearest of the good ones first, then the others as they are good.
+std::vector<std::size_t> ObjectPlanner::order_of(const std::vector<Candidate>& tried) const {
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return tried[a].faces.size() > tried[b].faces.size(); });
-  for (const std::size_t i : order) {
-    if (!tried[i].faces.empty()) {
-      plan.candidates.push_back({tried[i].pose, static_cast<double>(tried[i].faces.size())});
-    }
-  }
-  const double least = std::max(1.0, options_.min_new_share * static_cast<double>(surface_->looked_at()));
-  const std::size_t best = order.empty() ? 0 : tried[order.front()].faces.size();
-  const bool any_worthwhile = static_cast<double>(best) >= least;
-  // The nearest of the good ones first, then the others as they are good.
   const auto good = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
-    return static_cast<double>(tried[i].faces.size()) < options_.near_share * static_cast<double>(best);
+    return static_cast<double>(tried[i].faces.size()) <
+           options_.near_share * static_cast<double>(tried[order.front()].faces.size());
   });
   std::stable_sort(order.begin(), good,
                    [&](std::size_t a, std::size_t b) { return tried[a].way_m < tried[b].way_m; });
-  plan.statistics.choose_ms = stopwatch.lap_ms();
-  for (const std::size_t i : order) {
-    if (static_cast<double>(tried[i].faces.size()) < least) {
+  return order;
+}
+
+// The first worthwhile candidate to which there is a way and whose place does not rest.
+bool ObjectPlanner::take_first(const OccupancyMap& map, const Pose& current, const std::vector<Candidate>& worthwhile,
+                               Plan& plan) const {
+  for (const Candidate& candidate : worthwhile) {
+    if (tried_.rests(map.frame().cell_of(candidate.pose.translation()))) {
       continue;
     }
-    if (auto path = way_around(map, *setup_.platform, current, tried[i].pose, options_.object.centre())) {
+    if (auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.object.centre())) {
       plan.outcome = Outcome::Move;
-      plan.goal = {tried[i].pose, static_cast<double>(tried[i].faces.size())};
+      plan.goal = {candidate.pose, static_cast<double>(candidate.faces.size())};
       plan.path = std::move(*path);
-      plan.reason = "a view of " + std::to_string(tried[i].faces.size()) + " faces of the object that were not seen";
-      break;
+      plan.reason = "a view of " + std::to_string(candidate.faces.size()) + " faces of the object that were not seen";
+      return true;
     }
   }
-  plan.statistics.path_ms = stopwatch.lap_ms();
-  if (plan.outcome != Outcome::Move) {
-    plan.outcome = any_worthwhile ? Outcome::Blocked : Outcome::Explored;
-    (any_worthwhile ? plan.leftover.unreachable : plan.leftover.unobservable) = best;
-    plan.reason = any_worthwhile ? "there is no way to any view that would show more of the object"
-                                 : "no admitted view would show more of the object";
+  return false;
+}
+
+Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pose) {
+  detail::Stopwatch stopwatch;
+  const Pose current = orthonormalised(pose);
+  tried_.review(map, current);
+  follow(map, current);
+  Plan plan;
+  plan.statistics.survey_ms = stopwatch.lap_ms();
+  const std::vector<Candidate> all = candidates(map, current);
+  plan.statistics.views_scored = all.size();
+  plan.statistics.evaluate_ms = stopwatch.lap_ms();
+
+  const double least = std::max(1.0, options_.min_new_share * static_cast<double>(surface_->looked_at()));
+  std::vector<Candidate> worthwhile;
+  std::size_t best = 0;
+  for (const std::size_t i : order_of(all)) {
+    const std::size_t faces = all[i].faces.size();
+    best = std::max(best, faces);
+    if (faces > 0) {
+      plan.candidates.push_back({all[i].pose, static_cast<double>(faces)});
+    }
+    if (static_cast<double>(faces) >= least) {
+      worthwhile.push_back(all[i]);
+    }
   }
+  plan.statistics.choose_ms = stopwatch.lap_ms();
+  if (take_first(map, current, worthwhile, plan) ||
+      (tried_.try_resting_again() && take_first(map, current, worthwhile, plan))) {
+    tried_.expect(map, plan.goal.pose, way_of(plan.path), {});
+  } else if (all.empty()) {
+    plan.reason =
+        "the platform admits none of the candidate views: declare the space around the object free (assume_free)";
+  } else if (worthwhile.empty()) {
+    plan.outcome = Outcome::Explored;
+    plan.leftover.unobservable = best;
+    plan.reason = "no admitted view would show more of the object";
+  } else {
+    plan.outcome = Outcome::Unreachable;
+    plan.leftover.unreachable = best;
+    plan.reason = "there is no way to any view that would show more of the object";
+  }
+  plan.statistics.path_ms = stopwatch.lap_ms();
   return plan;
 }
 

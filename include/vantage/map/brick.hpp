@@ -29,8 +29,7 @@ struct Brick {
   static constexpr std::size_t kCells = 512;  ///< cells of a brick
 
   BrickPlane known{};                          ///< bit plane: free or occupied now
-  BrickPlane occupied{};                       ///< bit plane: occupied now; a subset of `once_occupied`
-  BrickPlane once_occupied{};                  ///< bit plane: occupied now or earlier; a subset of `known`
+  BrickPlane occupied{};                       ///< bit plane: occupied now; a subset of `known`
   std::array<std::int8_t, kCells> log_odds{};  ///< in steps, indexed by `offset_of`
 
   /// The address (in units of bricks) of the brick that holds a cell.
@@ -68,11 +67,6 @@ struct Brick {
   }
   /// Bit mask of the free cells of one sub-brick.
   [[nodiscard]] std::uint64_t free(std::size_t word) const { return known[word] & ~occupied[word]; }
-  /// Whether the cell at an offset is free now, but was occupied earlier.
-  [[nodiscard]] bool worn(std::size_t offset) const {
-    const std::size_t word = offset >> 6U;
-    return ((once_occupied[word] & ~occupied[word]) >> (offset & 63U) & 1U) != 0;
-  }
 };
 
 /// Calls `visit(offset)` for each set bit of `mask`, which is word number `word` of a plane. Ascending order.

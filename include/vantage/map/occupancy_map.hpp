@@ -111,12 +111,6 @@ class OccupancyMap {
   /// neither it nor the space behind it is reliable. Hits that add up to a whole number of misses go unnoticed: every
   /// eighth hit with the default constants, every hit if a hit is a multiple of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
-  /// Whether a cell is free but was occupied earlier: an object has gone, or rays have erased a surface in it. Unlike
-  /// contested, this stays true at the lower clamp.
-  [[nodiscard]] bool worn(const VoxelIndex& cell) const {
-    const Brick* brick = find_brick(Brick::of_cell(cell));
-    return brick != nullptr && brick->worn(Brick::offset_of(cell));
-  }
   /// Whether a cell is free and not contested: views may look through it and a robot may occupy it.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell) const {
     const Brick* brick = find_brick(Brick::of_cell(cell));
@@ -234,12 +228,11 @@ class OccupancyMap {
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Creates a new revision without a change, like a scan that only confirms known states.
   void confirm() { ++revision_; }
-  /// Sets the state of a cell with log-odds at the clamping limit, and resets `worn`. Unknown makes the cell unseen.
-  /// No effect outside the region. Throws std::invalid_argument if the cell is not addressable (kFurthestVoxel).
+  /// Sets the state of a cell with log-odds at the clamping limit. Unknown makes the cell unseen. No effect
+  /// outside the region. Throws std::invalid_argument if the cell is not addressable (kFurthestVoxel).
   void set(const VoxelIndex& cell, Occupancy occupancy);
-  /// Sets the log-odds of a cell, clamped and rounded to a step; a negative value stays negative. An occupied cell
-  /// that becomes free is worn. No effect outside the region. Throws std::invalid_argument for NaN and for a cell
-  /// that is not addressable.
+  /// Sets the log-odds of a cell, clamped and rounded to a step; a negative value stays negative. No effect
+  /// outside the region. Throws std::invalid_argument for NaN and for a cell that is not addressable.
   void set_log_odds(const VoxelIndex& cell, double log_odds) {
     require_addressable(cell, "OccupancyMap::set_log_odds");
     set_log_odds(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}, log_odds);
@@ -275,8 +268,7 @@ class OccupancyMap {
   // Returns kNone if the memory limit is reached.
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
-  enum class Past : std::uint8_t { Kept, Forgotten };
-  void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps, Past past);
+  void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
   [[nodiscard]] std::int8_t to_steps(double log_odds) const;
 
   MapIdentity identity_;

@@ -27,8 +27,7 @@ struct OctomapImportOptions {
 };
 
 /// The result of an import. Each state equals that of the octree; a pruned leaf is expanded to its finest cells. The
-/// log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0. An octree does not store the past
-/// of a cell, so no cell is worn (OccupancyMap::worn).
+/// log-odds are clamped and rounded to `map.log_odds_step()`, but never across 0.
 struct OctomapImport {
   /// The imported map.
   OccupancyMap map;

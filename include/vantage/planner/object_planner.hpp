@@ -8,6 +8,7 @@
 #include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/aimed_views.hpp>
 #include <vantage/view/unseen_surface.hpp>
@@ -39,7 +40,10 @@ class ObjectPlanner final : public ExplorationPlanner {
 
   /// "next-best-view".
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
-  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
+  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& pose) override;
+  void report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) override {
+    tried_.report(result);
+  }
 
  private:
   struct Candidate {
@@ -49,12 +53,16 @@ class ObjectPlanner final : public ExplorationPlanner {
   };
   void follow(const OccupancyMap& map, const Pose& current);
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current) const;
+  [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& tried) const;
+  [[nodiscard]] bool take_first(const OccupancyMap& map, const Pose& current,
+                                const std::vector<Candidate>& worthwhile, Plan& plan) const;
   [[nodiscard]] double way_m(const Pose& from, const Pose& to) const;
 
   PlannerSetup setup_;
   ObjectPlannerOptions options_;
   KnownMap map_;  // that was planned in last
   OccupancyMap::Revision revision_ = 0;
+  TriedViews tried_;  // goals that the robot failed to get to
   std::optional<UnseenSurface> surface_;
   std::optional<ViewRays> rays_;
 };

@@ -39,18 +39,15 @@ TEST(OccupancyMap, KnowsNothingAtFirst) {
 
 // Against the history of the cell: a free cell is contested exactly when a ray has ended in it since it last was
 // unknown or at the lower clamp. (So few updates cannot add up to a whole number of misses.)
-// It is worn exactly when it has been occupied since it last was unknown.
 TEST(OccupancyMap, AFreeCellThatWasHitIsContestedUntilItIsFreeForSure) {
   std::mt19937 engine(7);
   const OccupancyMapOptions options;
   std::size_t contested = 0;
-  std::size_t worn = 0;
   std::size_t free = 0;
   for (int world = 0; world < 2000; ++world) {
     OccupancyMap map(options);
     double log_odds = 0.0;
     bool hit_since = false;
-    bool occupied_since = false;
     for (int update = 0; update < 12; ++update) {
       const bool hit = engine() % 4 == 0;
       log_odds = std::clamp(log_odds + (hit ? options.log_odds_hit : options.log_odds_miss), options.log_odds_min,
@@ -58,64 +55,18 @@ TEST(OccupancyMap, AFreeCellThatWasHitIsContestedUntilItIsFreeForSure) {
       hit_since = hit || (hit_since && log_odds > options.log_odds_min + 1e-9);
       map.set_log_odds(VoxelIndex{1, 2, 3}, log_odds);
       const bool is_free = map.at({1, 2, 3}) == Occupancy::Free;
-      occupied_since = occupied_since || !is_free;
-      EXPECT_EQ(map.worn({1, 2, 3}), is_free && occupied_since) << log_odds;
       EXPECT_EQ(map.contested({1, 2, 3}), is_free && hit_since) << log_odds;
       EXPECT_EQ(map.is_clear({1, 2, 3}), is_free && !hit_since) << log_odds;
       std::size_t visited = 0;
       map.for_each_clear([&](const VoxelIndex& cell) { visited += cell == VoxelIndex{1, 2, 3} ? 1U : 2U; });
       EXPECT_EQ(visited, is_free && !hit_since ? 1U : 0U);
       contested += map.contested({1, 2, 3}) ? 1U : 0U;
-      worn += map.worn({1, 2, 3}) ? 1U : 0U;
       free += is_free ? 1U : 0U;
     }
   }
   EXPECT_GT(contested, 3000U);
   EXPECT_GT(free - contested, 3000U);
-  EXPECT_GT(worn, 3000U);
-  EXPECT_GT(free - worn, 3000U);
   EXPECT_FALSE(OccupancyMap().contested({1, 2, 3}));
-  EXPECT_FALSE(OccupancyMap().worn({1, 2, 3}));
-}
-
-TEST(OccupancyMap, ScansWearAwayWhatOtherScansHit) {
-  std::mt19937 engine(17);
-  OccupancyMap map({.resolution_m = 0.5});
-  std::set<VoxelIndex> once_occupied;
-  std::size_t worn = 0;
-  std::size_t never_occupied = 0;
-  for (int scan = 0; scan < 200; ++scan) {
-    map.insert(random_scan(engine, 40));
-    map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
-      if (state == Occupancy::Occupied) {
-        once_occupied.insert(cell);
-      }
-      const bool expected = state == Occupancy::Free && once_occupied.contains(cell);
-      ASSERT_EQ(map.worn(cell), expected) << scan;
-      ++(expected ? worn : never_occupied);
-    });
-  }
-  EXPECT_GT(worn, 30'000U);
-  EXPECT_GT(never_occupied, 30'000U);
-}
-
-TEST(OccupancyMap, ACellThatIsSetForgetsWhatItWas) {
-  OccupancyMap map;
-  const VoxelIndex cell{1, 2, 3};
-  const auto wear = [&] {
-    map.set(cell, Occupancy::Occupied);
-    map.set_log_odds(cell, -2.0);
-  };
-  wear();
-  EXPECT_TRUE(map.worn(cell));
-  map.set(cell, Occupancy::Free);
-  EXPECT_FALSE(map.worn(cell));
-  wear();
-  map.set(cell, Occupancy::Unknown);
-  EXPECT_FALSE(map.worn(cell));
-  map.assume_free(map.frame().box_of({cell, cell + VoxelIndex{1, 1, 1}}));
-  EXPECT_EQ(map.at(cell), Occupancy::Free);
-  EXPECT_FALSE(map.worn(cell));
 }
 
 TEST(OccupancyMap, StepHoldsThePapersConstantsExactly) {
