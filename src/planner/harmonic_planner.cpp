@@ -136,7 +136,8 @@ bool HarmonicPlanner::chooses_directions() const {
 std::optional<TargetView> HarmonicPlanner::look_again(std::uint64_t& operations) const {
   const OccupancyMap& map = situation().map();
   const Eigen::Vector3d position = situation().current().translation();
-  if (!chooses_directions() || map.frame().cell_of(position) != *situation().reachable().start()) {
+  const VoxelIndex here = map.frame().cell_of(position);
+  if (!chooses_directions() || here != *situation().reachable().start() || situation().tried().rests(here)) {
     return std::nullopt;
   }
   std::optional<detail::Look> look = detail::LookDirections(situation(), position, operations).best();

@@ -229,8 +229,8 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
             "min_new_share", "", "a view must be expected to show this share of the surface seen so far",
             within(0, 1), [](O & o) -> auto& { return o.surface.min_new_share; })
         .number(
-            "near_share", "", "of views expected to show this share of the best, the nearest is taken", within(0, 1),
-            [](O & o) -> auto& { return o.surface.near_share; })
+            "near_share", "", "of views expected to show this share of the best, the nearest is taken",
+            SettingRange{0, 1, false}, [](O & o) -> auto& { return o.surface.near_share; })
         .number(
             "hypotheses", "views", "without an object: weighed per plan", within(1, 1e6),
             [](O & o) -> auto& { return o.cells.hypotheses; });
