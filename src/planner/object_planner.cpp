@@ -44,7 +44,7 @@ ObjectPlanner::ObjectPlanner(const PlannerSetup& setup, const ObjectPlannerOptio
   check(options);
 }
 
-// A new revision is a scan from where the sensor is.
+// Assumes that a new revision is a scan at `current`.
 void ObjectPlanner::follow(const OccupancyMap& map, const Pose& current) {
   const bool known = map_.is_in_place(map);
   if (!known) {
@@ -59,7 +59,7 @@ void ObjectPlanner::follow(const OccupancyMap& map, const Pose& current) {
   }
 }
 
-// Straight, or along an arc where the object is in the way.
+// Estimated path length, metres: straight, or along an arc if the object is in between.
 double ObjectPlanner::way_m(const Pose& from, const Pose& to) const {
   const Eigen::Vector3d a = from.translation() - options_.object.centre();
   const Eigen::Vector3d b = to.translation() - options_.object.centre();
@@ -121,7 +121,7 @@ Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& current) {
   const double least = std::max(1.0, options_.min_new_share * static_cast<double>(surface_->looked_at()));
   const std::size_t best = order.empty() ? 0 : tried[order.front()].faces.size();
   const bool any_worthwhile = static_cast<double>(best) >= least;
-  // The nearest of the good ones first, then the others as they are good.
+  // First the good views by distance, then the others by expected gain.
   const auto good = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
     return static_cast<double>(tried[i].faces.size()) < options_.near_share * static_cast<double>(best);
   });
