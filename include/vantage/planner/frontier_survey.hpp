@@ -25,8 +25,8 @@ struct FrontierTarget {
 
 /// Options of a survey, common to all planners.
 struct FrontierSurveyOptions {
-  int patience =
-      2;  ///< different places from which a cell is looked at in vain before it is given up (TriedViews), >= 1
+  /// Number of different places from which a cell is looked at in vain before it is given up (TriedViews), >= 1
+  int patience = 2;
   std::size_t sight_directions = 512;  ///< rays cast from an unknown cell to find a viewpoint, >= 6
 };
 

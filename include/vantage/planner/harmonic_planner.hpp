@@ -92,6 +92,7 @@ class HarmonicPlanner final : public FrontierPlanner {
 
   [[nodiscard]] std::string_view name() const override { return "harmonic"; }
 
+  /// The options of the constructor.
   [[nodiscard]] const HarmonicOptions& options() const { return options_; }
   /// The field of the last plan. None if the plan needed none: nothing was left, the sensor looks from where it is,
   /// or there was only one sink and the shortest path is taken.

@@ -21,8 +21,8 @@ struct ObjectPlannerOptions {
   std::vector<double> radii_m = {
       1.5};              ///< radii of the candidate spheres around the centre of the object, metres, each > 0
   int subdivisions = 2;  ///< candidates per sphere: 20 * 4^subdivisions, in [-1, 6]; -1: none
-  std::size_t random_candidates =
-      0;  ///< additional candidates from random places in the region or, without one, the known space
+  /// Number of additional candidates from random places in the region or, without one, the known space
+  std::size_t random_candidates = 0;
   AimedViewOptions aimed = {};  ///< additional candidates that aim at surface that is not yet observed
   /// Minimum expected number of new faces of a view, as a share of the faces observed so far, in [0, 1).
   double min_new_share = 0.002;

@@ -98,6 +98,7 @@ class TriedViews {
   [[nodiscard]] const std::deque<Pose>& scanned_from() const { return scanned_from_; }
   /// The number of cells with evidence.
   [[nodiscard]] std::size_t size() const { return looks_.size(); }
+  /// The options of the constructor.
   [[nodiscard]] const TriedViewsOptions& options() const { return options_; }
 
  private:

@@ -25,6 +25,7 @@ struct JointRange {
 /// valid, e.g. because of a self-collision.
 using ForwardKinematics = std::function<std::optional<Pose>(std::span<const double> joints)>;
 
+/// Options of a CapabilityMap.
 struct CapabilityMapOptions {
   double cell_m = 0.05;  ///< edge of a position cell, metres, > 0
   /// Direction bins along each edge of each face of a cube, in [1, 32]. 4 gives 96 bins of about 20 degrees.
@@ -54,6 +55,7 @@ class CapabilityMap {
   /// Writes the map to a file and replaces an existing one. Throws std::runtime_error with the path if that fails.
   void save(const std::filesystem::path& path) const;
 
+  /// The options of the constructor.
   [[nodiscard]] const CapabilityMapOptions& options() const { return options_; }
   /// The grid of position cells in the base frame.
   [[nodiscard]] VoxelFrame frame() const { return {options_.cell_m}; }

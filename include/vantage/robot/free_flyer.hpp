@@ -27,6 +27,7 @@ class FreeFlyer final : public Platform {
   /// Throws std::invalid_argument, which names the invalid option.
   explicit FreeFlyer(const FreeFlyerOptions& options);
 
+  /// The options of the constructor.
   [[nodiscard]] const FreeFlyerOptions& options() const { return options_; }
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;

@@ -24,6 +24,7 @@ class GroundRobot final : public Platform {
   /// Throws std::invalid_argument, which names the invalid option.
   explicit GroundRobot(const GroundRobotOptions& options);
 
+  /// The options of the constructor.
   [[nodiscard]] const GroundRobotOptions& options() const { return options_; }
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;

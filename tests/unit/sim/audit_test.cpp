@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-// A free room with walls and a recess of unknown cells, which each test changes.
+// A free room with occupied walls; each test adds unknown cells.
 OccupancyMap audited_room() {
   OccupancyMap map({.resolution_m = 0.1});
   for_each_cell(VoxelBox{{-1, -1, -1}, {21, 11, 11}}, [&](const VoxelIndex& cell) {
