@@ -134,7 +134,7 @@ std::vector<Pose> FrontierVoidPlanner::sample_views(PlanStatistics& statistics) 
   return views;
 }
 
-// Views of about `most` of the targets, evenly distributed over the list.
+// Views of at most `most` targets, evenly distributed over the list.
 std::vector<Pose> FrontierVoidPlanner::views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
                                                 PlanStatistics& statistics) const {
   std::vector<Pose> views;

@@ -245,7 +245,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     tried_.expect(map, plan.goal.pose, way_of(plan.path), plan.sought);
     return plan;
   }
-  // Lines 22 to 25.
+  // Lines 22 to 25: no view is taken.
   plan.outcome = any_worthwhile ? Outcome::Blocked : Outcome::Explored;
   (any_worthwhile ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
   plan.reason = any_worthwhile ? "there is no way to any view that sees enough of the object"

@@ -2,7 +2,6 @@
 # cmake -D ROOT=<source tree> -P check_floors.cmake
 # Folders under include/vantage and src are floors. A folder includes only itself and lower floors, not folders of the
 # same floor. Nothing in the library includes the umbrella header or the applications.
-# floor never see each other; nothing in the library includes the umbrella header or the applications.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 set(floor_geometry 0)

@@ -46,8 +46,8 @@ enum class GoalResult : std::uint8_t {
 /// faces of the object instead.
 struct Leftover {
   std::size_t unreachable = 0;  ///< not close to any reachable cell
-  std::size_t unobservable =
-      0;                    ///< no reachable pose of this sensor has a line of sight to the unknown cells behind them
+  /// No reachable pose of this sensor has a line of sight to the unknown cells behind them.
+  std::size_t unobservable = 0;
   std::size_t in_vain = 0;  ///< looked at from enough different places without a result (TriedViews)
 
   /// Compares all counts.

@@ -33,7 +33,7 @@ struct FrontierVoidStrategy {
   /// True: the finalists are compared by the length of the path, not by the straight distance. A view behind a wall
   /// is far away.
   bool along_way = false;
-  /// Additional candidates, about this many, from the nearest places that see a void through its frontier, >= 0.
+  /// Additional candidates, at most this many, from the nearest places that see a void through its frontier, >= 0.
   /// Places and directions are drawn by the size of voids, which misses the small ones.
   std::size_t near_views = 0;
   /// All views are first ranked with a sixteenth of the rays, and this many of the best again with all rays, >= 1.

@@ -65,9 +65,8 @@ struct HarmonicField {
   std::vector<double> phi;                  ///< the solution, by position in the problem
   std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the chosen sink, metres, world
   LaplaceReport report;                     ///< how the solver ended
-  std::size_t stuck_cells =
-      /// cells without a strictly lower neighbour; 0: descent from every cell ends at a sink
-      0;
+  /// Cells without a strictly lower neighbour. 0: descent from every cell ends at a sink.
+  std::size_t stuck_cells = 0;
   /// False: the field is not certified (Multigrid), or descent from the source does not reach a sink (GaussSeidel).
   /// The plan then takes the shortest path.
   bool followed = true;

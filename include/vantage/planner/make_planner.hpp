@@ -26,7 +26,6 @@ struct PlannerSetting {
 /// Makes a planner by name. To set all options, construct the class of the planner instead. Throws
 /// std::invalid_argument if the planner or a setting does not exist (the message lists those that exist), or if a
 /// value is invalid.
-/// if there is no such planner or no such setting (listing those there are), or a value does not fit.
 [[nodiscard]] std::unique_ptr<ExplorationPlanner> make_planner(std::string_view name, const PlannerSetup& setup,
                                                                const PlannerSettings& settings = {});
 

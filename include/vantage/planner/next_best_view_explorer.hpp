@@ -16,7 +16,6 @@ struct NextBestViewExplorerOptions {
 /// Next-best-view planning without an object: draws views at random, every other one aimed at a target, and takes the
 /// one with the highest utility among those that see a target: unknown cells seen, divided by 1 + distance.
 /// (Vasquez-Gomez et al. 2013, eq. 2 and 6, over the whole map.)
-/// most unknown cells for its distance (Vasquez-Gomez et al. 2013, eq. 2 and 6, over the whole map).
 class NextBestViewExplorer final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.

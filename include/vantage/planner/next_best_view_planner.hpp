@@ -49,7 +49,7 @@ struct NextBestViewOptions {
   /// Additional candidates that look at the object from random places in the region or, without a region, in the
   /// known part of the map (VI-B).
   std::size_t random_candidates = 0;
-  /// Additional candidates that aim at unknown cells of the object from places that can see them, drawn anew for each
+  /// Additional candidates that aim at unknown cells of the object from places that can see them, computed for each
   /// plan.
   AimedViewOptions aimed = {};
   /// Minimum number of occupied cells of the object that a view must see, `h_oc` in eq. 2. Ignored while no cell of
@@ -69,12 +69,11 @@ struct NextBestViewOptions {
   int hierarchical_levels = 3;  ///< HierarchicalRayTracerOptions::levels, in [1, 16] (VI-B: start depth 14 of 16)
 
   // Used without an object:
-  std::size_t hypotheses =
-      /// poses drawn in the reachable space per plan, every other one aimed at a target, >= 1
-      100;
+  /// Poses drawn in the reachable space per plan, every other one aimed at a target, >= 1.
+  std::size_t hypotheses = 100;
 
-  FrontierSurveyOptions survey =
-      {};  ///< how frontiers are surveyed (without an object); its `patience` applies in both cases
+  /// How frontiers are surveyed without an object. `patience` applies in both cases.
+  FrontierSurveyOptions survey = {};
 };
 
 /// Next-best-view planning: takes the candidate view of the highest utility `u = pos reg sur dist` (eq. 1-5). By

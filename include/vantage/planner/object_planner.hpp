@@ -18,8 +18,8 @@ namespace VANTAGE_EXPORT vantage {
 /// Options of ObjectPlanner.
 struct ObjectPlannerOptions {
   Box object;  ///< box of the object, metres, world, min < max
-  std::vector<double> radii_m = {
-      1.5};              ///< radii of the candidate spheres around the centre of the object, metres, each > 0
+  /// Radii of the candidate spheres around the centre of the object, metres, each > 0, at least one.
+  std::vector<double> radii_m = {1.5};
   int subdivisions = 2;  ///< candidates per sphere: 20 * 4^subdivisions, in [-1, 6]; -1: none
   /// Number of additional candidates from random places in the region or, without one, the known space
   std::size_t random_candidates = 0;

@@ -9,8 +9,8 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Body and motion limits of a FreeFlyer.
 struct FreeFlyerOptions {
-  double radius_m =
-      0.3;  ///< radius of the body, a sphere around the sensor, metres, in [0, 1000] (0: the sensor's cell)
+  /// Radius of the body, a sphere around the sensor, metres, in [0, 1000] (0: the sensor's cell)
+  double radius_m = 0.3;
   double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor, metres, world
   double max_height_m = std::numeric_limits<double>::infinity();  ///< highest admitted z of the sensor, metres, world
   /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]: a free cell may contain

@@ -6,10 +6,10 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The body of a GroundRobot.
+/// Body of a GroundRobot.
 struct GroundRobotOptions {
-  double radius_m =
-      0.3;  ///< radius of the body, a disc around the sensor, metres, in [0, 1000] (0: the sensor's cell)
+  /// Radius of the body, a disc around the sensor, metres, in [0, 1000] (0: the sensor's cell)
+  double radius_m = 0.3;
   /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]: a free cell may contain
   /// a corner of a wall.
   double margin_m = 0.0;

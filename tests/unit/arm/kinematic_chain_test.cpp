@@ -71,8 +71,8 @@ TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
   std::mt19937_64 engine(2);
   for (int i = 0; i < 1000; ++i) {
     const Joints q = test::random_joints(chain, engine);
-    Eigen::Matrix4d camera =
-        Eigen::Matrix4d::Identity();  // camera (z forward, x right, y down) on a head with x forward
+    // Camera (z forward, x right, y down) on a head with x forward
+    Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();
     camera.topLeftCorner<3, 3>() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
     const Eigen::Matrix4d expected = shift(0, 0, 0.25) * turn(2, q[0]) * shift(0, 0, 0.15) * turn(1, q[1]) *
                                      shift(0, 0, 0.45) * turn(1, q[2]) * shift(0, 0, 0.45) * turn(1, q[3]) *
