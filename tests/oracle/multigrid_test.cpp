@@ -138,7 +138,7 @@ std::size_t walks_that_fail(const LaplaceProblem& problem, std::span<const doubl
   std::sort(by_height.begin(), by_height.end(), [&](Position a, Position b) {
     return phi[static_cast<std::size_t>(a)] < phi[static_cast<std::size_t>(b)];
   });
-  // a step leads strictly down, so the result of its end is already known
+  // A step leads strictly down, so the result of its end is already known.
   std::vector<bool> arrives(problem.size(), false);
   for (const Position from : by_height) {
     const auto next = steepest_neighbour(problem, phi, from);

@@ -16,7 +16,7 @@ namespace VANTAGE_EXPORT vantage {
 enum class Outcome : std::uint8_t {
   Move,      ///< there is a view to take: follow the path
   Explored,  ///< nothing is left that this sensor on this platform could observe
-  /// everything within reach is seen, but known free space from which more could be seen is cut off: plan again later
+  /// Everything within reach is seen, but known free space from which more could be seen is cut off: plan again later
   Unreachable,
   Blocked,  ///< the platform cannot start or move, or no path to any view exists; `reason` names the remedy
 };

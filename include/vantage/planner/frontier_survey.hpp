@@ -46,7 +46,7 @@ struct FrontierSurveyOptions {
 /// while a ray along a known surface probably hits more of it.
 struct FrontierSurvey {
   ReachableSpace reachable;  ///< cells to which the platform can bring the sensor
-  /// the observable frontier cells to go for now, in raster order of `frontier`
+  /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};
   std::size_t frontier_cells = 0;  ///< number of all frontier cells in the region
   /// False if there were too many pairs of an unknown and a reachable cell to test all of them.
