@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The targets vantage_kdl, vantage_ompl and vantage_urdf: orocos-kdl, OMPL and urdfdom straight from their headers and
-# libraries. Their own package files define no targets, or ask for libraries that OMPL was merely built with.
+# Defines the targets vantage_kdl, vantage_ompl and vantage_urdf from the headers and libraries of orocos-kdl, OMPL and
+# urdfdom. Their own package files define no targets, or require libraries that only the build of OMPL needed.
 include(FindPackageHandleStandardArgs)
 
 find_path(VantageArm_kdl_INCLUDE_DIR kdl/chain.hpp)

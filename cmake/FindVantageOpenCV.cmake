@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The targets opencv_core, opencv_imgproc, opencv_imgcodecs, opencv_calib3d and opencv_surface_matching: from OpenCV's own
-# package where that is installed, else straight from headers and libraries. Debian ships OpenCV's package file only
-# together with all of OpenCV and its 150 dependencies, while a few packages are all that is needed here.
+# Defines the targets opencv_core, opencv_imgproc, opencv_imgcodecs, opencv_calib3d and opencv_surface_matching, from
+# OpenCV's own package if it is installed, else from headers and libraries. Debian ships OpenCV's package file only
+# with all of OpenCV and its 150 dependencies; vantage needs only a few of its packages.
 include(FindPackageHandleStandardArgs)
 set(VantageOpenCV_modules core imgproc imgcodecs calib3d surface_matching)
 

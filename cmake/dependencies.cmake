@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What each component needs from outside. Found here, at the root, so that src/ and tests/ both see the targets.
+# External dependencies of each component. Found in the top-level scope, so that src/ and tests/ both see the targets.
 vantage_find(core PUBLIC Eigen3 3.4 NO_MODULE)
 vantage_find(core PUBLIC octomap 1.9)
 vantage_find(core PRIVATE Qhull)
@@ -17,7 +17,7 @@ endif()
 if(VANTAGE_BUILD_SIM)
   vantage_find(report PRIVATE nlohmann_json 3.10)
   vantage_find(report PRIVATE ZLIB)
-  # Built into the library. A classic build, with THREE as a global: releases up to 147 have one.
+  # Embedded in the library. Needs the classic build with THREE as a global, which exists up to release 147.
   find_file(VANTAGE_THREE_JS three.min.js PATHS /usr/share/javascript/three PATH_SUFFIXES build)
   find_file(VANTAGE_ORBIT_CONTROLS_JS OrbitControls.js PATHS /usr/share/javascript/three/examples/js/controls)
   if(NOT VANTAGE_THREE_JS OR NOT VANTAGE_ORBIT_CONTROLS_JS)
@@ -26,5 +26,5 @@ if(VANTAGE_BUILD_SIM)
   endif()
 endif()
 if(VANTAGE_BUILD_SIM AND VANTAGE_BUILD_VISION)
-  find_package(CLI11 2.1 REQUIRED)  # the program only: no component needs it
+  find_package(CLI11 2.1 REQUIRED)  # only for the program; no component needs it
 endif()

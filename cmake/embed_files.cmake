@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-# cmake -D OUTPUT=... -D "FILES=name|path;..." -P embed_files.cmake: a C++ source with `page_file(name)`, the bytes of
-# those files, so that an installed library needs none of them where it runs.
+# cmake -D OUTPUT=... -D "FILES=name|path;..." -P embed_files.cmake
+# Writes a C++ source with `page_file(name)`, which returns the bytes of these files. So the installed library does not
+# need them at run time.
 cmake_minimum_required(VERSION 3.22...3.25)
 set(pieces "")
 set(cases "")
 set(number 0)
-set(piece_digits 64000)  # of the hexadecimal text: compilers need not take a literal of more than 65536 bytes
+set(piece_digits 64000)  # hexadecimal digits per literal: compilers need not support literals above 65536 bytes
 foreach(entry IN LISTS FILES)
   string(REPLACE "|" ";" parts "${entry}")
   list(GET parts 0 name)

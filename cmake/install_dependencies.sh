@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# cmake/install_dependencies.sh <group>...: installs the packages of cmake/debian-packages.txt that carry one of these
-# words (build, test, check) and are missing. Says what it will install first; asks for sudo only when it must.
+# Usage: cmake/install_dependencies.sh <group>...
+# Installs the missing packages of these groups (build, test, check, peer) in cmake/debian-packages.txt. Prints what it
+# will install first; uses sudo only if needed.
 set -euo pipefail
 list="$(dirname "${BASH_SOURCE[0]}")/debian-packages.txt"
 
@@ -32,7 +33,7 @@ if [[ $EUID -ne 0 ]]; then
   as_root=(sudo)
 fi
 echo "Installing what is missing from cmake/debian-packages.txt: ${missing[*]}"
-# Quiet, but not when it fails.
+# Hides the output unless the command fails.
 log="$(mktemp)"
 trap 'rm -f "$log"' EXIT
 if ! { "${as_root[@]}" apt-get update && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \

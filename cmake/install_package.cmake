@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-# The installed package: one export file and one dependency file per component, and the config that reads them.
+# Installs the package: one export file and one dependency file per component, and the config file that reads them.
 include(CMakePackageConfigHelpers)
 
 set(vantage_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/vantage")
 set(vantage_package_build_dir "${PROJECT_BINARY_DIR}/package")
 get_property(vantage_components GLOBAL PROPERTY VANTAGE_COMPONENTS)
 
-# The component's own components, taken from what it links, then its packages. Whether private ones are needed is decided
-# here, where the type of the library is known, and not in the config, where it no longer is.
+# Writes the dependency file of a component: the vantage components that it links, then its packages. Whether private
+# packages are needed is decided here, because the type of the library is known here and not in the config.
 function(vantage_write_dependencies component)
   get_target_property(type vantage_${component} TYPE)
   get_target_property(links vantage_${component} LINK_LIBRARIES)
@@ -42,7 +42,7 @@ install(FILES "${vantage_package_build_dir}/vantageConfig.cmake"
         DESTINATION "${vantage_package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
-# vantage.pc, core for those who build without CMake. A static library hands on what it is made with.
+# vantage.pc: core for projects without CMake. A static library also lists what it is linked with.
 set(vantage_pc_requires "eigen3 octomap")
 set(vantage_pc_requires_private "")
 get_target_property(vantage_core_type vantage_core TYPE)

@@ -2,8 +2,8 @@
 
 # vantage_add_library(<component> SOURCES ... HEADERS ... [GENERATED_HEADERS ...]
 #                     [UMBRELLA ...] LINKS PUBLIC|PRIVATE ...)
-# HEADERS are the public ones, relative to include/; each must compile alone. GENERATED_HEADERS lie in the build tree, and
-# so does UMBRELLA, the header written here that includes all the others.
+# HEADERS: public headers relative to include/; each must compile alone. GENERATED_HEADERS: headers in the build tree.
+# UMBRELLA: the header in the build tree that is written here and includes all others.
 function(vantage_add_library component)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "UMBRELLA" "SOURCES;HEADERS;GENERATED_HEADERS;LINKS")
   set(target vantage_${component})
@@ -27,7 +27,7 @@ function(vantage_add_library component)
     PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} ${arg_LINKS})
   target_compile_features(${target} PUBLIC cxx_std_20)
-  # The same bits on every processor: a * b + c rounds twice, as written. And no errno, which keeps sqrt out of vectors.
+  # Same results on every processor: a * b + c rounds twice. Without errno, sqrt can be vectorised.
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
   set_target_properties(
     ${target}
@@ -54,7 +54,7 @@ function(vantage_add_library component)
   endif()
 endfunction()
 
-# Each header into its own folder; CMake 3.22 has no header sets, which would do so.
+# Installs each header into its folder. CMake 3.22 has no header sets, which would do this.
 function(vantage_install_headers root)
   foreach(header IN LISTS ARGN)
     get_filename_component(folder "${header}" DIRECTORY)
@@ -62,7 +62,7 @@ function(vantage_install_headers root)
   endforeach()
 endfunction()
 
-# The target public_headers compiles every public header alone.
+# Target public_headers: compiles each public header alone.
 function(vantage_check_headers component)
   set(sources)
   foreach(header IN LISTS ARGN)
@@ -80,7 +80,7 @@ function(vantage_check_headers component)
   add_dependencies(public_headers vantage_${component}_headers)
 endfunction()
 
-# What a unity build (CMAKE_UNITY_BUILD) compiles as one: the sources of a folder.
+# Groups the sources of each folder for unity builds (CMAKE_UNITY_BUILD).
 function(vantage_unite_folders target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
@@ -90,7 +90,7 @@ function(vantage_unite_folders target)
   endforeach()
 endfunction()
 
-# Our own warnings, for our own targets, and only when we are the project that is being built.
+# Enables vantage's warnings for its own targets, only if it is the top-level project.
 function(vantage_warnings target)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 
 # vantage_find(<component> PUBLIC|PRIVATE <package> [arguments of find_package]...)
-# Finds what a component needs, or says which option does without it, and remembers it for the installed package, which
-# must find PUBLIC dependencies again always and PRIVATE ones only where the component is a static library.
+# Finds a dependency of a component, or fails and names the option to build without it. Records it for the installed
+# package, which must find PUBLIC dependencies always and PRIVATE ones only for static libraries.
 macro(vantage_find component visibility package)
   find_package(${package} ${ARGN} QUIET)
   if(NOT ${package}_FOUND)

@@ -9,8 +9,8 @@
 
 namespace vantage {
 
-/// A true world of whole cells, and what a sensor measures in it: a return from inside the first occupied cell on
-/// each ray. Outside the grid everything is occupied.
+/// A true world of whole cells and a simulated sensor: each ray returns a point inside the first occupied cell.
+/// Outside the grid, everything is occupied.
 struct GridWorld {
   VoxelFrame frame;
   VoxelGrid<std::uint8_t> occupied;

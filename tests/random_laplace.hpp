@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// A small random domain: a box of 1-6 cells an edge (flat ones among them) with a share of the cells taken out, a
-/// random source, and sinks. Cells not joined to the source are left in for the problem to drop.
+/// A small random domain: a box with edges of 1 to 6 cells, possibly flat, without some random cells, with a random
+/// source and sinks. Cells that are not connected with the source are included; the problem must drop them.
 struct RandomLaplace {
   std::vector<VoxelIndex> cells;
   std::vector<VoxelIndex> sinks;

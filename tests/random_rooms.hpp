@@ -13,21 +13,21 @@
 
 namespace vantage {
 
-/// How a seeded world for the field looks.
+/// Parameters of a random building for field tests.
 struct RoomsOptions {
-  VoxelIndex extent{48, 48, 48};  ///< cells, the closed shell included
-  std::int32_t room_cells = 16;   ///< from wall to wall
-  std::int32_t door_cells = 4;    ///< edge of a door
-  std::int32_t wall_cells = 1;    ///< thickness of a wall, 0: none
-  double doors = 0.6;             ///< share of the walls between two rooms that have one
+  VoxelIndex extent{48, 48, 48};  ///< cells, including the closed outer walls
+  std::int32_t room_cells = 16;   ///< distance between walls, cells
+  std::int32_t door_cells = 4;    ///< edge of a door, cells
+  std::int32_t wall_cells = 1;    ///< thickness of a wall, cells; 0: no walls
+  double doors = 0.6;             ///< share of the walls between two rooms that have a door
   double clutter = 0.0002;        ///< boxes of up to 5 cells, per cell
-  double unexplored = 0.3;        ///< share of the diagonal that is still unknown
+  double unexplored = 0.3;        ///< unknown share of the diagonal
   std::uint32_t seed = 1;
 };
 
-/// A building of rooms with doors and clutter, partly explored: the cells next to what is unknown are sinks.
+/// A partly explored building of rooms with doors and clutter. Cells next to unknown space are sinks.
 struct RandomRooms {
-  std::vector<VoxelIndex> cells;  ///< free and known, in raster order, other components included
+  std::vector<VoxelIndex> cells;  ///< free and known, in raster order, including other components
   std::vector<VoxelIndex> sinks;
   VoxelIndex source;  ///< a cell of the largest component, towards the low corner
   VoxelBox box;
@@ -98,7 +98,7 @@ struct RandomRooms {
       fill(state, {lo, lo + VoxelIndex{draw(engine, 1, 5), draw(engine, 1, 5), draw(engine, 1, 5)}}, kWall);
     }
   }
-  // Unknown: what lies beyond a tilted plane, and in a ball.
+  // Unknown: the space beyond an inclined plane, and a ball.
   void explore(State& state, const RoomsOptions& o, std::mt19937& engine) const {
     const double longest = std::max({box.hi.x, box.hi.y, box.hi.z});
     const VoxelIndex centre{draw(engine, 0, box.hi.x - 1), draw(engine, 0, box.hi.y - 1),

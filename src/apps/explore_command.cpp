@@ -257,11 +257,11 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   command
       ->add_flag(
           "--bound", request->bound,
-          "At the end, compute the shortest route that sees everything, with full knowledge of the world; slow")
+          "At the end, find the shortest route with full knowledge of the world; slow")
       ->group("Run");
   command
       ->add_flag("--no-coverage", request->no_coverage,
-                 "Do not measure coverage; saves the search for observable cells before the first view")
+                 "Do not measure coverage, so that the first view need not wait for it")
       ->group("Run");
   command
       ->add_flag("--audit", request->audit,

@@ -285,8 +285,7 @@ void add_search_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--bound", request->bound,
-          "At the end, bound the number of views needed with full knowledge of the scene, over so many poses of the "
-          "arm; slow")
+          "At the end, bound the views needed with full knowledge, over so many poses; slow")
       ->type_name("POSES")
       ->check(a_whole_number(1'000'000))
       ->group("Run");

@@ -13,7 +13,7 @@ constexpr double kFurthestClearM = 5.0;
 
 }  // namespace
 
-// Of the body's box only the ellipsoid in it: the box's corners may hold a wall.
+// The body is the ellipsoid inscribed in its box: the corners of the box may contain a wall.
 void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, double clearance_m) {
   detail::require_option(clearance_m >= 0.0 && clearance_m <= kFurthestClearM, "assume_free: clearance_m",
                          clearance_m, "in [0, 5] metres");
@@ -38,8 +38,8 @@ void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, 
 
 double start_clearance_m(const Platform& platform, const RangeSensor& sensor) {
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
-  // At this distance an opening of so much to either side fits into a view of this angle. A view without an extent is
-  // that of a sensor in a plane, for which nothing lies beside it.
+  // Distance at which an opening of half-width side_m fits into a field of view. A field of view of about 0 is that
+  // of a planar sensor; nothing lies beside it, so it needs no distance.
   constexpr double kFlatRad = 1e-2;
   const auto fits_at_m = [](double side_m, double angle_rad) {
     return angle_rad > kFlatRad && angle_rad < std::numbers::pi ? side_m / std::tan(0.5 * angle_rad) : 0.0;

@@ -13,7 +13,6 @@ FrontierGainPlanner::FrontierGainPlanner(const PlannerSetup& setup, const Fronti
   detail::frontier_gain_settings().validate(options);
 }
 
-// Shade & Newman 2011, III-B.1.
 std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
   const FrontierSurvey& survey = situation().survey();
   const Platform& platform = situation().platform();
@@ -49,7 +48,7 @@ std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
   for (std::size_t i = 0; i < options_.hypotheses && !best; ++i) {
     aimed();
   }
-  if (!best) {  // random poses see none, and what is aimed at lies further off than the sensor resolves it
+  if (!best) {  // no random pose sees a target, and the aimed ones are beyond the resolving range
     best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
   }
   std::vector<VoxelIndex> way =

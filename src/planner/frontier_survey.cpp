@@ -16,22 +16,22 @@
 namespace vantage {
 namespace {
 
-// Tried one by one when nothing else is left.
+// Pairs of an unknown and a reachable cell that are tested one by one if the sampled rays find no target.
 constexpr std::size_t kExhaustivePairs = 3'000'000;
 
-// No further than the known part of the map can reach: a sensor's range may be without bound.
+// The range of the sensor, which may be unlimited, bounded by the extent of the known map.
 double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
   return std::min(sensor.max_range_m, map.frame().box_of(map.bounds()).extent().norm() + map.resolution_m());
 }
 
-// Finds a viewpoint for one unknown cell after another.
+// Searches viewpoints of unknown cells.
 class ViewpointSearch {
  public:
   ViewpointSearch(const VoxelFrame& frame, const Platform& platform, const RangeSensor& sensor,
                   const ReachableSpace& reachable, const TriedViews& tried, detail::SightMemory& memory)
       : frame_(frame), platform_(platform), sensor_(sensor), reachable_(reachable), tried_(tried), memory_(memory) {}
 
-  // Looks back from `unknown`, first straight away through the frontier cell, then all around.
+  // Searches backwards from `unknown`: first straight through the frontier cell, then along rays in all directions.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
     if (const std::optional<VoxelIndex> straight = look_straight(unknown, frontier - unknown)) {
       return straight;
@@ -43,7 +43,7 @@ class ViewpointSearch {
         unknown, tried_.tried(unknown) || tried_.any_rests(), [&](const VoxelIndex& cell) { return passes(cell); },
         [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
-  // Tries every reachable cell, while there are pairs left to try.
+  // Tests every reachable cell until `pairs` is used up.
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
     if (!can_be_seen(unknown)) {
       return std::nullopt;
@@ -62,7 +62,7 @@ class ViewpointSearch {
   [[nodiscard]] std::uint64_t operations() const { return operations_; }
 
  private:
-  // A line of sight enters a cell by a face (where it grazes an edge, VoxelRay crosses a face neighbour, too).
+  // A line of sight enters a cell through a face (where it touches an edge, VoxelRay also visits a face neighbour).
   bool can_be_seen(const VoxelIndex& unknown) const {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return clear(unknown + step); });
@@ -73,7 +73,7 @@ class ViewpointSearch {
     return clear(cell);
   }
 
-  // Along an axis the line of sight from a cell is the row of cells that led there.
+  // Along an axis, the line of sight is the row of cells visited so far, so it needs no ray.
   std::optional<VoxelIndex> look_straight(const VoxelIndex& unknown, const VoxelIndex& step) {
     const Eigen::Vector3d direction(step.x, step.y, step.z);
     const VoxelIndex last = frame_.cell_of(frame_.centre_of(unknown) + memory_.furthest_m() * direction);
@@ -89,14 +89,14 @@ class ViewpointSearch {
     return std::nullopt;
   }
 
-  // The tests are in the order of their price: most pairs fail beside the unknown cell.
+  // Cheap tests first. Most pairs fail beside the unknown cell.
   bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
     return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) &&
            VoxelRay(frame_, frame_.centre_of(viewpoint), frame_.centre_of(unknown))
                .all_from_the_end([&](const VoxelIndex& cell) { return passes(cell) || cell == unknown; }) &&
            can_face(viewpoint, unknown);
   }
-  // Whether a line of sight from `viewpoint` could enter `unknown` by one of the faces turned to it.
+  // Whether a line of sight from `viewpoint` can enter `unknown` through a clear neighbour on its side.
   bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const VoxelIndex away = viewpoint - unknown;
     return (away.x != 0 && clear(unknown + VoxelIndex{away.x > 0 ? 1 : -1, 0, 0})) ||
@@ -127,7 +127,7 @@ bool is_sought(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews
   return map.in_region(cell) && map.at(cell) == Occupancy::Unknown && !tried.gave_up(cell);
 }
 
-// Whether it is the evidence alone that makes a frontier cell no target.
+// Whether an unknown neighbour of the frontier cell was given up.
 bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
   return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
     const VoxelIndex unknown = cell + step;
@@ -135,7 +135,7 @@ bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const Tr
   });
 }
 
-// The targets beside a known surface; all of them if there is none.
+// The targets whose unknown cell touches an occupied cell; all targets if there is none.
 std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
   const auto beside_surface = [&](const FrontierTarget& target) {
     return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(),
@@ -146,7 +146,8 @@ std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<
   return beside.empty() ? std::move(targets) : beside;
 }
 
-// The platform comes close to a cell if some reachable cell lies within half its body, and one cell more.
+// Assigns each frontier cell without target to a cause. The platform comes close to a cell if a reachable cell lies
+// within half the largest side of its body plus one cell.
 void count_hidden(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
                   const TriedViews& tried, const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
   const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
@@ -201,13 +202,14 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, ReachableSpace 
     }
     return false;
   };
-  std::vector<VoxelIndex>& hidden = frontier;  // what is left of it
+  std::vector<VoxelIndex>& hidden = frontier;  // the cells without target remain
   std::erase_if(hidden, [&](const VoxelIndex& cell) {
     return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
   });
   memory_->forget_others();
   if (survey.targets.empty()) {
-    // Nothing may be called explored on the strength of a sample of directions, where all of them can be tried.
+    // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too
+    // many.
     std::size_t pairs = kExhaustivePairs;
     std::erase_if(hidden, [&](const VoxelIndex& cell) {
       return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
@@ -228,7 +230,7 @@ FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platfor
   return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried);
 }
 
-// From the target back: most lines that are blocked are blocked beside it.
+// Starts at the target, because most blocked lines are blocked near it.
 bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                     std::uint64_t& operations) {
   return VoxelRay(map.frame(), from, map.frame().centre_of(target)).all_from_the_end([&](const VoxelIndex& cell) {

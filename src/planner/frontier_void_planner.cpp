@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kSparse = 4.0;  // times the distance between rays, where many views are told apart
+constexpr double kSparse = 4.0;  // factor on the distance between rays for the first ranking of many views
 
 void validate(const FrontierVoidOptions& options) {
   detail::frontier_void_settings().validate(options);
@@ -58,7 +57,7 @@ double length_m(const std::vector<Pose>& path) {
   return length_m;
 }
 
-// One cell is the least.
+// At least one cell.
 std::size_t least_cells(double volume_m3, double cell_m) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(volume_m3 / std::pow(cell_m, 3))));
 }
@@ -76,7 +75,7 @@ void FrontierVoidPlanner::prepare(Plan& plan) {
   if (followed_.is_in_place(map)) {
     void_cells_->update();
   } else {
-    followed_ = KnownMap();  // none, if what follows throws
+    followed_ = KnownMap();  // stays empty if the next lines throw
     void_cells_.emplace(map);
     sparse_rays_.emplace(situation().sensor().rays_for(kSparse * map.resolution_m()));
     followed_ = KnownMap(map);
@@ -121,7 +120,7 @@ std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
   return choice;
 }
 
-// IV-A and IV-B: frontier clusters, voids and what they have to do with each other.
+// IV-A and IV-B: void clusters, frontier clusters and their combination.
 void FrontierVoidPlanner::extract() {
   const OccupancyMap& map = situation().map();
   const FrontierSurvey& survey = situation().survey();
@@ -137,7 +136,7 @@ void FrontierVoidPlanner::extract() {
       combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), options_.strategy.share);
 }
 
-// Algorithm 1, over what the platform can reach.
+// Algorithm 1, over the reachable cells.
 void FrontierVoidPlanner::accumulate(PlanStatistics& statistics) {
   const OccupancyMap& map = situation().map();
   const FrontierSurvey& survey = situation().survey();
@@ -158,8 +157,7 @@ double FrontierVoidPlanner::discounted(double utility, double way_m) const {
   return utility / (1.0 + options_.strategy.cost_per_m * way_m);
 }
 
-// What counts of what a view sees: void cells that no view has failed to resolve from there, nor views from elsewhere
-// too often.
+// The void cells that count for a view: not given up, and not looked at in vain from its place.
 std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays) const {
   const VoxelIndex place = situation().caster().frame().cell_of(view.translation());
   std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays);
@@ -171,10 +169,10 @@ std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, 
   return seen;
 }
 
-// The void cells that each view sees; the best first.
+// Counts the void cells of each view and sorts the views, best first.
 std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vector<Candidate> candidates,
                                                                       const ViewRays& rays) const {
-  (void)situation().caster();  // follows the map before several threads ask
+  (void)situation().caster();  // updates the caster before several threads use it
   detail::share_work(candidates.size(), static_cast<std::size_t>(situation().setup().threads), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     candidate.void_cells = expected(void_cells_seen(candidate.pose, rays));
@@ -186,7 +184,7 @@ std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vecto
   return candidates;
 }
 
-// Over the cells that the survey has found reachable where the platform can follow them, else by its own search.
+// Along reachable cells if the platform can follow them, else by the platform's own path search.
 std::optional<std::vector<Pose>> FrontierVoidPlanner::way_to(const Pose& view) const {
   const OccupancyMap& map = situation().map();
   const Platform& platform = situation().platform();
@@ -199,8 +197,8 @@ std::optional<std::vector<Pose>> FrontierVoidPlanner::way_to(const Pose& view) c
   return path ? std::move(path) : platform.path(map, situation().current(), view);
 }
 
-// Equation (3): the best of the views to which there is a way. One that resolves no target does not count: unknown
-// cells that were looked at in vain are none.
+// Equation (3): the best view to which a path leads. A view must also see a target, because cells that are given up
+// or rest are none.
 std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& views, Plan& plan) const {
   plan.statistics.views_scored += views.size();
   std::vector<Candidate> candidates(views.size());
@@ -216,7 +214,7 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
   double best_value = 0.0;
   for (const Candidate& candidate : candidates) {
     if (best && candidate.value <= best_value) {
-      break;  // no way is shorter than the straight line
+      break;  // the discounted value along a path is at most that of the straight line
     }
     if (candidate.void_cells < least) {
       continue;

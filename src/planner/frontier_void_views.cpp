@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// The views among which FrontierVoidPlanner chooses (Dornhege & Kleiner 2011, IV-C).
+// The candidate views of FrontierVoidPlanner (Dornhege & Kleiner 2011, IV-C).
 #include <algorithm>
 #include <functional>
 #include <numbers>
@@ -14,8 +13,8 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kProofViews = 50;  // tried before it is said that no view sees a void
-constexpr double kNearM = 1.0;           // so much further than the nearest is near
+constexpr std::size_t kProofViews = 50;  // tested before the planner concludes that no view sees a void
+constexpr double kNearM = 1.0;           // largest extra path length, beyond the nearest viewpoint, of a near one
 
 bool sees_all_around(const RangeSensor& sensor) {
   constexpr double kRounding = 1e-6;
@@ -23,7 +22,7 @@ bool sees_all_around(const RangeSensor& sensor) {
          sensor.vertical_angle_rad() >= std::numbers::pi - kRounding;
 }
 
-// Gives the places of most value first, as long as they are asked for; ties by number.
+// Returns the indices of places by descending value, on demand; ties by index.
 class BestPlaces {
  public:
   explicit BestPlaces(std::vector<double> values) : before_{std::move(values)}, heap_(before_.values.size()) {
@@ -49,7 +48,7 @@ class BestPlaces {
   std::vector<std::size_t> heap_;
 };
 
-// Draws directions to look in from a place.
+// Draws viewing directions for a place.
 class DirectionDraw {
  public:
   DirectionDraw(const OccupancyMap& map, const RangeSensor& sensor, const std::vector<FrontierVoid>& voids,
@@ -61,9 +60,10 @@ class DirectionDraw {
     }
   }
 
-  // Anywhere.
+  // A uniform random direction.
   Eigen::Vector3d anywhere() { return dice_.direction(); }
-  // To a frontier cell in plain sight and range, of a void drawn by its utility; anywhere if none is found.
+  // Direction to a frontier cell in clear line of sight and in range, of a void drawn with its utility as weight. A
+  // random direction if eight draws find none.
   Eigen::Vector3d at_a_void(const Eigen::Vector3d& place, std::uint64_t& operations) {
     constexpr int kDraws = 8;
     for (int i = 0; i < kDraws; ++i) {
@@ -88,7 +88,7 @@ class DirectionDraw {
   std::size_t total_ = 0;
 };
 
-// Those through which a void can be seen.
+// The targets whose unknown cell belongs to a void.
 std::vector<const FrontierTarget*> targets_of_voids(const FrontierSurvey& survey, const VoidClusters& voids) {
   std::vector<const FrontierTarget*> targets;
   for (const FrontierTarget& target : survey.targets) {
@@ -101,7 +101,7 @@ std::vector<const FrontierTarget*> targets_of_voids(const FrontierSurvey& survey
 
 }  // namespace
 
-// IV-C: orientations sampled at the places in the order of their utility, until there are N valid views.
+// IV-C: samples orientations at the places in the order of their utility until there are N valid views.
 std::vector<Pose> FrontierVoidPlanner::sample_views(PlanStatistics& statistics) const {
   const OccupancyMap& map = situation().map();
   const FrontierVoidStrategy& strategy = options_.strategy;
@@ -134,7 +134,7 @@ std::vector<Pose> FrontierVoidPlanner::sample_views(PlanStatistics& statistics) 
   return views;
 }
 
-// Views of so many of the targets, spread evenly.
+// Views of at most `most` targets, evenly distributed over the list.
 std::vector<Pose> FrontierVoidPlanner::views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
                                                 PlanStatistics& statistics) const {
   std::vector<Pose> views;
@@ -148,14 +148,13 @@ std::vector<Pose> FrontierVoidPlanner::views_of(const std::vector<const Frontier
   return views;
 }
 
-// Views of what the survey knows to be observable: where sampling finds no view of a void, these tell whether there
-// is one.
+// Views of targets at voids. Used if sampling finds no view of a void, to decide whether there is one.
 std::vector<Pose> FrontierVoidPlanner::views_of_voids(PlanStatistics& statistics) const {
   return views_of(targets_of_voids(situation().survey(), search_.voids), std::min(options_.views, kProofViews),
                   statistics);
 }
 
-// Views from the nearest places that see a void through its frontier.
+// Views from the nearest viewpoints of targets at voids.
 std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) const {
   const OccupancyMap& map = situation().map();
   const FrontierSurvey& survey = situation().survey();
@@ -175,10 +174,10 @@ std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) co
   return views_of(near, options_.strategy.near_views, statistics);
 }
 
-// What is sampled is seldom the best of its surroundings: the best view climbs, one draw after the other.
+// Hill climbing: replaces the best view by a random variation of it whenever that is better.
 void FrontierVoidPlanner::refine(std::vector<Candidate>& candidates, PlanStatistics& statistics) const {
   const OccupancyMap& map = situation().map();
-  constexpr double kMostTurn = 0.5;  // radians, nearly
+  constexpr double kMostTurn = 0.5;  // radians, approximately
   Dice dice(situation().setup().seed, ~map.revision());
   for (std::size_t i = 0; i < options_.strategy.refinements && !candidates.empty(); ++i) {
     const Pose& best = candidates.front().pose;

@@ -37,7 +37,7 @@ MultigridOptions multigrid_options(const HarmonicOptions& options, int threads) 
   return multigrid;
 }
 
-// Cells from which some frontier is seen, each once.
+// The viewpoints of all targets, without duplicates.
 std::vector<VoxelIndex> viewpoints(const FrontierSurvey& survey) {
   std::vector<VoxelIndex> cells;
   cells.reserve(survey.targets.size());
@@ -55,7 +55,7 @@ std::optional<FrontierTarget> target_seen_from(const FrontierSurvey& survey, con
   return found == survey.targets.end() ? std::nullopt : std::optional<FrontierTarget>(*found);
 }
 
-// Leaves out what comes after the first point of the curve in this cell.
+// Truncates the curve after its first point in this cell.
 void cut_at(std::vector<Eigen::Vector3d>& curve, const VoxelFrame& frame, const VoxelIndex& cell) {
   const auto last = std::find_if(curve.begin(), curve.end(),
                                  [&](const Eigen::Vector3d& point) { return frame.cell_of(point) == cell; });
@@ -64,7 +64,7 @@ void cut_at(std::vector<Eigen::Vector3d>& curve, const VoxelFrame& frame, const 
   }
 }
 
-// The streamline as poses that look along the flow, one per cell or so, if every motion between them is admitted.
+// The streamline as poses that look along it, one for every second point. None if a motion is not admitted.
 std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const Platform& platform,
                                                 const Pose& current, const std::vector<Eigen::Vector3d>& curve,
                                                 const Pose& goal) {
@@ -100,9 +100,9 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
     return ChosenView{std::move(*look), std::move(way)};
   }
   std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
-  if (!wanted) {  // else look from where the sensor is
+  if (!wanted) {  // otherwise the sensor looks from where it is
     const std::vector<VoxelIndex> drawing = sinks();
-    if (strategy.shortest_way && drawing.size() == 1) {  // then every way down the field would end there
+    if (strategy.shortest_way && drawing.size() == 1) {  // descent would end there from everywhere
       way = GridPaths(survey.reachable).to(drawing.front());
     } else {
       solve(drawing, plan.statistics);
@@ -132,7 +132,7 @@ bool HarmonicPlanner::chooses_directions() const {
          detail::LookDirections::choosable(situation().map(), situation().sensor());
 }
 
-// A view from where the sensor is, if one is worth taking before it moves on.
+// A view from the current place, if its expected gain is at least look_again_m3.
 std::optional<TargetView> HarmonicPlanner::look_again(std::uint64_t& operations) const {
   const OccupancyMap& map = situation().map();
   const Eigen::Vector3d position = situation().current().translation();
@@ -147,7 +147,7 @@ std::optional<TargetView> HarmonicPlanner::look_again(std::uint64_t& operations)
              : std::nullopt;
 }
 
-// The view at the end of the way.
+// The view at the end of the path.
 TargetView HarmonicPlanner::look_at(const FrontierTarget& wanted, std::uint64_t& operations) const {
   if (chooses_directions()) {
     const Eigen::Vector3d position = situation().reachable().position_in(wanted.viewpoint);
@@ -159,7 +159,7 @@ TargetView HarmonicPlanner::look_at(const FrontierTarget& wanted, std::uint64_t&
   return view_of_target(situation(), wanted, operations);
 }
 
-// Whether `target` can be looked at from a cell: the same rule as FrontierSurvey's, and near enough to be resolved.
+// Whether `target` can be observed from the centre of `from`: the rule of FrontierSurvey, within the resolving range.
 bool HarmonicPlanner::can_look(const FrontierTarget& target, const VoxelIndex& from,
                                std::uint64_t& operations) const {
   if (from == target.viewpoint) {
@@ -174,7 +174,7 @@ bool HarmonicPlanner::can_look(const FrontierTarget& target, const VoxelIndex& f
          sees(map, sensor, situation().platform().facing(position, line), target.unknown, operations);
 }
 
-// The first look on the way: at the boundary it leads to or, a while from the start, at any that is in sight.
+// The first cell on the path that sees the target frontier or, after look_spacing_m, any other target.
 FrontierTarget HarmonicPlanner::first_look(const std::vector<VoxelIndex>& way, std::uint64_t& operations) const {
   const FrontierSurvey& survey = situation().survey();
   const VoxelFrame& frame = situation().map().frame();
@@ -200,7 +200,7 @@ FrontierTarget HarmonicPlanner::first_look(const std::vector<VoxelIndex>& way, s
   return wanted;
 }
 
-// The viewpoints that draw the flow.
+// The viewpoints that are sinks: all, or those within detour_m of the nearest.
 std::vector<VoxelIndex> HarmonicPlanner::sinks() const {
   std::vector<VoxelIndex> cells = viewpoints(situation().survey());
   return std::isinf(options_.strategy.detour_m)
@@ -221,7 +221,7 @@ void HarmonicPlanner::solve(const std::vector<VoxelIndex>& sinks, PlanStatistics
   statistics.ray_operations += field_->report.cell_updates;
 }
 
-// Only a certified field is followed: then the way down from any cell ends at a sink.
+// Only a certified field is followed: then descent from every cell ends at a sink.
 void HarmonicPlanner::solve_by_multigrid() {
   const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_, situation().setup().threads));
   const MultigridReport& report = multigrid.report();
@@ -237,7 +237,8 @@ void HarmonicPlanner::solve_by_multigrid() {
 void HarmonicPlanner::relax() {
   LaplaceRelaxation relaxation(field_->problem, relaxation_options(options_));
   relaxation.run();
-  // The stop rule does not promise a way down: go on until there is one, or enough is enough.
+  // The stopping rule of the paper does not guarantee that descent reaches a sink, so the relaxation continues until
+  // it does or max_sweeps is reached.
   const auto arrives = [&] {
     return descend(field_->problem, relaxation.phi(), field_->problem.source()).reaches_sink;
   };
@@ -250,7 +251,7 @@ void HarmonicPlanner::relax() {
   field_->stuck_cells = count_stuck_cells(field_->problem, field_->phi);
 }
 
-// The cells that the streamline passes from the start to its sink; the shortest way where the field leads nowhere.
+// The cells of the streamline from the start to its sink. The shortest path if the field is not followed.
 std::vector<VoxelIndex> HarmonicPlanner::way_down() {
   const LaplaceProblem& problem = field_->problem;
   const VoxelFrame& frame = situation().map().frame();

@@ -14,14 +14,14 @@
 namespace vantage::detail {
 namespace {
 
-// Neighbours are about 20 degrees apart, less than half of a camera's view.
+// About 20 degrees between neighbours, less than half of a camera's field of view.
 constexpr std::size_t kDirections = 128;
-// How far sight goes on the average in space of which nothing is known but that a surface ends it.
+// Mean free path of sight in unknown space, metres.
 constexpr double kSightM = 4.0;
-// Beside a surface the next cell most likely belongs to it.
+// Probability that the surface continues in an unknown cell beside it.
 constexpr double kOpaqueBesideSurface = 0.5;
 
-// The unknown cells no further from here than the sensor sees.
+// The unknown cells in a box with half-side `range_m` around the position.
 std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eigen::Vector3d& position,
                                              double range_m) {
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
@@ -78,7 +78,7 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
       looks.push_back({std::move(seen)});
     }
   }
-  (void)situation_.caster();  // follows the map before several threads ask
+  (void)situation_.caster();  // updates the caster before several threads use it
   share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
              [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
   const auto best = std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
@@ -109,7 +109,7 @@ double LookDirections::expected_cells(const Pose& pose) const {
   return cells;
 }
 
-// Of a scan from here: another does not resolve it either.
+// Whether the cell was in the field of view of a scan from this place, which did not resolve it.
 bool LookDirections::was_in_view(const VoxelIndex& cell) const {
   const VoxelFrame& frame = situation_.map().frame();
   const Eigen::Vector3d line = frame.centre_of(cell) - position_;

@@ -11,32 +11,32 @@
 
 namespace vantage::detail {
 
-/// A view, and how much it is expected to teach.
+/// A view and its expected gain.
 struct Look {
-  TargetView seen;     ///< the view, and the targets in it
-  double cells = 0.0;  ///< unknown cells that it is expected to resolve (UnknownSight)
+  TargetView seen;     ///< the view and the targets that it sees
+  double cells = 0.0;  ///< expected number of unknown cells that it resolves (UnknownSight)
 };
 
-/// Which way a sensor of a narrow view had best look from where it stands: of directions spread over the sphere, as
-/// the platform can take them, the one that is expected to teach most. Directions in which none of the survey's
-/// targets is in sight do not count, so a look always has a boundary to resolve, or to give up.
+/// Chooses the orientation of a sensor with a limited field of view at a given place: among directions spread over
+/// the sphere, as the platform can take them, the one with the highest expected gain. Only orientations that see a
+/// target count.
 class LookDirections {
  public:
-  /// From the place `position`. `operations` counts the cells that lines of sight visit.
+  /// For the place `position` (metres, world). Adds the number of cells visited by lines of sight to `operations`.
   LookDirections(const Situation& situation, const Eigen::Vector3d& position, std::uint64_t& operations);
 
-  /// The best view; with `wanted`, of those that have this cell, which must be in sight from here, in view. None if
-  /// there is no such view.
+  /// The best view. With `wanted`, only views that see this cell; it must be in sight from here. None if there is no
+  /// such view.
   [[nodiscard]] std::optional<Look> best(const std::optional<VoxelIndex>& wanted = std::nullopt) const;
 
-  /// Whether there is anything to choose: the sensor does not see all around, and the map is no plane, in which the
-  /// rows of an image lead out of the map.
+  /// Whether orientations can be compared: the sensor does not see all around, and the map has more than one layer of
+  /// cells (in one layer, the rows of an image lead out of the map).
   [[nodiscard]] static bool choosable(const OccupancyMap& map, const RangeSensor& sensor);
 
  private:
   struct Sighting {
     VoxelIndex unknown;
-    Eigen::Vector3d line;  // from here
+    Eigen::Vector3d line;  // from position_ to the centre of the cell, metres, world
   };
   [[nodiscard]] TargetView targets_in_view(const Pose& pose) const;
   [[nodiscard]] double expected_cells(const Pose& pose) const;

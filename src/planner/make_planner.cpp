@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-// A planner by its class, its options and their table.
+// Makes a planner of a class from settings and the table of its options.
 template <class Planner, class Options>
 std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_view name,
                                          const PlannerSettings& settings,
@@ -26,8 +26,7 @@ std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_
   return std::make_unique<Planner>(setup, options);
 }
 
-// With an object the planner of its surface, unless a setting of the paper's utility asks for the paper's way to
-// choose.
+// With an object, ObjectPlanner, unless a setting of the paper's utility is given; else NextBestViewPlanner.
 std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const PlannerSettings& settings) {
   detail::NextBestViewSettings read;
   detail::next_best_view_settings().read("next-best-view", settings, read);

@@ -45,7 +45,7 @@ std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return scored[a].utility > scored[b].utility; });
   plan.candidates.clear();
-  // A view counts only if it resolves a frontier that is a target: what was looked at in vain is none.
+  // The best view that sees a target; cells that are given up are no targets.
   TargetView best;
   for (const std::size_t i : order) {
     if (scored[i].utility > 0.0) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
 // Vasquez-Gomez, Sucar, Murrieta-Cid 2013, "Hierarchical ray tracing for fast volumetric next-best-view planning",
 // Algorithm 1.
 #include <algorithm>
@@ -47,7 +46,7 @@ void validate(const NextBestViewOptions& options) {
   validate(options.sensing);
 }
 
-// Where something may be seen: the region, or the known cells and those beside them.
+// The cells in which candidates are drawn: the region, or the known cells and their neighbours.
 VoxelBox cells_of_interest(const OccupancyMap& map) { return map.region() ? *map.region() : map.bounds().grown(1); }
 
 }  // namespace
@@ -64,7 +63,7 @@ Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
   return options_.object ? reconstruct(map, orthonormalised(current)) : explorer_.plan(map, current);
 }
 
-// Line 8: the candidates that the platform admits, in the orientations that it can take.
+// Line 8: the candidates that the platform admits, in orientations that it can take.
 std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, const VoxelBox& object) const {
   const Eigen::Vector3d middle = options_.object->centre();
   std::vector<Pose> views;
@@ -94,7 +93,7 @@ std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, 
   return views;
 }
 
-// Lines 9 to 20: what every candidate is worth.
+// Lines 9 to 20: the utility of every candidate.
 std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(const OccupancyMap& map,
                                                                             const Pose& current,
                                                                             const VoxelBox& object) const {
@@ -184,7 +183,7 @@ std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& ma
   return evaluations;
 }
 
-// Line 21: the candidates of any use, the best first.
+// Line 21: the candidates with a utility above 0, the best first.
 std::vector<std::size_t> NextBestViewPlanner::order_of(const std::vector<Candidate>& candidates) const {
   std::vector<std::size_t> order;
   std::vector<CellSet> sought;
@@ -246,7 +245,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     tried_.expect(map, plan.goal.pose, way_of(plan.path), plan.sought);
     return plan;
   }
-  // Lines 22 to 25.
+  // Lines 22 to 25: no view is taken.
   if (tried_.try_resting_again()) {
     return reconstruct(map, current);
   }

@@ -47,7 +47,7 @@ ObjectPlanner::ObjectPlanner(const PlannerSetup& setup, const ObjectPlannerOptio
   check(options);
 }
 
-// A new revision is a scan from where the sensor is.
+// Assumes that a new revision is a scan at `current`.
 void ObjectPlanner::follow(const OccupancyMap& map, const Pose& current) {
   const bool known = map_.is_in_place(map);
   if (!known) {
@@ -62,7 +62,7 @@ void ObjectPlanner::follow(const OccupancyMap& map, const Pose& current) {
   }
 }
 
-// Straight, or along an arc where the object is in the way.
+// Estimated path length, metres: straight, or along an arc if the object is in between.
 double ObjectPlanner::way_m(const Pose& from, const Pose& to) const {
   const Eigen::Vector3d a = from.translation() - options_.object.centre();
   const Eigen::Vector3d b = to.translation() - options_.object.centre();

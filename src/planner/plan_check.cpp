@@ -25,7 +25,7 @@ PlanCheck check(const Plan& plan, const OccupancyMap& map, const Platform& platf
       })) {
     return PlanCheck::NothingLeft;
   }
-  // The last of the nearest segments: where a path crosses itself, the later part counts as travelled to.
+  // Among equally near segments the last one: where a path crosses itself, the later part is taken as reached.
   double nearest_m = (plan.path.front().translation() - current.translation()).norm();
   std::size_t next = 0;
   for (std::size_t i = 1; i < plan.path.size(); ++i) {

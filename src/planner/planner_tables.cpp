@@ -9,7 +9,7 @@
 namespace vantage::detail {
 namespace {
 
-// "x,y,..."; empty if the text is anything else.
+// Parses "x,y,..."; empty if the text has another form.
 std::vector<double> numbers_in(const std::string& text) {
   std::vector<double> numbers;
   const char* const end = text.data() + text.size();
@@ -25,7 +25,7 @@ std::vector<double> numbers_in(const std::string& text) {
   }
 }
 
-// What every planner that surveys frontiers has.
+// A table with the settings of the frontier survey.
 template <class Options, class Survey>
 SettingTable<Options> with_survey(std::string_view owner, Survey survey) {
   SettingTable<Options> table(owner);
@@ -35,7 +35,7 @@ SettingTable<Options> with_survey(std::string_view owner, Survey survey) {
   return table;
 }
 
-// "faithful" as a setting of a strategy that can be replaced as a whole.
+// Adds the setting "mode", which replaces the whole strategy.
 template <class Options, class Strategy>
 void add_mode(SettingTable<Options>& table, std::string_view meaning,
               std::vector<std::pair<std::string_view, Strategy>> modes) {

@@ -11,13 +11,14 @@
 
 namespace vantage::detail {
 
-/// What the settings of `next-best-view` set: it is one planner of two.
+/// The settings of `next-best-view`, which is one of two planner classes.
 struct NextBestViewSettings {
   NextBestViewOptions cells;
   ObjectPlannerOptions surface;
 };
 
-/// One table per options struct: what `make_planner` reads, `planner_settings` lists and the constructors validate.
+/// One table per options struct. `make_planner` reads it, `planner_settings` lists it and most constructors validate
+/// with it.
 [[nodiscard]] const SettingTable<FrontierSurveyOptions>& frontier_survey_settings();
 [[nodiscard]] const SettingTable<FrontierGainOptions>& frontier_gain_settings();
 [[nodiscard]] const SettingTable<FrontierVoidOptions>& frontier_void_settings();

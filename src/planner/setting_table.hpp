@@ -17,16 +17,17 @@
 
 namespace vantage::detail {
 
-/// The range of a number. Options may be infinite where it is open, texts only where that is the default.
+/// The valid range of a number. An option may be infinite if the range has no bound there; a text only if the default
+/// is infinite.
 struct SettingRange {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool least_itself = true;  ///< false: more than `least`
+  bool least_itself = true;  ///< false: `least` itself is excluded
 
   [[nodiscard]] bool holds(double value) const {
     return (least_itself ? value >= least : value > least) && value <= most;
   }
-  /// As error messages and lists say it.
+  /// The range as text for error messages, e.g. "in [0, 1]".
   [[nodiscard]] std::string rule() const;
 };
 
@@ -36,7 +37,7 @@ struct SettingRange {
 }
 [[nodiscard]] inline SettingRange within(double least, double most) { return {least, most}; }
 
-/// The settings of one options struct: one row parses, validates, lists and documents a setting.
+/// The settings of one options struct. Each row parses, validates and documents one setting.
 ///
 ///     const SettingTable<FrontierGainOptions> table = SettingTable<FrontierGainOptions>("FrontierGainOptions")
 ///         .number("hypotheses", "", "random poses tried per plan", at_least(1),
@@ -44,10 +45,10 @@ struct SettingRange {
 template <class Options>
 class SettingTable {
  public:
-  /// `owner` is the name of the struct, for messages.
+  /// `owner` is the name of the struct, for error messages.
   explicit SettingTable(std::string_view owner) : owner_(owner) {}
 
-  /// A number; `field` gives the place of it in the options.
+  /// Adds a number; `field(options)` returns a reference to it.
   template <class Field>
   SettingTable& number(std::string_view name, std::string_view unit, std::string_view meaning, SettingRange range,
                        Field field) {
@@ -72,13 +73,13 @@ class SettingTable {
                      }});
     return *this;
   }
-  /// True or false.
+  /// Adds a setting that is true or false.
   template <class Field>
   SettingTable& flag(std::string_view name, std::string_view meaning, Field field) {
     const bool on = field(defaults_);
     return choice<bool>(name, meaning, {{on ? "true" : "false", on}, {on ? "false" : "true", !on}}, field);
   }
-  /// One of several, by name; the first is the default.
+  /// Adds a choice between named values; the first must be the default.
   template <class Value, class Field>
   SettingTable& choice(std::string_view name, std::string_view meaning,
                        std::vector<std::pair<std::string_view, Value>> values, Field field) {
@@ -100,7 +101,7 @@ class SettingTable {
                      [](const Options&) {}});
     return *this;
   }
-  /// Anything else: `parse(options, text)` says whether it took the text, `rule` what it takes.
+  /// Adds any other setting. `parse(options, text)` returns whether the text is valid; `rule` describes valid texts.
   SettingTable& text(std::string_view name, std::string_view unit, std::string_view meaning, std::string rule,
                      std::function<bool(Options&, const std::string&)> parse) {
     rows_.push_back({{std::string(name), "", std::string(unit), std::string(meaning)},
@@ -110,7 +111,7 @@ class SettingTable {
     return *this;
   }
 
-  /// The rows, for lists and documents.
+  /// All settings, in the order of the table.
   [[nodiscard]] std::vector<PlannerSetting> list() const {
     std::vector<PlannerSetting> all;
     for (const Row& row : rows_) {
@@ -118,8 +119,8 @@ class SettingTable {
     }
     return all;
   }
-  /// Sets what is given, in the order of the table. Throws std::invalid_argument if a setting is not in the table or
-  /// its text does not fit.
+  /// Applies the given settings in the order of the table. Throws std::invalid_argument if a setting is not in the
+  /// table or its text is invalid.
   void read(std::string_view planner, const PlannerSettings& settings, Options& options) const {
     for (const auto& given : settings) {
       const std::string& name = given.first;
@@ -144,7 +145,7 @@ class SettingTable {
       }
     }
   }
-  /// Throws std::invalid_argument naming the first option that breaks its rule.
+  /// Throws std::invalid_argument, which names the first option outside its range.
   void validate(const Options& options) const {
     for (const Row& row : rows_) {
       row.check(options);

@@ -22,7 +22,7 @@ void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachabl
 
 void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
   answers_.clear();
-  cell_size_m_ = 0.0;  // begins again if what follows throws
+  cell_size_m_ = 0.0;  // starts again if the next lines throw
   tree_.emplace(map.frame(), spread_directions(direction_count), furthest_m);
   cell_size_m_ = map.resolution_m();
   furthest_m_ = furthest_m;
@@ -33,13 +33,14 @@ void SightMemory::follow_clear(const OccupancyMap& map) {
   if (!map_.is(map)) {
     followed_ = 0;
     for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
-      for_each_cell({{0, 0, 0}, {4, 4, 4}}, [&](const VoxelIndex& step) {  // bricks of the map
-        const VoxelIndex blocks = blocks_.address(number);
-        const VoxelIndex brick = VoxelIndex{blocks.x * 4, blocks.y * 4, blocks.z * 4} + step;
-        if (map.find_brick(brick) == nullptr) {
-          set(brick, {}, &Block::clear);
-        }
-      });
+      for_each_cell({{0, 0, 0}, {4, 4, 4}},
+                    [&](const VoxelIndex& step) {  // the bricks of the map in a brick of blocks
+                      const VoxelIndex blocks = blocks_.address(number);
+                      const VoxelIndex brick = VoxelIndex{blocks.x * 4, blocks.y * 4, blocks.z * 4} + step;
+                      if (map.find_brick(brick) == nullptr) {
+                        set(brick, {}, &Block::clear);
+                      }
+                    });
     }
     map_ = KnownMap(map);
   }
@@ -64,7 +65,7 @@ void SightMemory::follow_places(const ReachableSpace& reachable) {
   });
 }
 
-// The eight blocks of a brick of the map.
+// Sets the eight blocks of one brick of the map.
 template <class Member>
 void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member member) {
   const VoxelIndex first{brick.x * 2, brick.y * 2, brick.z * 2};

@@ -18,48 +18,57 @@
 
 namespace vantage::detail {
 
-/// Where sight passes and where the platform can go, from survey to survey, and what looking around unknown cells has
-/// found there: an answer stands until something changes where it was looked for.
+/// Remembers, from survey to survey, the viewpoint that was found for each unknown cell, until a cell that the search
+/// has looked at changes. Its answers are always the same as those of a new memory.
 ///
-/// Cells are kept in blocks of 4 x 4 x 4. Changes are found by comparing blocks that were written to, all of them
-/// where the map is another one, with what they were in the survey before. A change in a block that an answer has
-/// looked at makes it be looked for anew. An answer is that of a memory that begins now, always. Memory follows what
-/// is known, never the box around it.
+///     Block  4 x 4 x 4 cells: one bit each for clear and reachable, number of the survey in which one changed
+///     Answer viewpoint of an unknown cell (or none), blocks that its search has looked at,
+///            boxes that it has skipped because nothing in them was reachable
+///
+///     follow():       blocks written since the last survey are compared with the stored bits -> Block::changed
+///     look_around():  no looked-at block changed after the answer was found, and no skipped box
+///                     holds a reachable cell now?   yes: the stored answer    no: search again (SightTree)
+///
+/// All blocks are compared if the map is another one. The memory used grows with the known space, not with its
+/// bounding box.
 class SightMemory {
  public:
-  /// Takes over what is clear and what is reachable now. Lines of sight are `direction_count` rays of `furthest_m`.
+  /// Updates the clear and the reachable cells. Searches use `direction_count` rays of length `furthest_m`, metres;
+  /// if one of these or the cell size changes, all answers are dropped.
   void follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
               std::size_t direction_count);
 
   [[nodiscard]] double furthest_m() const { return furthest_m_; }
-  /// Whether sight passes this cell. The answer that is being looked for depends on it from now on.
+  /// Whether sight passes this cell. During a search, the answer depends on this cell from now on.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell);
-  /// Whether the platform can bring the sensor to this cell.
+  /// Whether the platform can bring the sensor to this cell, as of the last `follow`.
   [[nodiscard]] bool is_reachable(const VoxelIndex& cell) const;
 
-  /// The first reachable cell on the first ray from `unknown` through cells that `passes` lets through which `serves`
-  /// takes; both ask `is_clear` of whatever their answer depends on. As it was found last time if nothing that
-  /// mattered has changed; `serves` must answer alike where the same cells are clear, unless it is asked `anew`.
+  /// Searches along the rays from `unknown`: each continues while `passes(cell)`, and ends at the first reachable
+  /// cell with `serves(cell)`. Returns the result of the first ray in the order of directions, or the stored answer
+  /// if it is still valid. `passes` and `serves` must call `is_clear` for every cell that their result depends on. If
+  /// they depend on anything else, pass `anew` = true: then the search is done, and its result is not kept for later
+  /// surveys.
   template <class Passes, class Serves>
   [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
                                                       const Serves& serves);
-  /// Forgets the answers that were not asked for since the last `follow`.
+  /// Deletes the answers that were not requested since the last `follow`.
   void forget_others();
 
  private:
   struct Block {
-    std::uint64_t clear = 0;      // a bit a cell, in the order of a Brick's words
-    std::uint64_t reachable = 0;  // the same
-    std::uint32_t changed = 0;    // the last survey in which a cell had changed
-    std::uint32_t looked_at = 0;  // the last question for which a cell was looked at
+    std::uint64_t clear = 0;      // one bit per cell, in the order of a Brick's words
+    std::uint64_t reachable = 0;  // one bit per cell
+    std::uint32_t changed = 0;    // last survey in which a bit changed
+    std::uint32_t looked_at = 0;  // last search that looked at a cell of this block
   };
   struct Answer {
     std::optional<VoxelIndex> viewpoint = {};
-    bool may_stand = false;                     // found, and not for once only
-    std::uint32_t found = 0;                    // in which survey
-    std::uint32_t asked = 0;                    // in which survey it was last asked for
+    bool may_stand = false;                     // may be reused in later surveys
+    std::uint32_t found = 0;                    // survey of the search
+    std::uint32_t asked = 0;                    // survey of the last request
     std::vector<std::uint32_t> looked_at = {};  // positions of blocks
-    std::vector<VoxelBox> without_places = {};  // was not looked into, for nothing in it was reachable
+    std::vector<VoxelBox> without_places = {};  // boxes skipped because nothing in them was reachable
   };
 
   void begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count);
@@ -75,16 +84,16 @@ class SightMemory {
   double furthest_m_ = 0.0;
   std::size_t direction_count_ = 0;
   std::optional<SightTree> tree_;
-  KnownMap map_;  // that was followed last
+  KnownMap map_;  // of the last follow
   OccupancyMap::Revision followed_ = 0;
-  BrickGrid<Block> blocks_;          // by their addresses, as if they were cells
-  std::vector<VoxelIndex> reached_;  // the bricks of the map with places, in the survey before
-  BrickTree places_;                 // that are reachable
-  VoxelIndex last_brick_;            // of blocks, that was looked at last
+  BrickGrid<Block> blocks_;          // indexed by block address as if it were a cell
+  std::vector<VoxelIndex> reached_;  // bricks of the map with reachable cells in the last survey
+  BrickTree places_;                 // bricks with reachable cells
+  VoxelIndex last_brick_;            // brick of blocks of the last is_clear
   std::uint32_t last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;
-  Answer* asked_ = nullptr;  // the answer that is being looked for
+  Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
   std::unordered_map<VoxelIndex, Answer> answers_;
 };
 
@@ -93,7 +102,7 @@ inline bool SightMemory::is_clear(const VoxelIndex& cell) {
   const VoxelIndex brick = Brick::of_cell(address);
   if (last_number_ == BrickDirectory::kNone || brick != last_brick_) {
     last_brick_ = brick;
-    last_number_ = blocks_.store(brick);  // so that an answer can tell when it becomes known
+    last_number_ = blocks_.store(brick);  // stored even if unknown, so that a later change is noticed
   }
   const std::size_t offset = Brick::offset_of(address);
   Block& block = blocks_.values(last_number_)[offset];

@@ -28,7 +28,7 @@ SightTree::SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> d
   }
 }
 
-// The branch of the rays `together` from their cell number `depth` on; `together` ascends.
+// Adds the branch of the rays `together` (ascending) from their step `depth` on. Returns its number.
 std::size_t SightTree::grow(const std::vector<std::vector<VoxelIndex>>& rays,
                             const std::vector<std::size_t>& together, std::size_t depth) {
   const std::size_t number = branches_.size();

@@ -12,16 +12,20 @@
 
 namespace vantage::detail {
 
-/// The cells that rays from the centre of a cell pass in many directions, as a tree: what rays have in common from
-/// their start, they share. Where one is stopped, so are all that pass there, at once.
+/// Rays from the centre of a cell in many directions, as a tree of cells. Rays share the cells that they have in
+/// common from their start. Where a cell blocks, all rays through it end at once.
+///
+///     start --+-- cell -- cell --+-- cell ...     ray 0
+///             |                  +-- cell ...     ray 1
+///             +-- cell ...                        ray 2
 class SightTree {
  public:
-  /// Rays of the length `furthest_m` in these directions (unit vectors).
+  /// Rays of length `furthest_m`, metres, in these directions (unit vectors).
   SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m);
 
-  /// Follows the rays from `start`, which they do not ask about: each until `clear(cell)` denies a cell or
-  /// `accepts(cell)` takes one. The cell taken on the first of the directions on which one is; none if there is none.
-  /// Rays are not followed into a box of cells none of which `may_accept(box)`.
+  /// Follows the rays from `start`, which itself is not tested. Each ray ends at the first cell where `clear(cell)`
+  /// is false or `accepts(cell)` is true. Returns the accepted cell of the first ray, in the order of directions,
+  /// that has one; none if no ray has. Rays do not enter a box of cells for which `may_accept(box)` is false.
   template <class MayAccept, class Clear, class Accepts>
   [[nodiscard]] std::optional<VoxelIndex> first(const VoxelIndex& start, const MayAccept& may_accept,
                                                 const Clear& clear, const Accepts& accepts) const {
@@ -33,12 +37,12 @@ class SightTree {
   }
 
  private:
-  // The cells that some rays pass together from where others have left them, or have ended.
+  // Cells that several rays have in common, up to where they part or one ends.
   struct Branch {
-    std::size_t direction = 0;  // the first of those that pass here
+    std::size_t direction = 0;  // the first ray of this branch
     std::size_t first_step = 0;
     std::size_t last_step = 0;
-    VoxelBox reach;                    // around the cells of these and of all further branches
+    VoxelBox reach;                    // bounding box of the cells of this and all further branches
     std::vector<std::size_t> further;  // ascending by direction
   };
   struct Found {
@@ -49,7 +53,7 @@ class SightTree {
   std::size_t grow(const std::vector<std::vector<VoxelIndex>>& rays, const std::vector<std::size_t>& together,
                    std::size_t depth);
 
-  // Branches whose directions all come after that of what has been found need no asking.
+  // Skips branches whose rays all come after the result found so far.
   template <class MayAccept, class Clear, class Accepts>
   void follow(const Branch& branch, const VoxelIndex& start, const MayAccept& may_accept, const Clear& clear,
               const Accepts& accepts, Found& found) const {
@@ -71,8 +75,8 @@ class SightTree {
     }
   }
 
-  std::vector<VoxelIndex> steps_;  // cells from the start of the rays
-  std::vector<Branch> branches_;   // the first holds all others
+  std::vector<VoxelIndex> steps_;  // cells relative to the start
+  std::vector<Branch> branches_;   // the first one is the root
 };
 
 }  // namespace vantage::detail

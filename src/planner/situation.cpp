@@ -23,7 +23,7 @@ const PlannerSetup& checked(const PlannerSetup& setup, const FrontierSurveyOptio
 
 std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
-// Why nothing is left to choose from.
+// The reason for a plan without targets.
 std::string reason_of(const FrontierSurvey& survey) {
   if (survey.frontier_cells == 0) {
     return "no frontier is left";
@@ -48,7 +48,7 @@ void Situation::sync(const OccupancyMap& map, const Pose& current) {
   if (followed_.is_in_place(map)) {
     frontier_->update();
   } else {
-    followed_ = KnownMap();  // none, if what follows throws
+    followed_ = KnownMap();  // stays empty if the next lines throw
     frontier_.emplace(map);
     followed_ = KnownMap(map);
   }
@@ -64,8 +64,8 @@ void Situation::sync(const OccupancyMap& map, const Pose& current) {
   sync_ms_ = watch.lap_ms();
 }
 
-// What is unknown in plain sight of the sensor after a scan, and near enough to be resolved, this scan was to
-// resolve.
+// Stores as looked at in vain the unknown neighbours of frontier cells that are in the field of view, near enough
+// (half the resolving range) and in clear line of sight, since this scan should have resolved them.
 void Situation::note_what_was_in_vain() {
   const VoxelIndex here = map_->frame().cell_of(current_.translation());
   const double furthest_m = std::min(sensor().max_range_m, 0.5 * sensor().resolving_range_m(map_->resolution_m()));
@@ -141,7 +141,8 @@ std::optional<Plan> Situation::end() {
   return plan;
 }
 
-// All places lie within reach of the body, or nearer than the sensor sees.
+// Whether all reachable cells lie within the size of the body, or within the minimum range of the sensor, plus one
+// cell.
 bool Situation::hardly_moves() const {
   const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
   const double little_m = std::max(body_m, sensor().min_range_m) + map_->resolution_m();
@@ -150,8 +151,8 @@ bool Situation::hardly_moves() const {
   });
 }
 
-// A sensor of a narrow view sees no way past what lies beside the body: it looks into every direction first. Views
-// overlap by a fifth.
+// A sensor with a narrow field of view does not see free space beside the body, so it first looks in all horizontal
+// directions. Views overlap by a fifth.
 std::optional<Plan> Situation::turn_on_the_spot() const {
   constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
   if (sensor().horizontal_angle_rad() >= kFullTurnRad - 1e-3 || !hardly_moves()) {
@@ -180,8 +181,7 @@ std::optional<Plan> Situation::turn_on_the_spot() const {
   return std::nullopt;
 }
 
-// A place in known free space in which the body fits, not joined to where it stands, from which something would be
-// observable.
+// A viewpoint of a frontier cell in admitted cells that are not connected to the current place.
 std::optional<VoxelIndex> Situation::place_cut_off() const {
   std::vector<VoxelIndex> beyond;
   surveyor_.admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {

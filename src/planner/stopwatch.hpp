@@ -6,7 +6,7 @@
 
 namespace vantage::detail {
 
-/// Milliseconds since it was made or last read.
+/// Measures milliseconds since its construction or the last `lap_ms`.
 class Stopwatch {
  public:
   [[nodiscard]] double lap_ms() {

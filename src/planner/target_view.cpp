@@ -8,15 +8,15 @@ namespace {
 
 struct Sighting {
   VoxelIndex unknown;
-  Eigen::Vector3d line;  // from the viewpoint to the centre of the unknown cell
+  Eigen::Vector3d line;  // from the viewpoint to the centre of the cell, metres, world
 };
 
-// Cells further off may slip between the rays: a view cannot count on them.
+// Cells beyond the resolving range may lie between the rays, so a view does not count them.
 double counted_range_m(const OccupancyMap& map, const RangeSensor& sensor) {
   return std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
 }
 
-// The targets in plain sight of a position and no further than `furthest_m`, whichever way the sensor looks.
+// The targets in clear line of sight within `furthest_m`, whatever the orientation.
 std::vector<Sighting> sightings_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
                                      const Eigen::Vector3d& position, double furthest_m, std::uint64_t& operations) {
   std::vector<Sighting> sightings;
@@ -69,8 +69,8 @@ TargetView view_of_target(const Situation& situation, const FrontierTarget& want
   const std::vector<Sighting> sightings =
       sightings_from(map, sensor, situation.survey(), position, furthest_m, operations);
   TargetView best = keep_in_view(sensor, platform.facing(position, line), sightings);
-  // Half-way to each of a few other targets, spread over all there are: more of them come into view beside the
-  // wanted.
+  // Orientations half-way between the wanted target and about 32 others, evenly chosen from the list: more of them
+  // come into view together with the wanted one.
   constexpr std::size_t kTried = 32;
   const std::size_t stride = sightings.size() / kTried + 1;
   for (std::size_t i = 0; i < sightings.size(); i += stride) {

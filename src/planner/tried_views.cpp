@@ -15,7 +15,7 @@ constexpr std::size_t kMostPlaces = 256;
 constexpr std::size_t kMostScans = 64;
 constexpr int kMostFailures = 3;
 constexpr std::uint64_t kFirstRest = 8;  // plans
-constexpr double kNearerM = 0.01;        // less is jitter
+constexpr double kNearerM = 0.01;        // smaller progress is ignored as jitter
 
 int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
   return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
@@ -28,7 +28,7 @@ double squared_distance(const VoxelIndex& a, const VoxelIndex& b) {
   return static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y + static_cast<double>(d.z) * d.z;
 }
 
-// As seen from `unknown`: further apart than half of the shorter distance to it.
+// Whether two places differ as seen from `unknown`: distance above half of the shorter distance to it.
 bool differ(const VoxelIndex& unknown, const VoxelIndex& a, const VoxelIndex& b) {
   const double nearer = std::min(squared_distance(unknown, a), squared_distance(unknown, b));
   return squared_distance(a, b) > 0.25 * nearer;
@@ -49,7 +49,7 @@ double angle_rad(const Pose& a, const Pose& b) {
   return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
 }
 
-// In metres and radians.
+// Distance in metres plus angle in radians.
 double off_by(const Pose& goal, const Pose& pose) {
   return (goal.translation() - pose.translation()).norm() + angle_rad(goal, pose);
 }
@@ -78,7 +78,7 @@ void TriedViews::expect(const OccupancyMap& map, const Pose& goal, double way, s
   expected_ = Expectation{goal, map.revision(), std::move(sought), std::move(hoped)};
   Place& place = place_of(map.frame().cell_of(goal.translation()));
   if (place.revision == map.revision()) {
-    return;  // planned twice in the same map
+    return;  // this map was already planned in
   }
   const bool first = place.revision == 0;
   place.revision = map.revision();
@@ -104,7 +104,7 @@ TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
 bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
   const bool same_map = map_.is_copied_from(map) && map.revision() >= reviewed_;
   if (same_map && reviewed_ == map.revision()) {
-    if (expected_ && reported_ == GoalResult::Failed) {  // needs no scan to be known
+    if (expected_ && reported_ == GoalResult::Failed) {  // a failure is known without a new scan
       fail(map.frame().cell_of(expected_->goal.translation()));
       expected_.reset();
       reported_.reset();
@@ -132,8 +132,8 @@ bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
   return same_map;
 }
 
-// By neighbours that are known, not by those that change their state: surfaces flip between free and occupied for
-// ever, while what is known only grows (unless the host makes the map forget).
+// Deletes evidence by the number of known neighbours, not by their states: a surface may change between free and
+// occupied forever, while known cells stay known (unless the host makes the map forget).
 void TriedViews::forget(const OccupancyMap& map) {
   const bool crowded = looks_.size() > kMostCells;
   std::vector<std::uint64_t> ages;
@@ -161,7 +161,7 @@ bool TriedViews::arrived(const Pose& current) const {
          angle_rad(expected_->goal, current) <= options_.goal_tolerance_rad;
 }
 
-// What became of the view that was asked for.
+// Evaluates what became of the last planned view.
 void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   const VoxelIndex goal = map.frame().cell_of(expected_->goal.translation());
   if (reported_ == GoalResult::Preempted) {
@@ -180,7 +180,7 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
       if (looked) {
         add_if_it_differs(cell, here, looks.in_vain);
       }
-      if (!looked || differ(cell, here, goal)) {  // the goal is no nearer than this to be had
+      if (!looked || differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
         add_if_it_differs(cell, goal, looks.missed);
       }
     };
@@ -191,17 +191,17 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
       std::for_each(hoped.begin(), hoped.end(), look);
     }
   } else {
-    // A way can be told only once a plan is made, so the last stretch is judged by how far off the robot is.
+    // The length of the way is only known after planning, so the last stretch is judged by the distance to the goal.
     const bool nearer = off_by(expected_->goal, current) < off_by(expected_->goal, scanned_from_.back()) - kNearerM;
     if (const int no_nearer = place_of(goal).no_nearer; no_nearer >= 2 || (no_nearer == 1 && !nearer)) {
       fail(goal);
     }
-    return;  // under way
+    return;  // still on the way
   }
   expected_.reset();
 }
 
-// The cells beside an unknown one are left out: the scan may have closed the surface before it.
+// The scan may have added a surface in front of the cell, so cells that touch it are not tested.
 bool TriedViews::was_in_view(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) const {
   const Eigen::Vector3d line = map.frame().centre_of(unknown) - pose.translation();
   const double range_m = line.norm();
@@ -211,8 +211,8 @@ bool TriedViews::was_in_view(const OccupancyMap& map, const Pose& pose, const Vo
              .all_from_the_end([&](const VoxelIndex& cell) { return touch(cell, unknown) || map.is_clear(cell); });
 }
 
-// A robot that is no nearer to a goal than this will not be next time either: a goal that is asked for once more
-// fails.
+// The robot stopped `off_m` from the goal. If it is off the cell and the same goal is planned again, the goal fails:
+// the robot would stop in the same place.
 void TriedViews::settle(const VoxelIndex& goal, double off_m) {
   Place& place = place_of(goal);
   if (off_m < 0.5 * cell_m_) {

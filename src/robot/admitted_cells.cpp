@@ -11,9 +11,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::int32_t kTileBricks = 8;  // along an edge of the cubes in which cells are asked for
+constexpr std::int32_t kTileBricks = 8;  // edge of the tiles in which cells are tested, bricks
 
-// Boxes of bricks whose cells are to be asked again, no more than one for each tile.
+// Boxes of bricks whose cells must be tested again, at most one per tile.
 class StaleBoxes {
  public:
   void add(const VoxelBox& bricks) {
@@ -32,7 +32,7 @@ class StaleBoxes {
                     }
                   });
   }
-  // The boxes; one around all of them where that is hardly larger.
+  // The boxes, or their bounding box if that is at most half as large again.
   [[nodiscard]] std::vector<VoxelBox> boxes() const {
     VoxelBox all;
     double sum = 0.0;
@@ -46,7 +46,7 @@ class StaleBoxes {
   }
 
  private:
-  VoxelTable<std::size_t> numbers_;  // of the boxes of tiles
+  VoxelTable<std::size_t> numbers_;  // index of the box of each tile
   std::vector<VoxelBox> boxes_;
 };
 
@@ -58,7 +58,7 @@ void AdmittedCells::follow(const OccupancyMap& map, const Platform& platform) {
     map_ = KnownMap(map);
     platform_ = &platform;
   }
-  // Of a body that is larger than a tile, or nobody knows how large, cells are asked again everywhere.
+  // If the body is larger than a tile, or its size is unknown, all cells are tested again.
   const std::int32_t reach = map.frame().cells_up_to(platform.reach_m()) / Brick::kSide + 1;
   const bool from_anywhere = reach > kTileBricks;
   StaleBoxes stale;

@@ -11,7 +11,7 @@
 namespace vantage::detail {
 namespace {
 
-// The bricks that hold the cells of a box.
+// The bricks that overlap a box of cells.
 VoxelBox bricks_of(const VoxelBox& cells) {
   return {Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
 }
@@ -42,7 +42,7 @@ std::int32_t reach_of(const std::vector<VoxelIndex>& touched) {
   return reach;
 }
 
-// The rows of a body, by what they touch along x: a sphere has few that differ.
+// Rows (y, z) of a body, grouped by the cells that they touch along x. A sphere has few different ones.
 using RowsOfBody = std::map<std::vector<std::int32_t>, std::vector<std::pair<std::int32_t, std::int32_t>>>;
 
 RowsOfBody rows_of_body(const std::vector<VoxelIndex>& touched) {
@@ -58,7 +58,7 @@ RowsOfBody rows_of_body(const std::vector<VoxelIndex>& touched) {
   return alike;
 }
 
-// Where all cells at these steps along x are clear.
+// The cells from which all cells at these steps along x are clear.
 CellRows clear_along(const CellRows& clear, const std::vector<std::int32_t>& steps) {
   CellRows along(clear.box());
   for (std::int32_t z = clear.box().lo.z; z < clear.box().hi.z; ++z) {
@@ -78,7 +78,7 @@ CellRows clear_along(const CellRows& clear, const std::vector<std::int32_t>& ste
 
 }  // namespace
 
-// Row by row of the body, for 64 places at a time.
+// Row by row of the body, for 64 cells of the map at a time.
 VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& box,
                                        const std::vector<VoxelIndex>& touched) {
   VoxelGrid<std::uint8_t> grid(box);

@@ -13,20 +13,20 @@
 
 namespace vantage::detail {
 
-/// Whether a sphere touches more cells than a map can know, so that it fits nowhere: what keeps the cost of a body
-/// from growing with its volume.
+/// Whether a sphere touches more cells than the map has stored, so that it fits nowhere. This check bounds the cost
+/// of a large body.
 [[nodiscard]] inline bool is_larger_than_known(const OccupancyMap& map, double radius_m) {
   const double cells = 4.0 / 3.0 * std::numbers::pi * std::pow(radius_m / map.resolution_m(), 3.0);
   return cells > static_cast<double>(map.brick_count() * Brick::kCells);
 }
 
-/// The same for a disc in a layer of cells: it touches 64 cells of a brick at most.
+/// As above, for a disc in one layer of cells, of which each brick has at most 64.
 [[nodiscard]] inline bool disc_is_larger_than_known(const OccupancyMap& map, double radius_m) {
   const double cells = std::numbers::pi * std::pow(radius_m / map.resolution_m(), 2.0);
   return cells > static_cast<double>(map.brick_count() * 64);
 }
 
-/// What a sphere at the centre of cell (0, 0, 0) touches, in layers no further off than `layers`.
+/// The cells that a sphere at the centre of cell (0, 0, 0) touches, in layers at most `layers` away.
 [[nodiscard]] inline std::vector<VoxelIndex> touched_by_sphere(const VoxelFrame& frame, double radius_m,
                                                                std::int32_t layers = kFurthestVoxel) {
   const std::int32_t rings = frame.cells_up_to(radius_m);
@@ -42,7 +42,8 @@ namespace vantage::detail {
   return touched;
 }
 
-/// The cells of `box`, as 1, at whose centre a body touches clear cells only: those at `touched` from its own.
+/// The cells of `box`, as 1, at whose centre a body touches clear cells only. `touched`: the cells that the body
+/// touches, relative to its own.
 [[nodiscard]] VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, const VoxelBox& box,
                                                      const std::vector<VoxelIndex>& touched);
 

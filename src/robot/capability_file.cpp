@@ -11,8 +11,8 @@
 
 #include "map/whole_file.hpp"
 
-// The file: a line that says what it is, twelve numbers of 64 bits (options, box of cells, count of words, checksum
-// of all else), the words. The least significant byte comes first.
+// File format: a title line, twelve 64-bit numbers (options, box of cells, number of words, checksum of all other
+// numbers and words), the words. Little endian.
 
 namespace vantage {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kTitle = "vantage capability map 1\n";
 
 std::uint64_t checksum(std::span<const std::uint64_t> numbers, std::uint64_t sum = 0xCBF29CE484222325ULL) {
-  for (const std::uint64_t number : numbers) {  // FNV-1a, by numbers instead of bytes
+  for (const std::uint64_t number : numbers) {  // FNV-1a, by 64-bit numbers instead of bytes
     sum = (sum ^ number) * 0x100000001B3ULL;
     sum ^= sum >> 29U;
   }
@@ -49,7 +49,7 @@ std::int32_t coordinate(std::uint64_t number) {
 }
 
 bool plausible(const CapabilityMapOptions& options, const VoxelBox& cells) {
-  constexpr std::int32_t kMost = 1 << 16;  // along an axis: their product then fits 64 bits
+  constexpr std::int32_t kMost = 1 << 16;  // per axis, so that the product fits 64 bits
   const auto side = [](std::int32_t lo, std::int32_t hi) {
     return lo < hi && hi <= kFurthestVoxel && std::int64_t{hi} - lo <= kMost;
   };

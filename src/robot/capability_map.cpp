@@ -41,7 +41,7 @@ std::size_t offset_in(const VoxelBox& box, const VoxelIndex& cell) {
          static_cast<std::size_t>(from_lo.x);
 }
 
-// The smallest box that holds the first of each pair.
+// The bounding box of the cells.
 VoxelBox box_around(const std::vector<std::pair<VoxelIndex, std::size_t>>& drawn) {
   VoxelBox box{drawn.front().first, drawn.front().first};
   for (const auto& [cell, bin] : drawn) {
@@ -83,7 +83,7 @@ std::size_t CapabilityMap::bin_count() const {
   return 6 * edge * edge;
 }
 
-// Two sides for each axis, the negative one first; on a side, steps of equal angle.
+// Two faces per axis, the negative one first; equal angles along each edge of a face.
 std::size_t CapabilityMap::bin_of(const Eigen::Vector3d& direction) const {
   Eigen::Index axis = 0;
   const double most = direction.cwiseAbs().maxCoeff(&axis);

@@ -9,14 +9,14 @@
 namespace vantage {
 namespace {
 
-// Lengths of a step over a face, an edge and a corner, in thousandths of a cell: integers add without rounding.
+// Cost of a step through a face, an edge and a corner, in thousandths of a cell. Integers add without rounding.
 constexpr std::array<std::uint32_t, 4> kStepCost{0, 1000, 1414, 1732};
 
 std::size_t axes_of(const VoxelIndex& step) {
   return static_cast<std::size_t>((step.x != 0) + (step.y != 0) + (step.z != 0));
 }
 
-// The numbers of a cell and its 26 neighbours, x running fastest.
+// The numbers of a cell and its 26 neighbours, x varies fastest.
 using Around = std::array<std::uint32_t, 27>;
 
 constexpr std::size_t place_of(const VoxelIndex& step) {
@@ -34,7 +34,7 @@ bool cuts_no_corner(const Around& around, const VoxelIndex& step) {
   return true;
 }
 
-// Never more than the cost of the way: the octile distance.
+// Lower bound of the cost between two cells: the octile distance.
 std::uint32_t bound(const VoxelIndex& from, const VoxelIndex& to) {
   std::array<std::uint32_t, 3> d{static_cast<std::uint32_t>(std::abs(to.x - from.x)),
                                  static_cast<std::uint32_t>(std::abs(to.y - from.y)),
@@ -53,8 +53,7 @@ std::vector<VoxelIndex> way_back(const ReachableSpace& space, const std::vector<
   return way;
 }
 
-// Best-first search from the start of the space until `is_goal(number, cost)` holds; `heuristic` must never
-// overestimate.
+// Best-first search from the start of the space until `is_goal(number, cost)`. `heuristic` must not overestimate.
 template <class IsGoal, class Heuristic>
 std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, Heuristic&& heuristic) {
   std::vector<std::uint32_t> cost(space.size(), 0xFFFFFFFFU);
@@ -93,8 +92,8 @@ std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, He
   return {};
 }
 
-// From each kept pose, straight on to a far corner that an admitted motion reaches: doubling and halving find it
-// without trying them all. Empty if even a single step is not admitted.
+// Removes corners: from each kept pose, a straight admitted motion leads to a corner far ahead, found by doubling and
+// halving the stride. Empty if a single step is not admitted.
 std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platform, const std::vector<Pose>& corners) {
   std::vector<Pose> kept{corners.front()};
   std::size_t at = 0;

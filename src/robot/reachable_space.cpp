@@ -6,13 +6,14 @@
 namespace vantage {
 namespace {
 
-// Nearest first; among equals the lowest address, so that the choice never depends on anything else.
+// The nearest admitted cell to which the platform can move, the current one first. Ties are broken by the order of
+// the cells.
 std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platform& platform, const Pose& current,
                                            const AdmittedCells& admitted) {
   const VoxelFrame& frame = map.frame();
   const VoxelIndex home = frame.cell_of(current.translation());
   std::vector<VoxelIndex> candidates;
-  // A body that is pushed against a wall gets away by half of itself, and one cell more.
+  // A body pressed against a wall must be able to move away by half its size plus one cell.
   constexpr std::int32_t kMostCells = 16;
   const double half_m = 0.5 * platform.body_box(current).extent().maxCoeff();
   const std::int32_t near = std::clamp(frame.cells_up_to(half_m) + 1, 2, kMostCells);
@@ -36,7 +37,7 @@ std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platfo
   return std::nullopt;
 }
 
-// Where a step over a face leads within a brick, and whether it leads into the next one: by offset and face.
+// For each offset in a brick and each face: the offset of the neighbour, and whether it lies in the next brick.
 struct FaceStep {
   std::uint16_t offset;
   bool leaves;
@@ -78,16 +79,16 @@ ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform
   }
 }
 
-// Breadth first over the faces of cells, the neighbours in the order of kFaceNeighbours.
+// Breadth-first search over the faces of cells; neighbours in the order of kFaceNeighbours.
 // NOLINTNEXTLINE(readability-function-size): one loop and its table
 void ReachableSpace::flood(const AdmittedCells& admitted) {
-  constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;  // a brick beside another that no step has led to
-  constexpr std::uint32_t kNone = kUnmet - 1;    // a brick without an admitted cell
+  constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;  // neighbour brick that was not looked up yet
+  constexpr std::uint32_t kNone = kUnmet - 1;    // neighbour brick without an admitted cell
   struct Flooded {
-    BrickPlane left;  // admitted, not reached
+    BrickPlane left;  // admitted, not yet reached
     std::array<std::uint32_t, kFaceNeighbours.size()> beside{};
   };
-  std::vector<Flooded> bricks;  // by their numbers
+  std::vector<Flooded> bricks;  // by number
   const auto meet = [&](const VoxelIndex& address) {
     const BrickPlane* cells = admitted.cells().find(address);
     if (cells == nullptr || *cells == BrickPlane{}) {
@@ -100,7 +101,7 @@ void ReachableSpace::flood(const AdmittedCells& admitted) {
     }
     return number;
   };
-  std::vector<std::uint32_t> places;  // of the cells: 512 times the number of the brick, plus the offset
+  std::vector<std::uint32_t> places;  // of the reached cells: 512 times the number of the brick plus the offset
   const auto reach = [&](std::uint32_t brick, std::size_t offset) {
     number_.values(brick)[offset] = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back(Brick::first_cell(number_.address(brick)) + Brick::cell_at(offset));

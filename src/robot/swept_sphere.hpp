@@ -12,8 +12,8 @@
 
 namespace vantage::detail {
 
-/// Distance between a segment and a box, metres. The squared distance along the segment is convex and piecewise
-/// quadratic, so its slope is monotone: bisection finds the nearest point.
+/// Distance between a segment and a box, metres. The squared distance along the segment is convex with a monotone
+/// slope, so bisection finds the nearest point.
 [[nodiscard]] inline double distance_to_segment(const Box& box, const Eigen::Vector3d& from,
                                                 const Eigen::Vector3d& to) {
   const Eigen::Vector3d step = to - from;
@@ -37,8 +37,8 @@ namespace vantage::detail {
   return outside(0.5 * (below + above)).norm();
 }
 
-/// How near the surface of a cell must come to be touched by a sphere: one that only grazes a cell does not touch it,
-/// but even a centre without extent passes the cells it passes.
+/// Below this distance between its centre and a cell, metres, a sphere touches the cell. A sphere that only touches
+/// the boundary does not count; a sphere of radius 0 touches the cells through which its centre passes.
 [[nodiscard]] inline double touching_distance_m(const VoxelFrame& frame, double radius_m) {
   const double graze_m = 1e-9 * frame.size_m;
   return std::max(radius_m - graze_m, graze_m);
@@ -51,8 +51,8 @@ namespace vantage::detail {
          distance_between(frame.box_of(cell), centre) < touching_distance_m(frame, radius_m);
 }
 
-/// The box around what a sphere can touch of one slab of cells while its centre goes from `from` to `to`: `slab` is
-/// the slab's address along `axis`.
+/// Bounding box of the cells that a sphere can touch in one slab while its centre moves from `from` to `to` (metres,
+/// world). A slab is all cells with coordinate `slab` along `axis`.
 [[nodiscard]] inline VoxelBox swept_cells_in_slab(const VoxelFrame& frame, const Eigen::Vector3d& from,
                                                   const Eigen::Vector3d& to, double radius_m, Eigen::Index axis,
                                                   std::int32_t slab) {
@@ -75,14 +75,14 @@ namespace vantage::detail {
   return {lo, hi};
 }
 
-/// Layers of cells: from `lo` (inside) to `hi` (outside).
+/// Range of layers in z: from `lo` (included) to `hi` (excluded).
 struct Layers {
   std::int32_t lo = std::numeric_limits<std::int32_t>::min();
   std::int32_t hi = std::numeric_limits<std::int32_t>::max();
 };
 
-/// Whether `clear(cell)` holds for every cell of some layers that a sphere touches while its centre goes from `from`
-/// to `to`. The cells that hold the two ends are always touched.
+/// Whether `clear(cell)` holds for all cells in `layers` that a sphere touches while its centre moves from `from` to
+/// `to` (metres, world). The cells of both ends are always tested.
 template <class Clear>
 [[nodiscard]] bool swept_sphere_is_clear(const VoxelFrame& frame, const Eigen::Vector3d& from,
                                          const Eigen::Vector3d& to, double radius_m, Clear&& clear,

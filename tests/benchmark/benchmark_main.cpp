@@ -11,10 +11,9 @@
 
 namespace {
 
-// Reports in the format that was asked for (--benchmark_format), and prints to stderr, at the end, how many times as
-// much processor time the peer took in the same run: for every benchmark with a part of ours in its name, each peer's
-// that differs in that part alone. Of repetitions, the least time counts on both sides: what disturbs a run only ever
-// adds to it.
+// Prints the report in the requested format (--benchmark_format) and, at the end, to stderr how much more processor
+// time each peer took in the same run. Peers of a benchmark are those whose names differ from it only in our part of
+// the name. With repetitions, the least time counts on both sides, because disturbances only add time.
 class RatioReporter : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& context) override { return format_->ReportContext(context); }
@@ -46,7 +45,7 @@ class RatioReporter : public benchmark::BenchmarkReporter {
     }
   }
 
-  // Whether a benchmark put an end to itself, as those do whose peers find something else.
+  // Whether a benchmark failed, which it does if a peer finds another result.
   [[nodiscard]] bool failed() const { return failed_; }
 
  private:

@@ -16,13 +16,13 @@ struct Ball {
   double radius;
 };
 
-// Boxes and balls in a room, met by rays in closed form.
+// Boxes and balls in a room, with ray intersections in closed form.
 struct Scene {
   Box room;
   std::vector<Box> boxes;
   std::vector<Ball> balls;
 
-  // Distance from `from`, inside the room and outside all things, along the unit vector `direction`.
+  // Distance in metres from `from`, which must be in free space, along the unit vector `direction`.
   [[nodiscard]] double distance(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const {
     double nearest = slab(room, from, direction).second;
     for (const Box& box : boxes) {
@@ -89,7 +89,7 @@ Scene hall(std::mt19937& engine) {
   return scene;
 }
 
-// Whether a point is in the room and in none of its things.
+// Whether a point is in the room and outside all objects.
 bool is_open(const Scene& scene, const Eigen::Vector3d& point) {
   const auto holds = [&](const Box& box) { return box.contains(point); };
   const auto within = [&](const Ball& ball) { return (point - ball.centre).norm() < ball.radius; };

@@ -91,7 +91,7 @@ int BoomerAmg::solve(double tolerance) {
   HYPRE_BoomerAMGSetCoarsenType(amg, 10);  // HMIS
   HYPRE_BoomerAMGSetInterpType(amg, 6);    // extended + i
   HYPRE_BoomerAMGSetPMaxElmts(amg, 4);
-  HYPRE_BoomerAMGSetStrongThreshold(amg, 0.5);  // three dimensions
+  HYPRE_BoomerAMGSetStrongThreshold(amg, 0.5);  // for three dimensions
   HYPRE_BoomerAMGSetAggNumLevels(amg, 1);
   HYPRE_BoomerAMGSetRelaxType(amg, 8);  // symmetric Gauss-Seidel
   HYPRE_BoomerAMGSetMaxIter(amg, 1);

@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// HYPRE's BoomerAMG as preconditioner of its conjugate gradients, with the settings its manual advises for problems
-/// in three dimensions.
+/// Conjugate gradients with BoomerAMG of HYPRE as preconditioner, with the settings that its manual recommends for
+/// three dimensions.
 class BoomerAmg {
  public:
   explicit BoomerAmg(const LaplaceMatrix& system);
@@ -15,7 +15,7 @@ class BoomerAmg {
   BoomerAmg& operator=(const BoomerAmg&) = delete;
   ~BoomerAmg();
 
-  /// Setup and solution from zero to a relative residual; returns the number of iterations.
+  /// Setup and solution, from zero, up to this relative residual. Returns the number of iterations.
   int solve(double tolerance);
 
  private:

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// field/<solver>/<scene>: one field of a partly explored building, from the cells to the certified potential, on one
-// thread. The peers get their matrix for nothing: only what they make of it is timed. field/multigrid2/<scene>: two
-// threads; field/directions/<scene>: what the uniform source changes. house-<views>, from a run in a simulated house,
-// needs the environment variable VANTAGE_DATA.
+// field/<solver>/<scene>: one field of a partly explored building, from the cells to the certified potential, with
+// one thread. The peers get their matrix ready-made; only the solution is timed.
+//
+// field/multigrid2/<scene>: two threads.
+//
+// field/directions/<scene>: the effect of the uniform source on directions.
+//
+// The scenes house-<views>, from a run in a simulated house, need the environment variable VANTAGE_DATA.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/SparseCore>
@@ -108,8 +112,8 @@ void multigrid(benchmark::State& state, const std::string& name) {
   state.counters["bytes_per_cell"] = static_cast<double>(report.memory_bytes) / static_cast<double>(scene.unknowns);
 }
 
-// Not for its time: the share of cells whose steepest way down is another one without the uniform source, and how
-// many there are that have none. The first is what the certificate costs, the second what it is worth.
+// Not a timing: the share of cells whose steepest neighbour differs without the uniform source (its cost), and the
+// number of cells without lower neighbour then (its benefit).
 void directions(benchmark::State& state, const std::string& name) {
   const Scene& scene = scene_of(name);
   const LaplaceProblem problem = problem_of(scene.domain, scene.source);
@@ -126,7 +130,7 @@ void directions(benchmark::State& state, const std::string& name) {
   state.counters["stuck_without"] = static_cast<double>(plain.report().stuck_cells);
 }
 
-// The paper's method and its own rule to stop, which leaves an error of some percent.
+// The paper's method with its own stopping rule, which leaves an error of some percent.
 void gauss_seidel(benchmark::State& state, const std::string& name) {
   const Scene& scene = scene_of(name);
   const LaplaceProblem problem = problem_of(scene.domain, scene.source);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // frontier/<way>/<world> and void/<way>/<world>: frontier and void cells after one more scan of a depth camera, in a
-// map that 60 scans from all over the world have made, of 0.05 m where the name says nothing else. `incremental`
-// keeps cells and clusters up to date; `full` finds both from nothing, `full_cells` the cells alone.
-// frontier_and_void/<way>/ <world>: what a planner that needs both pays after a scan. plan/<planner>/<world>: a whole
-// plan in that map.
+// map of 60 scans from all over the world; 0.05 m unless the name gives another resolution. `incremental` updates
+// cells and clusters, `full` computes both anew, `full_cells` only the cells.
+// frontier_and_void/<way>/<world>: both after a scan.
+// plan/<planner>/<world>: a complete plan in that map.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -70,7 +70,7 @@ const Sequence& sequence_of(const std::string& name) {
       .first->second;
 }
 
-// Calls `measured(map)` after every scan to come, timed; `prepared(map)` before the first, not.
+// Calls `measured(map)`, timed, after every further scan, and `prepared(map)`, untimed, before the first.
 template <class Prepared, class Measured>
 void after_every_scan(benchmark::State& state, const std::string& world, const Prepared& prepared,
                       const Measured& measured) {
@@ -145,7 +145,7 @@ void both_full(benchmark::State& state, const std::string& world) {
       });
 }
 
-// The latest place of the camera that the map admits by now: what a single view shows is rarely room for the body.
+// The latest camera pose that the map admits. A single scan rarely shows enough space for the body.
 Pose place_in(const OccupancyMap& map, const Sequence& sequence, const FreeFlyer& flyer, std::size_t scans) {
   for (std::size_t i = scans; i-- > 0;) {
     if (flyer.admits(map, sequence.scans[i].world_from_sensor)) {

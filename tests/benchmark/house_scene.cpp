@@ -33,7 +33,7 @@ std::pair<LaplaceDomain, VoxelIndex> house_scene(const std::filesystem::path& da
   const auto flyer = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.15});
   ExplorationRun run(world, sensor, flyer,
                      {.map = {.resolution_m = 0.1}, .max_views = views, .measure_coverage = false});
-  // Not in a nook: where something wider would fit.
+  // Starts where a wider robot would also fit, not in a niche.
   const Pose start = somewhere(run.truth(), FreeFlyer({.radius_m = 0.6}), world.region);
   Pose latest = start;
   const auto planner = make_planner("harmonic", {.sensor = sensor, .platform = flyer});

@@ -9,8 +9,8 @@
 
 namespace vantage {
 
-/// What is known of the small house (`environments/aws_small_house` in `data`), at 0.1 m, after so many views that
-/// `harmonic` chose for a sensor that sees all around: its known-free cells, and the one the sensor is in.
+/// The known free cells, at 0.1 m, of the small house (`environments/aws_small_house` in `data`) after this many
+/// views of `harmonic` with a sensor that sees all around, and the cell of the sensor.
 [[nodiscard]] std::pair<LaplaceDomain, VoxelIndex> house_scene(const std::filesystem::path& data, std::size_t views);
 
 }  // namespace vantage

@@ -21,7 +21,7 @@ struct Case {
   RayPolicy policy;
 };
 
-// Every iteration fills a new, empty map; making an empty one and destroying a full one are not counted.
+// Every iteration fills a new map; construction and destruction are not timed.
 void insert_vantage(benchmark::State& state, const Case& c) {
   OccupancyMap::Counts counts;
   double bytes = 0;
@@ -41,8 +41,8 @@ void insert_vantage(benchmark::State& state, const Case& c) {
   state.counters["bytes_per_cell"] = bytes / known;
 }
 
-// The fastest way OctoMap has: lazy, its inner nodes left for later, which is not counted. An infinite range is -1
-// there.
+// OctoMap's fastest way: lazy evaluation, with the untimed update of inner nodes left out. OctoMap writes an infinite
+// range as -1.
 void insert_octomap(benchmark::State& state, const Case& c) {
   octomap::Pointcloud cloud;
   const Pose& pose = c.scan.world_from_sensor;
@@ -74,7 +74,7 @@ void insert_octomap(benchmark::State& state, const Case& c) {
   state.counters["bytes_per_cell_pruned"] = pruned / known;
 }
 
-// The cost of a scan must follow the scan, not the map: the same scan into a map that already holds `scans` others.
+// The cost of a scan should follow the scan, not the map: inserts the same scan into a map of `scans` others.
 void insert_into_full_map(benchmark::State& state) {
   OccupancyMap map(OccupancyMapOptions::octomap(0.05));
   Scan scan = table_scan();
@@ -90,7 +90,7 @@ void insert_into_full_map(benchmark::State& state) {
   state.counters["known_cells"] = static_cast<double>(map.counts().free + map.counts().occupied);
 }
 
-// The first keyframe of the recorded lidar scans, if VANTAGE_DATA says where they are.
+// The first keyframe of the recorded lidar scans, if VANTAGE_DATA is set.
 std::optional<Scan> recorded_lidar_scan() {
   const char* data = std::getenv("VANTAGE_DATA");
   if (data == nullptr) {

@@ -7,15 +7,15 @@
 
 namespace vantage {
 
-/// The system that LaplaceMultigrid solves, as a matrix for general solvers: the negative Laplacian over the cells of
-/// the source's component that are no sinks, and a unit source.
+/// The linear system of LaplaceMultigrid as a sparse matrix for general solvers: the negative Laplacian over the
+/// non-sink cells of the source's component, and a unit source.
 struct LaplaceMatrix {
   Eigen::SparseMatrix<double> matrix;
   Eigen::VectorXd right;
 };
 
 [[nodiscard]] LaplaceMatrix matrix_of(const LaplaceDomain& domain, const VoxelIndex& source);
-/// The domain as a list.
+/// The domain as a LaplaceProblem.
 [[nodiscard]] LaplaceProblem problem_of(const LaplaceDomain& domain, const VoxelIndex& source);
 
 }  // namespace vantage

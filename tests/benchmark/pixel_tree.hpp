@@ -11,19 +11,19 @@
 
 namespace vantage {
 
-/// The pixels of a camera as a tree of rays: of every four of a level, the level above has one.
+/// The pixels of a camera as a tree of rays: each 2 x 2 rays of a level have one parent in the level above.
 class PixelTree {
  public:
-  /// The last of the levels has all pixels, of which there must be a whole number in the first.
+  /// The last level has all pixels; the first must have a whole number of columns and rows.
   PixelTree(const RangeSensor& camera, int levels);
 
-  /// As RayTree.
+  /// See RayTree.
   [[nodiscard]] const RayImage& rays(int level) const { return at(level).image; }
-  /// As RayTree.
+  /// See RayTree.
   [[nodiscard]] std::span<const std::uint32_t> children(int level, std::uint32_t ray) const {
     return at(level).children.empty() ? std::span<const std::uint32_t>() : at(level).children[ray];
   }
-  /// As RayTree.
+  /// See RayTree.
   [[nodiscard]] std::uint32_t leaves(int level, std::uint32_t /*ray*/) const { return at(level).leaves; }
 
  private:

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// plan/<planner>/rooms: a whole plan, from the map's frontier to the way there, after every scan of one and the same
-// run of `harmonic` through the paper's world; `frontier-gain` weighs 200 hypotheses. Operations are cells visited
-// along rays plus cell updates of the field.
-// plan/<planner>/rooms-stereo: the same with a narrow sensor, after every scan of the planner's own run to the end.
+// plan/<planner>/rooms: a complete plan (frontier to path) after every scan of the same run of `harmonic` in the
+// world of the paper; `frontier-gain` evaluates 200 hypotheses. Operations are cells visited along rays plus cell
+// updates of the field.
+//
+// plan/<planner>/rooms-stereo: the same with a narrow sensor, after every scan of the planner's own complete run.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -23,7 +24,7 @@ namespace {
 
 constexpr double kCellM = 0.2;
 
-// What a sensor measured on its way, and the place from which it left.
+// The scans of a run, and its start.
 struct RoomsRun {
   World world = World::by_name("rooms");
   RangeSensor sensor = RangeSensor::preset("panoramic");
@@ -39,23 +40,23 @@ struct RoomsRun {
   [[nodiscard]] PlannerSetup setup() const { return {.sensor = sensor, .platform = robot}; }
 };
 
-// `stereo` with every fourth pixel both ways: neighbours are 5 cm apart where the range ends.
+// The preset `stereo` with every fourth column and row: rays are 5 cm apart at the maximum range.
 RangeSensor thin_stereo() {
   constexpr double kDegree = std::numbers::pi / 180.0;
   return RangeSensor::pinhole(128, 96, 65.0 * kDegree, 51.0771935 * kDegree, 0.5, 5.0);
 }
 
-// What is asked of a planner: where it plans, and after how many scans at most.
+// A benchmark case: planner, run and the maximum number of scans.
 struct PlanCase {
   std::string planner;
   PlannerSettings settings = {};
-  std::string explorer = "harmonic";  // whose run it is
+  std::string explorer = "harmonic";  // planner of the run
   RangeSensor sensor = RangeSensor::preset("panoramic");
   std::size_t most_scans = 100;
   benchmark::IterationCount plans = 60;
 };
 
-// Scans at goals only, until all is explored or there are enough.
+// Scans at goals only, until all is explored or the limit is reached.
 RoomsRun explore_rooms(const PlanCase& what) {
   RoomsRun run;
   run.sensor = what.sensor;
@@ -74,7 +75,7 @@ RoomsRun explore_rooms(const PlanCase& what) {
     map.insert(run.scans.back());
     const Plan plan = planner->plan(map, pose);
     if (plan.outcome != Outcome::Move) {
-      run.scans.pop_back();  // its plan only says that all is done
+      run.scans.pop_back();  // its plan only reports the end
       break;
     }
     pose = plan.path.back();

@@ -21,7 +21,7 @@
 namespace vantage {
 namespace {
 
-// What some of these benchmarks look at, each part made when it is first asked for.
+// The scene of some benchmarks; its parts are made on first use.
 class Stage {
  public:
   Stage(std::string name, double resolution_m, Surroundings surroundings)
@@ -47,7 +47,7 @@ class Stage {
     }
     return *tree_;
   }
-  // The i-th of the views in an order that soon has been everywhere: a fixed sample for those who do not get far.
+  // The i-th view in a fixed order that soon covers all directions, for benchmarks with few iterations.
   [[nodiscard]] const Pose& view(std::size_t i) const {
     constexpr std::size_t kStride = 89;
     return scene().views[i * kStride % scene().views.size()];
@@ -66,7 +66,7 @@ RangeSensor camera(std::size_t width, std::size_t height) {
   return RangeSensor::pinhole(width, height, 1.09, 0.857, 0.0, 4.0);
 }
 
-// The rays of a camera, or those of eq. 6 of the paper where there is no image.
+// The rays of a camera image, or without an image those of eq. 6 of the paper.
 struct Density {
   std::string name;
   RangeSensor sensor;
@@ -94,7 +94,7 @@ void rays_vantage(benchmark::State& state, const Stage& stage, const Density& de
   state.counters["rays"] = static_cast<double>(rays.size());
 }
 
-// castRay finds what it finds in single precision: so much of it may be something else.
+// castRay computes in single precision, so this share of its results may differ.
 constexpr double kRoundedShare = 0.01;
 
 void rays_octomap(benchmark::State& state, const Stage& stage, const Density& density) {
@@ -132,13 +132,13 @@ void report(benchmark::State& state, std::size_t unknown, std::size_t occupied) 
   state.counters["occupied"] = static_cast<double>(occupied) / views;
 }
 
-// `evaluate(pose)` returns something with counts of unknown and occupied; returns their sums.
+// Calls `evaluate(pose)` for each view and returns the sums of unknown and occupied counts.
 template <class Evaluate>
 ViewEvaluation evaluate_each_view(benchmark::State& state, const Stage& stage, const Evaluate& evaluate) {
   std::size_t i = 0;
   std::size_t unknown = 0;
   std::size_t occupied = 0;
-  std::ignore = stage.scene();  // made before the clock starts
+  std::ignore = stage.scene();  // not timed
   for ([[maybe_unused]] auto _ : state) {
     const auto counts = evaluate(stage.view(i++));
     unknown += counts.unknown;
@@ -148,7 +148,7 @@ ViewEvaluation evaluate_each_view(benchmark::State& state, const Stage& stage, c
   return {unknown, occupied};
 }
 
-// Puts an end to a benchmark that has counted something else than it should, more than a share of it.
+// Fails a benchmark whose counts differ from the expected ones by more than a share.
 void require_same(benchmark::State& state, const ViewEvaluation& counted, const ViewEvaluation& expected,
                   double share) {
   const auto differ = [share](std::size_t a, std::size_t b) {
@@ -159,7 +159,7 @@ void require_same(benchmark::State& state, const ViewEvaluation& counted, const 
   }
 }
 
-// The same for one that should count, in the same views, the cells that vantage counts.
+// As above, compared with the counts of vantage in the same views.
 void require_counts(benchmark::State& state, const Stage& stage, const ViewRays& rays, const ViewEvaluation& counted,
                     double share) {
   ViewEvaluation expected;
@@ -187,7 +187,7 @@ void uniform_vantage(benchmark::State& state, const Stage& stage, const Density&
   require_counts(state, stage, rays, counted, 0.0);
 }
 
-// Every ray by castRay; or only those that meet the object box.
+// Casts each ray with castRay; if `culled`, only rays that intersect the object's box.
 void uniform_octomap(benchmark::State& state, const Stage& stage, const Density& density, bool culled) {
   const std::vector<Eigen::Vector3f> directions = density.image(stage.resolution_m()).directions;
   const Box box = stage.scene().map.frame().box_of(stage.scene().object);
@@ -214,7 +214,7 @@ void uniform_octomap(benchmark::State& state, const Stage& stage, const Density&
 
 constexpr std::array kStartDepths{12, 13, 14, 15};  // of 16
 
-// The levels of Algorithm 2 that begin at a depth of an octree of depth 16.
+// Number of levels of Algorithm 2 for a start depth in an octree of depth 16.
 int levels_from(int start_depth) { return 17 - start_depth; }
 
 void hierarchical_vantage(benchmark::State& state, const Stage& stage, const Density& density, int start_depth) {
@@ -222,7 +222,7 @@ void hierarchical_vantage(benchmark::State& state, const Stage& stage, const Den
   evaluate_each_view(state, stage, [&](const Pose& pose) { return tracer.evaluate(pose, stage.scene().object); });
 }
 
-// Algorithm 2 over the octree's own inner nodes, refining inside the object box only. Counts as over vantage's maps.
+// Algorithm 2 over the inner nodes of the octree, refined only inside the object's box. Counts like vantage.
 template <class Tree>
 void trace_octree(benchmark::State& state, const Stage& stage, double range_m, const Tree& rays, int levels) {
   std::vector<RayCaster> casters;
@@ -269,7 +269,7 @@ void hierarchical_octomap(benchmark::State& state, const Stage& stage, const Den
   }
 }
 
-// All views, by one thread or more.
+// All views, with one or more threads.
 void all_vantage(benchmark::State& state, const Stage& stage, const Density& density, std::size_t threads) {
   const ViewRays rays = density.rays(stage.resolution_m());
   (void)stage.caster();
@@ -280,7 +280,7 @@ void all_vantage(benchmark::State& state, const Stage& stage, const Density& den
   state.counters["views"] = static_cast<double>(stage.scene().views.size());
 }
 
-// The skipping structure after each of some scans of the object from its candidate views.
+// Updates the ray caster after each of some scans of the object from its candidate views.
 void update_vantage(benchmark::State& state, const Stage& stage) {
   OccupancyMap map = stage.scene().map;
   RayCaster following(map);
@@ -301,7 +301,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// A whole cycle of the planner next-best-view, stage by stage, until the object is done; then from the beginning.
+// Complete cycles of the planner next-best-view until the object is finished, then from the start, with times per
+// stage.
 void cycle_vantage(benchmark::State& state, const Stage& stage) {
   const Box object = stage.scene().map.frame().box_of(stage.scene().object);
   const auto platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.05});
@@ -316,7 +317,7 @@ void cycle_vantage(benchmark::State& state, const Stage& stage) {
     if (plan.outcome != Outcome::Move) {
       map.emplace(stage.scene().map);
       planner.emplace(setup, NextBestViewOptions{.object = object});
-      plan = planner->plan(*map, stage.view(0));  // the caster is made once
+      plan = planner->plan(*map, stage.view(0));  // constructs the caster before timing
     }
     const Pose here = plan.goal.pose;
     const Scan scan = table_scan(here);
@@ -344,7 +345,7 @@ auto* add(const std::string& name, Function function, Arguments... arguments) {
 }
 
 void add_visibility(const Stage& stage, const Density& density) {
-  constexpr int kSample = 5;  // views that slow peers look at
+  constexpr int kSample = 5;  // number of views for slow peers
   const std::string name = density.name + stage.name();
   const auto of = [&stage](auto function) {
     return [&stage, function](benchmark::State& state, const Density& rays, auto... more) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// run/<planner>/<world>/cycle: inserting a scan and planning the next view, along a whole run that follows its plans;
-// run/<planner>/<world>/record: writing the same cycles into the record of that run.
+// run/<planner>/<world>/cycle: inserts a scan and plans, along a complete run that follows its plans.
+// run/<planner>/<world>/record: writes the same cycles to the record of the run.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ constexpr std::size_t kCycles = 20;
 
 enum class Timed { Cycle, Record };
 
-// A run, a view at a time.
+// A run that advances one view at a time.
 class RecordedRun {
  public:
   RecordedRun(const std::string& planner, const std::string& world)
@@ -58,7 +58,7 @@ class RecordedRun {
     const auto* harmonic = dynamic_cast<const HarmonicPlanner*>(planner_.get());
     recorder_->record(*map_, view, &plan_, harmonic != nullptr && harmonic->field() ? &*harmonic->field() : nullptr);
   }
-  // To where the plan leads; to the start of another run where it leads nowhere.
+  // Moves to the goal of the plan, or starts a new run if there is none.
   void go_on() {
     if (plan_.outcome == Outcome::Move) {
       pose_ = plan_.path.back();

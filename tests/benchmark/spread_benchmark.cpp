@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // plan/nearest-frontier/tunnel-folded, plan/nearest-frontier/tunnel-spread: the same tunnel of ten million known
-// cells of 0.1 m, folded up side by side, and as a staircase over 2 x 2 km: a whole plan after the cells before a
-// hole in its wall became known. What a plan costs follows the cells, not the box around them. `map_mb` is what the
-// map takes.
+// cells of 0.1 m, folded into a compact block, and as a staircase over 2 x 2 km. Times a complete plan after the
+// cells in front of a hole in the wall became known. The cost should follow the cells, not their bounding box.
+// `map_mb` is the memory of the map.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -19,7 +19,7 @@ constexpr int kSegments = 150;
 
 enum class Course : std::uint8_t { Folded, Spread };
 
-// Boxes of free cells, each overlapping with the next.
+// Boxes of free cells; each overlaps the next.
 std::vector<VoxelBox> tunnel(Course course) {
   std::vector<VoxelBox> boxes;
   VoxelIndex at{0, 0, 0};

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -D NM=<nm> -D LIBRARY=<shared library> -P check_exports.cmake
-# A shared library shows its public names and none of vantage::detail.
+# Checks that a shared library exports public names and none of vantage::detail.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 execute_process(COMMAND "${NM}" -DC --defined-only "${LIBRARY}" OUTPUT_VARIABLE symbols RESULT_VARIABLE code)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A planar arm of two links: where its sensor is, the joints that bring it back there, and a way among known cells.
+// A planar arm with two links: forward kinematics, inverse kinematics and a path through known cells.
 #include <array>
 #include <cmath>
 #include <iostream>

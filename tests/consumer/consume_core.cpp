@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps the inside of a box from one scan and plans in it: with no opening there is nothing left to see, with one
-// there is.
+// Maps the inside of a cube from one scan and plans: Explored if the cube is closed, a Move if it is open.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -13,7 +12,7 @@
 
 namespace {
 
-// What the sensor measures at the centre of a cube with walls 2.05 m away, open towards its own right if asked.
+// A scan from the centre of a cube with walls 2.05 m away, optionally open towards its own right.
 vantage::Scan scan_of_cube(const vantage::RangeSensor& sensor, const vantage::Pose& pose, bool open) {
   vantage::Scan scan;
   scan.world_from_sensor = pose;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The peers of a planner of views of an object, by name.
+// Makes the peer planners for object views by name.
 #include <iostream>
 #include <stdexcept>
 #include <vantage/evaluation/object_peers.hpp>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Whether every public type has the size and the alignment here, under this file's compiler flags, that it has
-// without.
+// Checks that every public type has the same size and alignment with this file's compiler flags as without.
 #include <iostream>
 
 #include "layouts.hpp"
 
-// No type asks for more alignment than its numbers: none can depend on the width of vectors.
+// No type is aligned more strictly than its numbers, so none depends on the vector width.
 static_assert(alignof(vantage::Plan) <= alignof(double) && alignof(vantage::Scan) <= alignof(double));
 static_assert(sizeof(vantage::Pose) == 16 * sizeof(double) && alignof(vantage::Pose) == alignof(double));
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays between cell centres, where many pass exactly through edges of cells: whether VoxelRay, as this file's
-// compiler flags have it, visits the cells that the library visits. The cells of each ray alone are free in a map of
-// its own, so the library's ray reaches its end only if it leaves none of them, and all ways between two cells are of
-// one length.
+// Checks that VoxelRay, compiled with this file's flags, visits the same cells as the library. Rays connect cell
+// centres, so many pass exactly through edges. In a map, only the cells of one ray are free; the library's ray
+// reaches its end only if it stays in them, and all paths between two cells have the same length.
 #include <cstdint>
 #include <iostream>
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sensor from a file, and the record of a run as JSON.
+// Reads a sensor from a file and writes the record of a run as JSON.
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -24,7 +24,7 @@ int main() {
   vantage::RunRecorder recorder("run.record", {.planner = record.planner, .sensor = sensor});
   recorder.record(map, vantage::Pose::Identity(), vantage::Plan{});
   recorder.finish(vantage::RunOutcome::Explored, "one cell is enough");
-  vantage::write_report_html("run.record", "run.html");  // asks for no file of where the library was built
+  vantage::write_report_html("run.record", "run.html");  // needs no file from the build tree
 
   const auto says = [&json](const std::string& text) { return json.find(text) != std::string::npos; };
   return sensor.width == 64 && says("\"vantage\": \"" VANTAGE_VERSION_STRING "\"") &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A whole run in a world made here: a mesh, a simulated sensor, a planner, the truth to measure it by.
+// A complete simulated run: mesh, sensor, planner and coverage.
 #include <iostream>
 #include <memory>
 #include <vantage/planner/make_planner.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a room of 2 m with one pillar and writes the picture.
+// Draws a room of 2 m with one pillar and writes the picture to a file.
 #include <algorithm>
 #include <array>
 #include <fstream>

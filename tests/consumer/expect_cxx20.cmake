@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -D COMPILER=<c++> -D INCLUDE_DIR=<installed headers> -D EIGEN_DIR=<its headers> -P expect_cxx20.cmake
-# The headers that the others include, and the one that includes all, are refused as C++17, with our line before any
-# other error.
+# Checks that the basic headers and the umbrella header, compiled as C++17, fail with vantage's own message as the
+# first error.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 file(GLOB headers RELATIVE "${INCLUDE_DIR}" "${INCLUDE_DIR}/vantage/geometry/*.hpp"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Hosts built for other processors than the library: each has the library's layouts, plans in the cube and visits the
-# library's cells. And a host whose compiler has no C++20 is told so in the first line.
+# Consumers built for other processors than the library: the layouts, a plan and ray cells must be the same as in the
+# library. A compiler without C++20 must be rejected in the first error.
 
-# layouts.hpp: every struct and class of the components' headers that is no template.
+# layouts.hpp lists every struct and class of the installed component headers that is not a template.
 get_target_property(include_dir vantage::core INTERFACE_INCLUDE_DIRECTORIES)
 set(includes)
 set(layouts)
@@ -29,7 +29,7 @@ target_include_directories(plain_layouts PRIVATE "${PROJECT_BINARY_DIR}")
 list(TRANSFORM COMPONENTS PREPEND vantage:: OUTPUT_VARIABLE component_targets)
 target_link_libraries(plain_layouts PRIVATE ${component_targets})
 
-# vantage_host(<part> <flag>...): consume_<part>.cpp, optimised, as a host would build itself.
+# vantage_host(<part> <flag>...): builds consume_<part>.cpp with optimisation, as a consumer would.
 function(vantage_host part)
   string(REPLACE "-march=" "_" host "${part}${ARGN}")
   add_executable(${host} consume_${part}.cpp)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The package as a stranger gets it, three ways, and what it says when asked for what it does not have.
+# Tests of the package in three ways (installed, subdirectory, fetchcontent), and of its errors for missing components.
 set(consumer_source "${CMAKE_CURRENT_LIST_DIR}")
 set(consumer_build "${PROJECT_BINARY_DIR}/consumer")
 set(consumer_prefix "${consumer_build}/prefix")
@@ -7,8 +7,8 @@ set(consumer_prefix "${consumer_build}/prefix")
 add_test(NAME package.install COMMAND "${CMAKE_COMMAND}" --install "${PROJECT_BINARY_DIR}" --prefix "${consumer_prefix}")
 set_tests_properties(package.install PROPERTIES FIXTURES_SETUP installed_package LABELS package)
 
-# vantage_consumer_test(<name> <option>...): configures, builds and runs the consumer. The options come before
-# --test-command, which takes everything that follows it.
+# vantage_consumer_test(<name> <option>...): configures, builds and runs the consumer. The options must come before
+# --test-command, which takes all arguments that follow.
 function(vantage_consumer_test name)
   add_test(
     NAME package.${name}

@@ -13,7 +13,7 @@
 
 namespace vantage::testing {
 
-/// A closed box of cells with seeded furniture: a world small enough to check every claim by trying everything.
+/// A closed world of cells with random furniture, small enough to verify claims exhaustively.
 struct CellWorld {
   VoxelFrame frame{0.2};
   VoxelGrid<std::uint8_t> solid;
@@ -65,7 +65,7 @@ enum class Furniture { Rooms, Pillars, Boxes };
   return world;
 }
 
-/// What the sensor measures: along each ray, a return just inside the first solid cell.
+/// A simulated scan: each ray returns a point just inside the first solid cell.
 [[nodiscard]] inline Scan scan_cells_of(const CellWorld& world, const RangeSensor& sensor, const Pose& pose) {
   Scan scan;
   scan.world_from_sensor = pose;
@@ -78,7 +78,7 @@ enum class Furniture { Rooms, Pillars, Boxes };
       if (!world.is_solid(cell)) {
         continue;
       }
-      // Where the ray enters the cell, and a little further.
+      // The point where the ray enters the cell, moved slightly inwards.
       const Box box = world.frame.box_of(cell);
       double entry = 0.0;
       for (Eigen::Index axis = 0; axis < 3; ++axis) {

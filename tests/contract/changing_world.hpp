@@ -15,20 +15,20 @@
 namespace vantage::testing {
 
 enum class Building : std::uint8_t {
-  Rooms,   // walls of one cell, doors that stand open
-  Sheets,  // the same with walls without thickness, between two cells
-  Grille,  // a wall of bars, seen through and never passed
-  Doors,   // doors close and open
-  Walker,  // somebody walks to and fro
+  Rooms,   // one-cell walls with open doorways
+  Sheets,  // the same rooms with walls of zero thickness between cells
+  Grille,  // a wall of bars: transparent to rays, closed to the body
+  Doors,   // doors that close and open
+  Walker,  // a person who walks to and fro
 };
 inline constexpr std::size_t kBuildings = 5;
 
-/// A small building of cells, in space or one layer of cells, in which things may move while a robot explores it.
+/// A small building of cells, in 3D or in one layer, in which objects may move while a robot explores it.
 struct ChangingWorld {
   VoxelFrame frame{0.2};
   VoxelGrid<std::uint8_t> solid;
-  VoxelGrid<std::uint8_t> sheets;  // bit a: a wall without thickness on the upper face across axis a
-  VoxelBox door{};                 // empty: none that moves
+  VoxelGrid<std::uint8_t> sheets;  // bit a: a wall of zero thickness on the upper face of axis a
+  VoxelBox door{};                 // empty: no moving door
   std::optional<VoxelBox> person;
   std::size_t clock = 0;
 
@@ -39,7 +39,7 @@ struct ChangingWorld {
     return solid.value_or(cell, 1) != 0 || (door.contains(cell) && door_is_closed()) ||
            (person && person->contains(cell));
   }
-  /// Whether a ray or a body cannot pass from one cell to a face neighbour.
+  /// Whether a wall separates two face neighbours.
   [[nodiscard]] bool parted(const VoxelIndex& a, const VoxelIndex& b) const {
     const VoxelIndex step = b - a;
     const int axis = step.x != 0 ? 0 : step.y != 0 ? 1 : 2;
@@ -50,7 +50,7 @@ struct ChangingWorld {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return parted(cell, cell + step); });
   }
-  /// Whether the centre of `cell` is in sight from `origin`.
+  /// Whether the centre of `cell` is in clear line of sight from `origin`.
   [[nodiscard]] bool in_sight(const Eigen::Vector3d& origin, const VoxelIndex& cell) const {
     VoxelIndex last = frame.cell_of(origin);
     for (const VoxelIndex& next : VoxelRay(frame, origin, frame.centre_of(cell))) {
@@ -61,7 +61,7 @@ struct ChangingWorld {
     }
     return true;
   }
-  /// Time goes on; nobody walks into the robot, and no door closes on it.
+  /// Advances the moving objects by one step. Nothing moves into the robot.
   void tick(const Eigen::Vector3d& robot) {
     const VoxelIndex at = frame.cell_of(robot);
     const auto is_near = [&](const VoxelBox& box) { return box.grown(3).contains(at); };
@@ -146,8 +146,8 @@ struct ChangingWorld {
   return world;
 }
 
-/// What the sensor measures: along each ray, a return just inside the first solid cell or just behind the first
-/// sheet.
+/// A simulated scan: each ray returns a point just inside the first solid cell, or just behind the first wall of zero
+/// thickness.
 [[nodiscard]] inline Scan scan_of(const ChangingWorld& world, const RangeSensor& sensor, const Pose& pose) {
   Scan scan;
   scan.world_from_sensor = pose;

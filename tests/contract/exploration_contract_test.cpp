@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-//
-// What a robot can rely on, held over every planner with its default settings: buildings in which things may move,
-// hosts that do not do quite what they are told, sensors, sizes of cells, space and plane. VANTAGE_CONTRACT_SEEDS
-// says how many worlds every planner meets with every host (a nightly run: hundreds); VANTAGE_CONTRACT_FIRST_SEED
-// where they begin.
+// Properties that every planner must have with its default settings, over buildings with moving objects, imperfect
+// hosts, sensors, cell sizes, 3D and 2D.
+// VANTAGE_CONTRACT_SEEDS: number of worlds per planner and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,19 +34,19 @@ using testing::ChangingWorld;
 
 constexpr std::size_t kMostPlans = 250;
 constexpr std::size_t kMostPlansStuck = 40;
-constexpr double kBodyCells = 0.7;  // radius
+constexpr double kBodyCells = 0.7;  // radius, cells
 
 enum class Host : std::uint8_t {
   Perfect,
   StopsShort,      // by up to 0.3 m and 15 degrees
-  AbortsSilently,  // one goal in three, half way
+  AbortsSilently,  // one goal in three, half-way
   AbortsAndReports,
   MovedByHand,  // every fifth time
-  Inexact,      // is 1 cm and half a degree from where it believes to be
+  Inexact,      // 1 cm and half a degree off its estimated pose
   OffCentre,
   InACorner,
-  PlansFromACopy,  // of the map, a new one each time
-  Stuck,           // never moves, and does not say so
+  PlansFromACopy,  // a new copy of the map for each plan
+  Stuck,           // never moves and does not report it
 };
 constexpr std::uint32_t kHosts = 10;
 
@@ -59,7 +57,7 @@ std::string name_of(Host host) {
   return names[static_cast<std::size_t>(host)];
 }
 
-/// A world, a sensor and what carries it.
+/// A world, a sensor and a platform.
 struct Scene {
   Building building = Building::Rooms;
   std::uint32_t seed = 1;
@@ -67,7 +65,7 @@ struct Scene {
   double cell_m = 0.2;
   bool flat = false;
 
-  /// Every building, sensor, size and dimension in turn, none of them in step with another.
+  /// Enumerates combinations of building, sensor, cell size and dimension.
   static Scene numbered(std::uint32_t number) {
     const std::uint32_t kind = number * 37 % 90;
     return {static_cast<Building>(kind % testing::kBuildings), number, kind / 5 % 3,
@@ -133,7 +131,7 @@ bool same(const Plan& a, const Plan& b) {
                     [](const Pose& p, const Pose& q) { return p.matrix() == q.matrix(); });
 }
 
-/// A robot, the host that drives it, and what came of it.
+/// A robot, its host and the results of the run.
 class DrivenRobot {
  public:
   DrivenRobot(const std::string& planner, Host host, const Scene& scene)
@@ -158,7 +156,7 @@ class DrivenRobot {
     assume_free(map_, *platform_, pose_, start_clearance_m(*platform_, sensor_));
     for_each_cell(world_.solid.box(), [&](const VoxelIndex& at_cell) {
       if (world_.is_solid(at_cell)) {
-        map_.set(at_cell, Occupancy::Unknown);  // whoever starts a robot sees what is no free space
+        map_.set(at_cell, Occupancy::Unknown);  // the operator does not declare solid cells free
       }
     });
     look();
@@ -168,8 +166,8 @@ class DrivenRobot {
   std::size_t plans = 0;
   Plan last;
   std::size_t collisions = 0;
-  std::size_t most_asks = 0;      // of one goal in a row without coming nearer
-  std::size_t disagreements = 0;  // of one and of two threads
+  std::size_t most_asks = 0;      // longest series of plans for one goal without progress
+  std::size_t disagreements = 0;  // between plans of one and of two threads
   std::size_t thrown = 0;
 
   [[nodiscard]] std::vector<VoxelIndex> left() const {
@@ -219,7 +217,7 @@ class DrivenRobot {
     looked_.poses.push_back(pose_);
     world_.tick(pose_.translation());
   }
-  // Where it is when it believes to be at `pose_`.
+  // The true pose when the robot believes that it is at `pose_`.
   Pose truly_at() {
     if (host_ != Host::Inexact) {
       return pose_;
@@ -249,7 +247,7 @@ class DrivenRobot {
     for (; plans < (host_ == Host::Stuck ? kMostPlansStuck : kMostPlans); ++plans) {
       last = plan();
       if (last.outcome == Outcome::Unreachable && !world_.is_static() && waits < 30) {
-        ++waits;  // as the contract says: ask again later
+        ++waits;  // as the contract asks: plan again later
         look();
         continue;
       }
@@ -305,9 +303,9 @@ class DrivenRobot {
       carry();
     }
   }
-  // The body's sphere against what stands still.
+  // Whether the sphere of the body overlaps a static solid cell.
   [[nodiscard]] bool collides(const Pose& pose) const {
-    // A host that is turned by half a degree from where it believes to be sees what is far beside its place.
+    // A host that is off by half a degree maps distant surfaces beside their true place.
     const double off_m = host_ == Host::Inexact ? 0.01 + 0.01 * sensor_.max_range_m : 1e-6;
     const double radius_m = kBodyCells * scene_.cell_m - off_m;
     const VoxelIndex at = world_.frame.cell_of(pose.translation());
@@ -322,7 +320,7 @@ class DrivenRobot {
     });
     return touches;
   }
-  // Somebody takes the robot and puts it down elsewhere, where it fits.
+  // Moves the robot to a random place where it fits.
   void carry() {
     for (int attempt = 0; attempt < 200; ++attempt) {
       Pose there = pose_;
@@ -387,8 +385,8 @@ TEST_P(ExplorationContract, Holds) {
       EXPECT_EQ(left.size(), 0U) << "still observable: " << left.front().x << " " << left.front().y << " "
                                  << left.front().z;
     }
-    // Where walls lie between cells, the map decides which cells are free; a robot that is put down behind bars, or
-    // sees walls where there are none, may be cut off and says so.
+    // With walls between cells, the map decides which cells are free. A robot that is placed behind bars, or that
+    // maps walls where none are, may be cut off and report that.
     const bool may_be_cut_off =
         (host == Host::MovedByHand || host == Host::Inexact) && run.last.outcome == Outcome::Unreachable;
     if (!scene.world().is_static() || scene.building == Building::Sheets || host == Host::Stuck || may_be_cut_off ||

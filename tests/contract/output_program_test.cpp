@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program leaves behind, however it ends: files are whole or not there, and the exit code tells.
+// Files and exit codes of the program, however it ends: a file is complete or does not exist.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -36,7 +36,7 @@ constexpr const char* kLongRun =
 class ProgramOutput : public testing::Test {
  protected:
   [[nodiscard]] std::string out() const { return (folder_ / "out").string(); }
-  // The code of a shell command in which "vantage" is the program; what it says is left in err_.
+  // Runs a shell command in which "vantage" is the program. Returns the exit code and stores stderr in err_.
   [[nodiscard]] int shell(const std::string& command) {
     const fs::path script = folder_ / "script.sh";
     std::ofstream(script) << "vantage() { '" VANTAGE_PROGRAM "' \"$@\"; }\n" << command << '\n';
@@ -45,7 +45,7 @@ class ProgramOutput : public testing::Test {
     err_ = test::read_all(err);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  // One line on stderr that names the thing.
+  // Expects one line on stderr that contains `what`.
   void expect_said(const std::string& what) const {
     EXPECT_EQ(err_.rfind("vantage: ", 0), 0U) << err_;
     EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
@@ -58,7 +58,7 @@ class ProgramOutput : public testing::Test {
     }
     return names;
   }
-  // The program in the background, as a shell would start it.
+  // Starts the program in the background.
   [[nodiscard]] pid_t start(const std::string& arguments) const {
     std::vector<std::string> words{VANTAGE_PROGRAM};
     std::istringstream given(arguments);
@@ -83,7 +83,7 @@ class ProgramOutput : public testing::Test {
     }
     return child;
   }
-  // Waits, at most two minutes, until the run has recorded a few views.
+  // Waits up to two minutes until the run has recorded a few views.
   [[nodiscard]] bool is_under_way(pid_t child) const {
     for (int i = 0; i < 12000; ++i) {
       std::error_code none;
@@ -146,7 +146,7 @@ TEST_F(ProgramOutput, AFolderHoldsOneRun) {
   EXPECT_EQ(nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json")).at("views"), 2);
 }
 
-// The limit of a file's size stands for a disk that is full: in whatever file it strikes, what is there is whole.
+// A file size limit simulates a full disk: whichever file hits the limit, all existing files are complete.
 TEST_F(ProgramOutput, AFullDiskLeavesWholeFilesOnly) {
   std::size_t failed = 0;
   std::size_t ran = 0;
@@ -210,14 +210,14 @@ TEST_F(ProgramOutput, ASecondSignalEndsItAtOnce) {
 
 TEST_F(ProgramOutput, ASignalBeforeTheFirstViewLeavesNothing) {
   const pid_t child = start("explore --world office --size 60,60 --resolution 0.1 --planner nearest-frontier");
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it still seeks what is observable
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the program still computes what is observable
   ::kill(child, SIGTERM);
   const int code = code_of(child);
   EXPECT_TRUE(code == 143 || code == -SIGTERM) << code << ": it may not have begun to listen";
   EXPECT_FALSE(fs::exists(out()));
 }
 
-// Killed at any moment, it leaves files that are whole, and a record that opens.
+// SIGKILL at any moment leaves complete files and a readable record.
 TEST_F(ProgramOutput, KilledItLeavesWholeFilesOnly) {
   std::size_t opened = 0;
   for (int moment = 0; moment < 8; ++moment) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// The contract of ExplorationPlanner, held over every planner there is, in worlds small enough to check each claim by
-// trying everything.
+// The contract of ExplorationPlanner for every planner, in worlds small enough to verify each claim exhaustively.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,8 +47,7 @@ bool same(const Plan& a, const Plan& b) {
                     [](const Pose& p, const Pose& q) { return same(p, q); });
 }
 
-/// By trying every reachable cell against every unknown neighbour of every frontier cell. Contested cells hold a
-/// piece of a surface: sight does not pass them.
+/// Exhaustive search over reachable cells and unknown neighbours of frontier cells. Contested cells block sight.
 bool anything_observable(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                          const Pose& current) {
   const ReachableSpace space(map, platform, current);
@@ -88,7 +85,7 @@ void PrintTo(const Setting& setting, std::ostream* out) {  // NOLINT(readability
   *out << setting.planner << (setting.narrow ? ", camera" : ", all round");
 }
 
-/// One robot in one world, driven by the simplest host there can be.
+/// A robot in a world, with a minimal host.
 class Robot {
  public:
   Robot(const Setting& setting, Furniture furniture, std::uint32_t seed)
@@ -122,8 +119,8 @@ class Robot {
 
 class PlannerContract : public ::testing::TestWithParam<Setting> {
  protected:
-  /// Runs to the end in each world, `check(robot, planner, plan)` after every plan, and says how many plans there
-  /// were.
+  /// Runs to the end in each world and calls `check(robot, planner, plan)` after each plan. Returns the number of
+  /// plans.
   template <class Check>
   std::size_t in_every_world(Check&& check) {
     std::size_t plans = 0;
@@ -184,14 +181,14 @@ TEST_P(PlannerContract, ItSaysExploredExactlyWhenNothingObservableIsLeft) {
   EXPECT_EQ(explored, 3U * kSeeds);
 }
 
-/// The same cells in a map of another origin, with the log-odds of this one.
+/// A new map, of another origin, with the same cells and log-odds.
 OccupancyMap rebuilt(const OccupancyMap& map) {
   OccupancyMap other(map.options());
   map.for_each_known([&](const VoxelIndex& cell, Occupancy) { other.set_log_odds(cell, *map.log_odds(cell)); });
   return other;
 }
 
-// What was tried belongs to one map and its copies: to a map of another origin a planner comes as one made now.
+// TriedViews belongs to one map and its copies, so for another map a planner behaves like a new one.
 TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedAnotherMap) {
   std::unique_ptr<ExplorationPlanner> follower;
   const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner&, const Plan&) {
@@ -211,7 +208,7 @@ TEST_P(PlannerContract, PlanningTwiceAndOnMoreThreadsChangesNothing) {
   const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner& planner, const Plan& plan) {
     EXPECT_TRUE(same(plan, planner.plan(robot.map(), robot.pose())));
     const OccupancyMap::Revision before = robot.map().revision();
-    if (before <= last || !on_threads) {  // another world
+    if (before <= last || !on_threads) {  // a new world
       on_threads = make_planner(GetParam().planner, robot.setup(2));
     }
     last = before;
@@ -238,7 +235,7 @@ TEST_P(PlannerContract, ItFollowsTheMapAndNotItsAddress) {
     while (elsewhere.map().revision() <= robot.map().revision()) {
       elsewhere.look();
     }
-    here = rebuilt(elsewhere.map());  // another map at the same address, further on
+    here = rebuilt(elsewhere.map());  // another map at the same address, with a higher revision
     plans_as_one_made_now(here, elsewhere.pose());
     auto moved = std::make_unique<OccupancyMap>(std::move(here));
     here = rebuilt(robot.map());
@@ -267,8 +264,8 @@ TEST_P(PlannerContract, RefusesAPoseThatIsNone) {
   EXPECT_THROW((void)planner->plan(robot.map(), bad), std::invalid_argument);
 }
 
-// A few centimetres beyond the region or the wall, far away, a rotation written with four digits: all of it happens
-// to robots, and none of it may stop one.
+// Poses slightly outside the region or in a wall, poses far away, and rotations with four digits occur in practice
+// and must give a plan.
 TEST_P(PlannerContract, AnyPoseThatARobotMayHaveGivesAPlan) {
   const Robot robot(GetParam(), Furniture::Boxes, 1);
   std::size_t plans = 0;
@@ -283,7 +280,7 @@ TEST_P(PlannerContract, AnyPoseThatARobotMayHaveGivesAPlan) {
   pose.matrix() = (1e4 * pose.matrix()).array().round() / 1e4;
   ASSERT_FALSE(is_rigid(pose));
   EXPECT_EQ(outcome_at(pose), Outcome::Move);
-  for (const double x_m : {-0.05, 0.05, 3.7}) {  // beside the region or in a wall: it may get away
+  for (const double x_m : {-0.05, 0.05, 3.7}) {  // outside the region or in a wall: the robot may get away
     pose = robot.pose();
     pose.translation().x() = x_m;
     EXPECT_NE(outcome_at(pose), Outcome::Explored) << x_m;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The names under "Commands" of the help.
+// The command names listed in the help.
 std::vector<std::string> commands_of(const std::string& help) {
   std::vector<std::string> names;
   std::istringstream lines(help.substr(help.find("Commands")));
@@ -32,7 +32,7 @@ std::vector<std::string> commands_of(const std::string& help) {
   return names;
 }
 
-// "-q", "--quiet", ... in the order of a command's help.
+// The option names in the help of a command, in order.
 std::vector<std::string> options_of(const std::string& help) {
   std::vector<std::string> names;
   std::istringstream lines(help);
@@ -53,7 +53,7 @@ struct Ran {
   std::string err;
 };
 
-/// Drives the real program in a folder of its own.
+/// Runs the real program in a temporary folder.
 class Program : public testing::Test {
  protected:
   Program()
@@ -76,7 +76,7 @@ class Program : public testing::Test {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, vantage::test::read_all(out), vantage::test::read_all(err)};
   }
-  /// The message is one line, `vantage: ...`, that names the thing; the code is 2 and nothing is written.
+  /// Expects exit code 2, one line `vantage: ...` on stderr that contains `names`, and no output file.
   void expect_refused(const std::string& arguments, const std::string& names,
                       const std::string& command = "explore ") {
     const std::string json = (folder_ / "report.json").string();
@@ -223,7 +223,7 @@ TEST_F(Program, ExploresAndReports) {
   const Ran ran = run("explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --out '" + out() +
                       "' --json -");
   EXPECT_EQ(ran.code, 0) << ran.err;
-  const nlohmann::json report = nlohmann::json::parse(ran.out);  // stdout is nothing but JSON
+  const nlohmann::json report = nlohmann::json::parse(ran.out);  // stdout contains JSON only
   EXPECT_EQ(report["command"], "explore");
   EXPECT_EQ(report["world"], "table");
   EXPECT_EQ(report["planner"], "harmonic");
@@ -277,7 +277,7 @@ TEST_F(Program, CompletesInBash) {
   EXPECT_EQ(completed("replay --format ki", 3), "kitti-stereo ");
   EXPECT_EQ(completed("replay --planner harmonic,next", 3), "harmonic,next-best-view ");
 
-  // Every command, and every option of each: what its help describes at the beginning of a line, and nothing else.
+  // All commands and options that the help describes at the start of a line, and no others.
   const std::vector<std::string> commands = commands_of(run("--help").out);
   EXPECT_GE(commands.size(), 7U);
   std::string all;
@@ -316,7 +316,7 @@ TEST_F(Program, HelpsWithEveryCommandByExamplesThatItTakes) {
   EXPECT_GE(examples, 12U);
 }
 
-// As on a terminal, which `script` plays.
+// Uses the program `script` to simulate a terminal.
 TEST_F(Program, DrawsOneBarOnATerminal) {
   if (std::system("command -v script >/dev/null") != 0) {
     GTEST_SKIP() << "there is no program `script` here to play a terminal";
@@ -359,7 +359,7 @@ TEST_F(Program, RecordsAndCompares) {
   EXPECT_NE(named.out.find("\nfirst    1     3 "), std::string::npos) << named.out;
   EXPECT_NE(named.out.find("\nsecond   1     3 "), std::string::npos) << named.out;
 
-  // As after a crash: the end is missing.
+  // Simulates a crash: the end of the file is missing.
   const fs::path record = fs::path(first) / "run.record";
   fs::resize_file(record, fs::file_size(record) - 20);
   const std::string morning = (folder_ / "morning").string();
@@ -387,7 +387,7 @@ TEST_F(Program, SaysThatABudgetEndedIt) {
   EXPECT_EQ(report["views"], 1);
 }
 
-// A block of 20 x 16 x 24 cm.
+// A mesh: a block of 20 x 16 x 24 cm.
 std::string block() {
   std::string vertices;
   for (int corner = 0; corner < 8; ++corner) {

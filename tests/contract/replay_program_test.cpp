@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Drives the real program on recordings of its own.
+/// Runs the real program on generated recordings.
 class ReplayProgram : public testing::Test {
  protected:
-  // A camera that goes along a wall 2 m away and turns a little.
+  // A camera that moves along a wall at a distance of 2 m and turns slightly.
   ReplayProgram() {
     fs::create_directories(data());
     for (int i = 0; i < 5; ++i) {
@@ -86,7 +86,7 @@ TEST_F(ReplayProgram, PlaysARecordingAndTellsWhatEveryPlannerWouldDo) {
   EXPECT_EQ(nlohmann::json::parse(test::bytes_in(out / "report.json")).at("replay").at("format"), "7scenes");
 }
 
-// What is wrong with a frame costs that frame.
+// An invalid frame is skipped; the others are used.
 TEST_F(ReplayProgram, LeavesOutFramesWhosePoseCannotBe) {
   test::write_text(data() / "frame-000001.pose.txt", "1 0 0 nan\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   test::write_text(data() / "frame-000002.pose.txt", "1 0 0 1e300\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
@@ -134,7 +134,7 @@ TEST_F(ReplayProgram, LeavesARecordThatTellsTheSame) {
   EXPECT_EQ(reader.run().reason, report.at("reason").get<std::string>());
 }
 
-// As on a terminal, which `script` plays: one bar over the frames.
+// One progress bar over all frames. Uses the program `script` to simulate a terminal.
 TEST_F(ReplayProgram, DrawsABarOnATerminal) {
   if (std::system("command -v script >/dev/null") != 0) {
     GTEST_SKIP() << "there is no program `script` here to play a terminal";

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Drives the real program.
+/// Runs the real program.
 class SearchProgram : public testing::Test {
  protected:
   [[nodiscard]] static std::string text_in(const fs::path& path) {
@@ -73,7 +73,7 @@ TEST_F(SearchProgram, MovesTheArmFromViewToViewTheSameEveryTime) {
   }
 }
 
-// The peer that weighs all poses, and how few views could do: in large cells, to be quick.
+// The exhaustive planner and the lower bound of views, with large cells to be fast.
 TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
   const std::string arguments =
       "--world crates-open --resolution 0.1 --planner exhaustive --max-views 3 --bound 60 --exhaustive --json -";

@@ -14,12 +14,12 @@
 
 namespace vantage::testing {
 
-/// Whether every cell that the segment touches, be it at an edge, passes `clear`: layer by layer across the axis that
-/// it runs along most.
+/// Whether all cells that the segment touches, edges included, satisfy `clear`. Iterates over layers across the
+/// dominant axis.
 template <class Clear>
 [[nodiscard]] bool touches_only(const VoxelFrame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                 Clear&& clear) {
-  constexpr double kHair = 1e-6;  // cells
+  constexpr double kHair = 1e-6;  // tolerance, cells
   const Eigen::Vector3d a = from / frame.size_m;
   const Eigen::Vector3d b = to / frame.size_m;
   Eigen::Index axis = 0;
@@ -50,7 +50,7 @@ template <class Clear>
   return true;
 }
 
-/// The cells to whose centres the platform may go from `current`, by a flood over what it admits.
+/// The cells to whose centres the platform can go from `current`, by flood fill over admitted cells.
 [[nodiscard]] inline std::set<VoxelIndex> places_from(const OccupancyMap& map, const Platform& platform,
                                                       const Pose& current) {
   std::set<VoxelIndex> places;
@@ -75,15 +75,14 @@ template <class Clear>
   return places;
 }
 
-/// What a run has looked at, as its host can tell: the poses of its scans, and from how many goals which cells were
-/// sought.
+/// What a host knows about a run: the poses of its scans, and for each cell the goals from which it was sought.
 struct LookedAt {
   std::vector<Pose> poses;
   std::map<VoxelIndex, std::set<VoxelIndex>> sought;
 };
 
-/// Unknown cells beside free ones that the sensor could still observe from some place and that were not looked at in
-/// vain: in its view from two cells, or sought from four goals.
+/// Unknown neighbours of free cells that the sensor could still observe and that were not looked at in vain: not in
+/// view from two cells, and not sought from four goals.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Runs a fuzz target without libFuzzer.
 //
-//     ply_fuzz                 the seeds, and inputs made from them, always the same
-//     ply_fuzz --write DIR     writes the seeds, for libFuzzer to begin with
-//     ply_fuzz FILE...         those files: what a fuzzer found
+//     ply_fuzz                 runs the seeds and a fixed set of mutations
+//     ply_fuzz --write DIR     writes the seeds as a corpus for libFuzzer
+//     ply_fuzz FILE...         runs these files, e.g. findings
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +21,7 @@ void take(const std::string& input) {
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
 }
 
-// A few bytes changed, taken out, doubled or cut off.
+// Changes, deletes, duplicates or truncates a few bytes.
 std::string damaged(std::string input, std::mt19937_64& engine) {
   const auto below = [&](std::size_t count) { return static_cast<std::size_t>(engine() % count); };
   for (std::size_t change = 0; change <= below(3) && !input.empty(); ++change) {

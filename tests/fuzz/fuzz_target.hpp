@@ -8,10 +8,10 @@
 
 namespace vantage::fuzz {
 
-/// Whole inputs of the target that is linked, from which others are made.
+/// Valid inputs of the linked target, from which mutations are made.
 std::vector<std::string> seeds();
 
 }  // namespace vantage::fuzz
 
-/// Takes one input, as libFuzzer calls it: errors that the reader documents are caught, all else is a finding.
+/// Runs one input, with the interface of libFuzzer. Documented errors are caught; everything else is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -9,7 +9,7 @@
 
 namespace vantage::fuzz {
 
-/// A file with these bytes, for readers that take nothing else; gone with this.
+/// A temporary file with these bytes, for readers that accept only files. Deleted by the destructor.
 class InputFile {
  public:
   InputFile(const std::uint8_t* data, std::size_t size, const std::string& ending)

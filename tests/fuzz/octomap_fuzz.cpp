@@ -21,11 +21,11 @@ std::vector<std::string> vantage::fuzz::seeds() {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr std::uint64_t kMostCells = 100'000;  // a byte can stand for 2^48 of them
+  constexpr std::uint64_t kMostCells = 100'000;  // one byte can encode 2^48 cells
   const vantage::fuzz::InputFile file(data, size, ".ot");
   try {
     (void)vantage::load_octomap(file.path(), {.max_cells = kMostCells});
-  } catch (const std::runtime_error&) {  // as documented
+  } catch (const std::runtime_error&) {  // documented
   }
   return 0;
 }

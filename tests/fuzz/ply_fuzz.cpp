@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
       }
     }
-  } catch (const std::runtime_error&) {  // as documented
+  } catch (const std::runtime_error&) {  // documented
   }
   return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cycle of a record as it lies behind its checksum, and the map that comes of it.
+// Decodes one cycle of a record (without its checksum) and applies it to a map.
 #include <stdexcept>
 #include <vantage/report/recorded_cycle.hpp>
 
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const vantage::RecordedCycle cycle = vantage::detail::decode({reinterpret_cast<const char*>(data), size}, states);
     vantage::apply_changes(cycle, map);
-  } catch (const std::runtime_error&) {  // as documented
+  } catch (const std::runtime_error&) {  // documented
   }
   return 0;
 }

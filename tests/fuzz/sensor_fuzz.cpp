@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         !sensor.direction(sensor.width - 1, sensor.height - 1).allFinite()) {
       std::abort();
     }
-  } catch (const std::runtime_error&) {  // as documented
+  } catch (const std::runtime_error&) {  // documented
   }
   return 0;
 }

@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!chain.sensor_pose(joints).matrix().allFinite()) {
       std::abort();
     }
-  } catch (const std::runtime_error&) {  // as documented
+  } catch (const std::runtime_error&) {  // documented
   }
   return 0;
 }

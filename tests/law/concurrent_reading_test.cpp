@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whoever only reads a map may do so from any number of threads. Of use under the thread sanitizer above all.
+// Any number of threads may read a map at the same time. Most useful under the thread sanitizer.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kThreads = 4;
 
-/// What `read` returns in each of several threads at once.
+/// Calls `read` in several threads at once and returns the results.
 template <class Read>
 auto in_threads(const Read& read) {
   std::vector<decltype(read())> answers(kThreads);
@@ -74,7 +74,7 @@ TEST(ConcurrentReading, OfAMapGivesEveryThreadTheSame) {
   EXPECT_EQ(maps, 4U);
 }
 
-// One map, platform and sensor for all; a planner for each.
+// Threads share map, platform and sensor; each has its own planner.
 TEST(ConcurrentReading, PlannersInThreadsOfTheirOwnPlanAsOneAlone) {
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1});
   const RangeSensor sensor = RangeSensor::preset("panoramic").rays_for(1.0);

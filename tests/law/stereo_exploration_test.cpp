@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stereo camera explores a room one wall of which has no texture: the open problem that Shade & Newman 2011, VII,
-// name. No view can measure that wall, so the frontier before it stays; a planner must not stare at it for ever.
+// A stereo camera explores a room in which one wall has no texture. No view can measure that wall, so the frontier in
+// front of it remains; a planner must give it up. (Open problem in Shade & Newman 2011, VII.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ double noise_at(std::int64_t u, std::int64_t v, int wall) {
   return double((hash >> 40U) & 0xFFU);
 }
 
-// Blotches of 2 cm, smooth in between, so that both cameras see the same picture of them.
+// A smooth random texture with a period of 2 cm, so that both cameras see the same pattern.
 double texture_at(double u_m, double v_m, int wall) {
   constexpr double kBlotchM = 0.02;
   const double u = u_m / kBlotchM;
@@ -52,7 +52,7 @@ double texture_at(double u_m, double v_m, int wall) {
          b * ((1 - a) * noise_at(i, j + 1, wall) + a * noise_at(i + 1, j + 1, wall));
 }
 
-// A room with papered walls, one of which, at the largest x, may be plain white.
+// A room with textured walls; the wall at the largest x may have no texture.
 class Room {
  public:
   explicit Room(bool one_wall_plain) : one_wall_plain_(one_wall_plain) {}
@@ -97,9 +97,9 @@ class Room {
 struct Explored {
   Plan last;
   std::size_t views = 0;
-  std::size_t fruitless = 0;        // views after which no cell had changed its state
+  std::size_t fruitless = 0;        // views after which no cell changed its state
   std::size_t frontier_left = 0;    // cells
-  std::size_t before_the_wall = 0;  // those of them within 1 m of the wall at the largest x
+  std::size_t before_the_wall = 0;  // frontier cells within 1 m of the wall at the largest x
 };
 
 Explored explore(const std::string& name, bool one_wall_plain) {

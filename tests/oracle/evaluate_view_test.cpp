@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a view sees: the fast engine against uniform ray tracing, and hierarchical ray tracing against its definition.
+// Visibility of a view: the fast algorithm against uniform ray tracing, hierarchical ray tracing against its
+// definition.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -14,7 +15,7 @@
 namespace vantage {
 namespace {
 
-// A box that looks into free space, and a pose that looks at it.
+// A box next to free space, and a pose that looks at it.
 struct Case {
   Case(std::mt19937& engine, const VoxelFrame& frame) {
     std::uniform_int_distribution<std::int32_t> coordinate(-30, 20);
@@ -62,8 +63,8 @@ TEST(EvaluateView, CountsWhatUniformRayTracingCounts) {
   EXPECT_GT(sum.occupied, 50U * kWorlds);
 }
 
-// Boxes far aside of where images look: the rays that meet them advance fastest along another axis than those in the
-// middle, many meet none, and some boxes lie around the eye on two sides.
+// Boxes at the side of the image: their rays advance fastest along another axis than the central ones, many rays
+// miss, and some boxes surround the sensor on two sides.
 TEST(EvaluateView, CountsWhatLiesAsideToo) {
   std::mt19937 engine(43);
   constexpr int kWorlds = test::kSanitized ? 6 : 20;
@@ -122,7 +123,7 @@ TEST(EvaluateView, ThreadsChangeNothing) {
   EXPECT_THROW((void)evaluate_views(caster, views, rays, c.box, 2), std::invalid_argument);
 }
 
-// Algorithm 2, written down once more, over the map itself.
+// A second, simple implementation of Algorithm 2 on the map itself.
 struct SlowHierarchy {
   const OccupancyMap& map;
   const RayTree& tree;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// The survey against its definition: every line of sight looked along cell by cell in the map, one after the other.
+// The survey against its definition: every line of sight is walked cell by cell in the map.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,12 +27,12 @@ struct SurveyedWorld {
   FreeFlyer flyer;
   RangeSensor sensor;
   Pose current;
-  double furthest_m;  // that anything is looked at from
+  double furthest_m;  // length of the search rays, metres
   FrontierSurveyOptions options{.sight_directions = kDirections};
   TriedViews tried{sensor};
 };
 
-// Rooms, walls between them, worn walls, and holes in what is known.
+// Random rooms with walls, worn walls and unknown holes.
 OccupancyMap random_rooms(std::mt19937& engine, double resolution_m) {
   OccupancyMapOptions options{.resolution_m = resolution_m};
   if (engine() % 3 == 0) {
@@ -59,7 +58,7 @@ OccupancyMap random_rooms(std::mt19937& engine, double resolution_m) {
   for (int i = 0; i < 6; ++i) {
     for_each_cell(box(i % 3), [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
   }
-  map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);  // where the sensor is
+  map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);  // at the sensor
   return map;
 }
 
@@ -109,7 +108,7 @@ std::optional<VoxelIndex> along(const SurveyedWorld& world, const ReachableSpace
   return std::nullopt;
 }
 
-// A frontier cell's target: the first of its unknown neighbours that is seen along the first of its directions.
+// The target of a frontier cell by definition: the first unknown neighbour that is seen along its first direction.
 std::optional<FrontierTarget> target_of(const SurveyedWorld& world, const ReachableSpace& reachable,
                                         const VoxelIndex& frontier) {
   static const std::vector<Eigen::Vector3d> all_around = directions(kDirections);
@@ -131,7 +130,7 @@ std::optional<FrontierTarget> target_of(const SurveyedWorld& world, const Reacha
   return std::nullopt;
 }
 
-// Whether some reachable cell lies within half the body, and a cell more.
+// Whether a reachable cell lies within half the body plus one cell.
 bool body_comes_near(const SurveyedWorld& world, const ReachableSpace& reachable, const VoxelIndex& cell) {
   const double half_m = 0.5 * world.flyer.body_box(Pose::Identity()).extent().maxCoeff();
   const auto cells = static_cast<std::int32_t>(std::ceil(half_m / world.map.resolution_m())) + 1;
@@ -141,8 +140,8 @@ bool body_comes_near(const SurveyedWorld& world, const ReachableSpace& reachable
   return near;
 }
 
-// Lets views from some of the viewpoints found be in vain, of all the cells that were to be seen from there; and some
-// twice. Some places are not reached at all.
+// Marks views from some of the found viewpoints as in vain for all cells that they should see, some of them twice.
+// Some places are marked as failed.
 void look_in_vain(SurveyedWorld& world, const FrontierSurvey& survey) {
   std::map<VoxelIndex, std::vector<VoxelIndex>> sought;
   for (const FrontierTarget& target : survey.targets) {
@@ -167,7 +166,7 @@ void look_in_vain(SurveyedWorld& world, const FrontierSurvey& survey) {
   }
 }
 
-// Whether it is the looks in vain that leave nothing to seek there.
+// Whether an unknown neighbour was given up.
 bool was_given_up(const SurveyedWorld& world, const VoxelIndex& frontier) {
   return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
     const VoxelIndex unknown = frontier + step;
@@ -205,7 +204,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       }
     }
     if (expected.empty()) {
-      continue;  // then the survey tries every pair
+      continue;  // in this case, the survey tests every pair
     }
     ASSERT_EQ(survey.targets.size(), expected.size()) << "world " << i;
     for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -230,7 +229,7 @@ FrontierSurvey survey_from_nothing(const SurveyedWorld& world) {
   return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
 }
 
-// Throws out of some survey, where it is asked how to face.
+// A platform that throws in the n-th call of `facing`.
 class FailingFlyer final : public Platform {
  public:
   explicit FailingFlyer(const FreeFlyer& flyer) : flyer_(flyer) {}
@@ -254,13 +253,13 @@ class FailingFlyer final : public Platform {
   Box body_box(const Pose& pose) const override { return flyer_.body_box(pose); }
   bool can_tilt() const override { return flyer_.can_tilt(); }
 
-  mutable int left = 0;  // calls until it throws; 0: it never does
+  mutable int left = 0;  // calls until it throws; 0: never
 
  private:
   FreeFlyer flyer_;
 };
 
-// What a scan may do, and what no scan does: a box of cells that become free, occupied, contested or unknown.
+// Changes boxes of cells to free, occupied, contested or unknown, also in ways that no scan could.
 void change_some_cells(OccupancyMap& map, std::mt19937& engine) {
   const std::int32_t furthest = engine() % 8 == 0 ? 2 * kExtent : kExtent;
   std::uniform_int_distribution<std::int32_t> coordinate(-furthest, furthest);
@@ -280,10 +279,11 @@ void change_some_cells(OccupancyMap& map, std::mt19937& engine) {
     default:
       map.set_log_odds(box, -2.0);
   }
-  map.set_log_odds(VoxelBox{{-1, -1, -1}, {2, 2, 2}}, -2.0);  // where the sensor is
+  map.set_log_odds(VoxelBox{{-1, -1, -1}, {2, 2, 2}}, -2.0);  // at the sensor
 }
 
-// Walls the sensor in, or tears the walls down: what is reachable comes and goes far from any cell that changes.
+// Encloses the sensor with walls or removes them, so that distant cells become reachable or unreachable without a
+// change near them.
 void wall_in(OccupancyMap& map, bool closed) {
   map.set_log_odds(VoxelBox{{-3, -3, -3}, {4, 4, 4}}, closed ? 3.0 : -2.0);
   map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);
@@ -345,7 +345,7 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
       ASSERT_NO_FATAL_FAILURE(expect_equal(survey, expected)) << "world " << i << ", step " << step;
       ++compared;
       targets += expected.targets.size();
-      // Memory spares nothing where every pair is tried, nor while places rest.
+      // The memory saves nothing if every pair is tested or if places rest.
       if (!expected.targets.empty() && !world.tried.any_rests()) {
         operations += survey.ray_operations;
         operations_from_nothing += expected.ray_operations;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The levels of the multigrid hierarchy against sums straight from their definition, and the certificate of a pass
-// against one that divides.
+// The levels of the multigrid hierarchy against sums by definition, and the certification pass against one with
+// divisions.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -37,7 +37,7 @@ bool is_sink(const LaplaceDomain& domain, const VoxelIndex& cell) {
           LaplaceDomain::bit_of(cell)) != 0;
 }
 
-// Calls visit(cell, brick, row, x) for each cell that is no sink.
+// Calls visit(cell, brick, row, x) for each cell that is not a sink.
 template <class Visit>
 void for_each_unknown(const LaplaceDomain& domain, const Visit& visit) {
   for (std::size_t b = 0; b < domain.bricks().size(); ++b) {
@@ -90,7 +90,7 @@ TEST(HierarchyOracle, CellsAndBlocksKnowTheirFaces) {
   EXPECT_GE(cells, 100000U);
 }
 
-// What joins pairs of nodes, each given twice; a node with itself is its leak to the sinks.
+// Conductance between pairs of nodes, each pair in both orders; that of a node with itself is its leak to the sinks.
 using Joins = std::map<std::pair<std::uint32_t, std::uint32_t>, float>;
 
 Joins joins_of(const GraphLevel& level) {
@@ -109,7 +109,7 @@ Joins joins_of(const GraphLevel& level) {
   return joins;
 }
 
-// The joins of the first graph, from the faces of the blocks.
+// The conductances of the first graph, from the faces of the blocks.
 Joins joins_between(const FineLevel& fine, const detail::BlockLevel& blocks) {
   std::unordered_map<VoxelIndex, std::size_t> places;
   const auto address = [&](std::size_t b, std::size_t i) {
@@ -145,7 +145,7 @@ Joins joins_between(const FineLevel& fine, const detail::BlockLevel& blocks) {
   return joins;
 }
 
-// The joins of the level after `finer`, whose joins are `joins`.
+// The conductances of the level after `finer`, from those of `finer`.
 Joins joins_after(const GraphLevel& finer, const Joins& joins) {
   Joins sums;
   for (const auto& [pair, conductance] : joins) {
@@ -191,8 +191,8 @@ TEST(HierarchyOracle, GraphsAreTheSumsOfTheLevelsBefore) {
   EXPECT_GE(many_edges, 50U);
 }
 
-// The pass that solves compares without a division, and divides only where that leaves a doubt: it finds as many
-// cells as a pass that always divides, among values that differ by a few units in the last place or by much.
+// The certification pass compares without divisions and divides only in doubtful cases. It must find as many stuck
+// cells as a pass that always divides, for values that differ by a few units in the last place or by much.
 TEST(HierarchyOracle, NoStuckCellIsWithoutADoubt) {
   std::mt19937 engine(34);
   std::uniform_int_distribution<int> few(-2, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same scans into octomap::OcTree::insertPointCloud and into OccupancyMap::insert, real ones and random ones.
+// The same real and random scans in octomap::OcTree::insertPointCloud and OccupancyMap::insert.
 #include <bzlib.h>
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -20,7 +20,7 @@
 namespace vantage {
 namespace {
 
-// OctoMap works in float: a ray this close to an edge of a cell may take the other side of it.
+// OctoMap uses float: a ray this close to a cell edge, metres, may pass on the other side.
 constexpr double kEdge_m = 1e-4;
 
 struct Ray {
@@ -28,7 +28,7 @@ struct Ray {
   Eigen::Vector3d to;
 };
 
-// Whether the segment meets the box grown by `margin` (shrunk where negative).
+// Whether the segment intersects the box grown by `margin` (shrunk if negative).
 bool meets(const Ray& ray, const Box& box, double margin) {
   double enter = 0.0;
   double leave = 1.0;
@@ -72,8 +72,7 @@ class SideBySide {
   }
 
   void insert(Scan scan) {
-    // With one ray to the centre of each end cell, a return on a face turns the whole ray: such returns go to
-    // neither.
+    // With one ray per end cell, a return on a face would redirect the whole ray, so neither map gets such returns.
     const auto on_face = [&](const Eigen::Vector3f& point) {
       const Eigen::Vector3d world = scan.world_from_sensor * point.cast<double>() / map_.resolution_m();
       return ((world.array() - world.array().round()).abs() * map_.resolution_m() < 2e-5).any();
@@ -119,8 +118,8 @@ class SideBySide {
   }
 
  private:
-  // A disagreement is excused where a ray only grazes the cell, or ends on a face of it (OctoMap then stops before
-  // the cell): the ray, or its end, meets the cell grown, but not the cell shrunk.
+  // A difference is accepted if a ray only touches the cell, or ends on a face of it (OctoMap then stops before the
+  // cell): the ray, or its end, intersects the grown cell but not the shrunk one.
   void judge(const VoxelIndex& cell, Agreement& agreement) const {
     const Box box = map_.frame().box_of(cell);
     const auto grazes = [&](const Ray& ray) { return meets(ray, box, kEdge_m) && !meets(ray, box, -kEdge_m); };
@@ -143,7 +142,7 @@ class SideBySide {
   std::vector<Ray> rays_;
 };
 
-// Inserts the scans under both policies; at most one cell in 10,000 may need the excuse.
+// Inserts the scans with both policies. At most one cell in 10,000 may be an accepted difference.
 void expect_agreement(const std::vector<Scan>& scans, double resolution_m, std::size_t least_cells) {
   for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
     SideBySide both(resolution_m, policy);
@@ -165,7 +164,7 @@ Pose pose_of(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotat
   return Eigen::Translation3d(translation) * rotation.normalized();
 }
 
-// Every `keep`-th point of `points_m`, in the frame the sensor has them.
+// A scan of every `keep`-th point of `points_m` (world), in the sensor frame.
 Scan scan_at(const Pose& world_from_sensor, const std::vector<Eigen::Vector3d>& points_m, std::size_t keep) {
   Scan scan;
   scan.world_from_sensor = world_from_sensor;
@@ -223,7 +222,7 @@ TEST(InsertScanLikeOctomap, ALaserScan) {
   std::istringstream stream(read_bz2(path));
   const std::vector<Eigen::Vector3d> points = read_points(stream, 1'000'000);
   ASSERT_EQ(points.size(), 88'206U);
-  // Off the lattice: from a corner of four cells every diagonal ray would run along edges.
+  // Off the lattice: from the corner of four cells, all diagonal rays would pass along edges.
   const Pose pose = pose_of({0.0123, 0.0217, 0.0171}, Eigen::Quaterniond(0.9, 0.1, -0.2, 0.3));
   expect_agreement({scan_at(pose, points, 4)}, 0.05, 100'000);
 }
@@ -246,7 +245,7 @@ TEST(InsertScanLikeOctomap, TheTenRangeScansOfTheBunny) {
     const std::size_t vertices_at = text.find("element vertex ") + 15;
     std::istringstream body(text.substr(text.find("end_header\n") + 11));
     std::vector<Eigen::Vector3d> points = read_points(body, std::stoul(text.substr(vertices_at)));
-    // The scanner looks along its own -z; its distance is ours to choose.
+    // The scanner looks along its own -z; the distance can be chosen.
     const Eigen::Vector3d viewpoint(0.0031, 0.1012, 0.4017);
     for (Eigen::Vector3d& point : points) {
       point -= viewpoint;

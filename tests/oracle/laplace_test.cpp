@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The relaxation against a dense solution of the same equations, assembled here on its own.
+// The relaxation against a dense solution of the same equations, assembled independently.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -16,9 +16,8 @@ namespace {
 
 using Position = LaplaceProblem::Position;
 
-// One row per cell, straight from the definitions: identity at sinks and source; else, per axis, the second
-// difference with the value behind a closed face left out (FiniteVolume) or taken from the opposite side (Mirror, eq.
-// 9).
+// One row per cell, from the definitions: identity at sinks and source; elsewhere, per axis, the second difference,
+// where the value behind a closed face is left out (FiniteVolume) or taken from the opposite side (Mirror, eq. 9).
 Eigen::MatrixXd dense_operator(const LaplaceProblem& problem, NeumannScheme scheme) {
   const auto n = static_cast<Eigen::Index>(problem.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
@@ -106,7 +105,7 @@ TEST(LaplaceOracle, FiniteVolumeIsSymmetricAndMirrorIsNot) {
   EXPECT_GE(not_symmetric, 80U);
 }
 
-// Reciprocity: in a symmetric operator the flow from a to b equals that from b to a.
+// Reciprocity: in a symmetric operator, the flux from a to b equals that from b to a.
 TEST(LaplaceOracle, SwappingSourceAndSinkKeepsTheFlux) {
   std::mt19937 engine(9);
   const RelaxationOptions options{.tolerance = 1e-14};
@@ -121,7 +120,7 @@ TEST(LaplaceOracle, SwappingSourceAndSinkKeepsTheFlux) {
     const LaplaceProblem back(random.cells, std::span(&random.source, 1), sink);
     const LaplaceSolution a = relax_laplace(there, options);
     const LaplaceSolution b = relax_laplace(back, options);
-    for (std::size_t i = 0; i < there.size(); ++i) {  // one is the mirror image of the other in value
+    for (std::size_t i = 0; i < there.size(); ++i) {  // one value is 1 minus the other
       ASSERT_NEAR(a.phi[i], 1.0 - b.phi[i], 1e-10);
     }
     ++cases;
@@ -139,7 +138,7 @@ TEST(LaplaceOracle, FluxIsConservedThroughEveryCutBetweenSourceAndSinks) {
       continue;
     }
     const LaplaceSolution solution = relax_laplace(problem, options);
-    // Cut between the cells above and below a level of phi: all of them carry the same flux.
+    // Cuts between the cells above and below a value of phi: the flux through all cuts is the same.
     const auto flux_across = [&](double level) {
       double flux = 0.0;
       for (std::size_t i = 0; i < problem.size(); ++i) {
@@ -178,7 +177,7 @@ TEST(LaplaceOracle, MaximumPrincipleHoldsAtEverySweep) {
   EXPECT_EQ(sweeps, 2000U);
 }
 
-// The reason for the uniform source: a nearly solved field has a strictly lower neighbour everywhere.
+// The purpose of the uniform source: in a nearly converged field, every cell has a strictly lower neighbour.
 TEST(LaplaceOracle, UniformSourceLeavesNoCellStuck) {
   std::mt19937 engine(12);
   std::size_t cases = 0;
@@ -191,7 +190,7 @@ TEST(LaplaceOracle, UniformSourceLeavesNoCellStuck) {
     const LaplaceSolution plain = relax_laplace(problem, {.tolerance = 1e-12});
     stuck_without += count_stuck_cells(problem, plain.phi) > 0 ? 1U : 0U;
     const LaplaceSolution certain = relax_laplace(problem, {.tolerance = 1e-12, .uniform_source = 1e-4});
-    // Behind the source, seen from the sinks, phi rises above 1; the source itself is no interior cell.
+    // Behind the source, away from the sinks, phi exceeds 1; the source itself is not an interior cell.
     ASSERT_EQ(count_stuck_cells(problem, certain.phi), 0U) << "world " << world;
     ASSERT_TRUE(descend(problem, certain.phi, problem.source()).reaches_sink);
     ++cases;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Multigrid against a dense solution, the relaxation and the laws of the equation, over many seeded random worlds.
+// Multigrid against a dense solution, the relaxation and physical laws, in many random worlds.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -22,7 +22,7 @@ namespace {
 
 using Position = LaplaceProblem::Position;
 
-// A u = e_s + eps, u = 0 at the sinks, phi = u / u_s, straight from the definition.
+// A u = e_s + eps, u = 0 at the sinks, phi = u / u_s, from the definition.
 std::vector<double> dense_solution(const LaplaceProblem& problem, NeumannScheme scheme, double eps) {
   const auto n = static_cast<Eigen::Index>(problem.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(n, n);
@@ -131,14 +131,14 @@ std::vector<Worlds> kinds_of_worlds() {
   };
 }
 
-// Follows the steepest way down from every cell; returns how many never come to a sink.
+// Descends from every cell. Returns the number of cells from which no sink is reached.
 std::size_t walks_that_fail(const LaplaceProblem& problem, std::span<const double> phi) {
   std::vector<Position> by_height(problem.size());
   std::iota(by_height.begin(), by_height.end(), Position{0});
   std::sort(by_height.begin(), by_height.end(), [&](Position a, Position b) {
     return phi[static_cast<std::size_t>(a)] < phi[static_cast<std::size_t>(b)];
   });
-  // A step goes strictly down, so where it leads is known already.
+  // A step leads strictly down, so the result of its end is already known.
   std::vector<bool> arrives(problem.size(), false);
   for (const Position from : by_height) {
     const auto next = steepest_neighbour(problem, phi, from);
@@ -170,15 +170,15 @@ TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
       ASSERT_EQ(walks_that_fail(problem, phi), 0U) << kind.name << " " << seed;
       ASSERT_TRUE(descend(problem, phi, problem.source()).reaches_sink);
       const auto [low, high] =
-          std::minmax_element(phi.begin(), phi.end());  // the maximum principle, but for the source
+          std::minmax_element(phi.begin(), phi.end());  // the maximum principle, except at the source
       ASSERT_GE(*low, 0.0);
       ASSERT_LE(*high, 1.0 + 1e-3) << kind.name << " " << seed;
       ++worlds;
       cells += problem.size();
-      if (seed == 1) {  // and the counting does find what is stuck
+      if (seed == 1) {  // without the uniform source, the count must find stuck cells
         const LaplaceMultigrid plain(problem, {.uniform_source = 0.0});
         const std::vector<double> level = plain.values(problem);
-        // Where phi is lost in rounding and not even positive, the solver does not vouch for a cell at all.
+        // Where phi underflows and is not positive, the solver certifies no cell.
         EXPECT_GE(plain.report().stuck_cells, count_stuck_cells(problem, level)) << kind.name;
         EXPECT_EQ(plain.report().certified, plain.report().stuck_cells == 0);
         worlds_stuck_without += walks_that_fail(problem, level) > 0 ? 1U : 0U;
@@ -190,7 +190,7 @@ TEST(MultigridOracle, TheWayDownFromEveryCellEndsAtASink) {
   EXPECT_GE(worlds_stuck_without, 3U);
 }
 
-// Flux out of the sensor's cell, phi being 1 there: 1 / u_s.
+// Flux out of the source cell, where phi is 1: 1 / u_s.
 double flux_of_source(const LaplaceProblem& problem, std::span<const double> phi) {
   double flux = 0.0;
   for (const Position neighbour : problem.neighbours(problem.source())) {
@@ -229,8 +229,8 @@ TEST(MultigridOracle, FluxIsTheSameThroughEveryCutBetweenSourceAndSinks) {
   EXPECT_GE(cuts, 35U);
 }
 
-// A surface is the border of a set of cells that holds the source and no sink, however torn: what flows out of it is
-// what the source gives, and what the uniform source gives to its cells.
+// The boundary of any set of cells that contains the source and no sink: the flux out of it equals the flux of the
+// source plus that of the uniform source in these cells.
 TEST(MultigridOracle, FluxThroughAnyClosedSurfaceIsWhatItEncloses) {
   std::mt19937 engine(24);
   std::size_t surfaces = 0;
@@ -273,7 +273,7 @@ TEST(MultigridOracle, FluxThroughAnyClosedSurfaceIsWhatItEncloses) {
   EXPECT_GE(surfaces, 70U);
 }
 
-// The response of one cell to a source in another is that of the other to a source in the first.
+// Reciprocity: source and receiver may be exchanged.
 TEST(MultigridOracle, SourceAndReceiverMayBeExchanged) {
   std::mt19937 engine(25);
   std::size_t pairs = 0;
@@ -300,7 +300,7 @@ TEST(MultigridOracle, SourceAndReceiverMayBeExchanged) {
   EXPECT_GE(pairs, 7U);
 }
 
-// The operator of the black cells and the preconditioner, as conjugate gradients see them.
+// The operator of the black cells and the preconditioner, as conjugate gradients use them.
 TEST(MultigridOracle, OperatorAndPreconditionerAreSymmetricAndPositive) {
   std::mt19937 engine(22);
   std::normal_distribution<float> normal;
@@ -345,7 +345,7 @@ TEST(MultigridOracle, OperatorAndPreconditionerAreSymmetricAndPositive) {
   EXPECT_GE(cases, 28U);
 }
 
-// The same bits from every run; and what the processor's own instruction set computes is what any other would.
+// The same bits in every run and with every instruction set.
 TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
   const RandomRooms rooms({.seed = 5});
   LaplaceDomain domain = rooms.domain();
@@ -372,8 +372,8 @@ TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
   EXPECT_EQ(LaplaceMultigrid(rooms.domain(), rooms.source).values(rooms.problem()), first);
 }
 
-// Threads that meet at every border of their shares, of worlds with fewer bricks than threads to some that keep them
-// all busy on the first coarse levels, too.
+// Many borders between the shares of threads: from worlds with fewer bricks than threads to worlds that keep all
+// threads busy on the first coarse levels.
 TEST(MultigridOracle, AnyNumberOfThreadsComputesTheSameBits) {
   std::vector<Worlds> worlds = kinds_of_worlds();
   worlds.push_back({"one brick", {.extent = {12, 7, 8}, .room_cells = 12}});

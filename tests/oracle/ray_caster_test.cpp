@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first cell that is not free along a ray: every fast path against the walk that looks at every cell.
+// The first cell along a ray that is not free: every fast algorithm against a walk through all cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 constexpr VoxelBox kEverywhere{{-kFurthestVoxel, -kFurthestVoxel, -kFurthestVoxel},
                                {kFurthestVoxel, kFurthestVoxel, kFurthestVoxel}};
 
-// A point anywhere, or in a lattice plane, or in the middle of a cell.
+// A point anywhere, in a lattice plane, or in the centre of a cell.
 Eigen::Vector3d random_point(std::mt19937& engine, const VoxelFrame& frame, double reach_m) {
   std::uniform_real_distribution<double> metre(-reach_m, reach_m);
   Eigen::Vector3d point(metre(engine), metre(engine), metre(engine));
@@ -68,7 +68,7 @@ TEST(RayCaster, OneRayAtATimeFindsWhatTheSlowWalkFinds) {
   }
 }
 
-// An image of any kind of sensor, some with neighbours that are none.
+// The rays of any kind of sensor, including images with unrelated neighbours.
 ViewRays random_rays(std::mt19937& engine, double range_m) {
   std::uniform_real_distribution<double> angle(0.05, 2.5);
   const std::size_t width = 1 + engine() % 60;
@@ -110,8 +110,8 @@ void place_points(const RayTile& tile, RayBlock& block) {
   }
 }
 
-// All rays of one view by `set`, against the slow walk from the same origin to the same ends; and the cells of a box
-// that they meet.
+// Compares all rays of one view, cast with `set`, with slow walks to the same ends, and the cells of a box that they
+// visit.
 void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose& pose, const ViewRays& rays,
                   InstructionSet set, const std::vector<RayEnd>& expected, Compared& compared) {
   const VoxelFrame& frame = map.frame();
@@ -285,7 +285,7 @@ TEST(RayCaster, DistancesAreThoseToTheNearestWordThatStops) {
   EXPECT_GT(cases, 90'000U);
 }
 
-// Cells and boxes of cells come and go, at all distances and some of them where nothing has been seen.
+// Cells and boxes of cells change, at all distances and also in unknown space.
 TEST(RayCaster, DistancesFollowTheMapAsIfFoundAnew) {
   std::mt19937 engine(37);
   std::uniform_int_distribution<std::int32_t> coordinate(-120, 120);
@@ -358,7 +358,7 @@ TEST(RayCaster, AViewSeesTheDistinctCellsInWhichItsRaysEnd) {
   EXPECT_GT(cells, 300U * kWorlds);
 }
 
-// As if the map said what is supposed: rays pass the unknown cells of the box but some.
+// Compares with a map in which the assumed states are written: the unknown cells of the box are free, except some.
 TEST(RayCaster, SupposesWhatUnknownCellsHold) {
   std::mt19937 engine(91);
   std::uniform_int_distribution<std::int32_t> cell(-24, 12);
@@ -393,7 +393,7 @@ TEST(RayCaster, SupposesWhatUnknownCellsHold) {
       }
       for_each_cell(stopping.box().grown(2),
                     [&](const VoxelIndex& at) { EXPECT_EQ(caster.at(at), expected.at(at)); });
-      // Nothing is supposed any more of what changes: here all of it.
+      // A change of a cell ends its assumption; here all cells change.
       map.set_log_odds(stopping.box().grown(8), -2.0);
       caster.update();
       EXPECT_EQ(caster.at(lo), Occupancy::Free);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Choosing among views that real sensors took: who knows most, soonest?
+// Choosing among views that real sensors took: who knows most after few views?
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ double share_below(const std::vector<double>& areas, double area) {
   return double(std::count_if(areas.begin(), areas.end(), [&](double a) { return a < area; })) / double(areas.size());
 }
 
-// Areas of 100 random orders and of greedy ones, by one measure.
+// The areas under the curves of 100 random orders and of the greedy one, for one measure.
 struct Field {
   Field(const RecordedViews& views, RecordedViews::Measure measure) {
     const auto area =
@@ -54,10 +54,10 @@ struct Field {
       random.push_back((views.curve("random", views.random_order(0, seed)).*area)());
     }
   }
-  // Of an area: its share of greedy's, and the share of the random ones that it is above.
+  // An area as a share of that of greedy, and the share of random orders below it.
   [[nodiscard]] double of_greedy(double area) const { return area / greedy; }
   [[nodiscard]] double above(double area) const { return share_below(random, area); }
-  // The area that is above 95 of the random ones.
+  // The 95th of the 100 random areas in ascending order.
   [[nodiscard]] double bound() const {
     std::vector<double> sorted = random;
     std::sort(sorted.begin(), sorted.end());
@@ -68,7 +68,8 @@ struct Field {
   std::vector<double> random = {};
 };
 
-// What a chooser is to reach: more than views spread evenly and than 95 % of the random orders, and 90 % of greedy's.
+// The minimum quality of a choice: better than evenly spaced views, at least 90 % of the random orders below it, and
+// at least 90 % of greedy.
 class Bar {
  public:
   explicit Bar(const RecordedViews& views)
@@ -113,7 +114,7 @@ ViewOrderCurve chosen_curve(const Dataset& data, const char* name, const ChooseV
   return data.views.curve(name, chosen_order(data.views, 0, choose));
 }
 
-// The views judged by what is expected of them, by all that planners seek, and by what `planners` seek next.
+// Tests the choices by expected gain, by the cells that all planners seek, and by those that `planners` seek next.
 void expect_good_choice(const Dataset& data, const std::vector<const char*>& planners) {
   std::printf("%s\n", data.name.c_str());
   const Bar bar(data.views);
@@ -138,7 +139,7 @@ TEST(RealViews, BunnyScans) {
   expect_good_choice(recorded("stanford", folder, 0.004, kBunny), {});
 }
 
-// Every order of the ten scans behind the first: the view that comes second decides whether both measures can be had.
+// All orders of the nine scans after the first: shows whether a second view exists that is good in both measures.
 TEST(RealViews, FewOrdersOfTheBunnyScansAreGood) {
   VANTAGE_REAL_DATA(folder, "object_scans/stanford_bunny_range");
   const RecordedViews views = recorded("stanford", folder, 0.004, kBunny).views;
@@ -193,7 +194,7 @@ TEST(RealViews, Kitchen) {
   expect_good_choice(recorded("7scenes", folder, 0.05), {"harmonic"});
 }
 
-// Three scans of a wall side by side, the middle one of what the others see already.
+// Three scans of a wall side by side; the others also see what the middle one sees.
 RecordedViews three_walls() {
   std::vector<Scan> scans;
   for (const double x : {0.0, 0.5, 2.0}) {
@@ -226,7 +227,7 @@ TEST(RecordedViews, EveryOrderEndsWithTheSameCells) {
   }
 }
 
-// Scans of 60 rays each, of lengths drawn at random.
+// Scans of 60 rays with random lengths.
 std::vector<Scan> drawn_scans(std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   const auto draw = [&](double lo, double hi) {
@@ -243,7 +244,7 @@ std::vector<Scan> drawn_scans(std::uint64_t seed) {
   return scans;
 }
 
-// Every cell asked on its own, against maps of the scans so far.
+// Tests every cell separately against maps of the scans so far.
 TEST(RecordedViews, VoidCellsAreThoseUnknownInTheHullOfAllThatIsHit) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -276,7 +277,7 @@ TEST(RecordedViews, VoidCellsAreThoseUnknownInTheHullOfAllThatIsHit) {
   EXPECT_EQ(compared, 48);
 }
 
-// A view that shows little else is taken where it alone shows what is sought.
+// A view that shows little else is chosen if it is the only one that shows a sought cell.
 TEST(RecordedViews, WhatIsSoughtComesBeforeWhatIsExpected) {
   const RecordedViews views = three_walls();
   const RangeSensor sensor = RangeSensor::pinhole(40, 40, 0.9, 0.9, 0.0, 3.0);
@@ -289,12 +290,12 @@ TEST(RecordedViews, WhatIsSoughtComesBeforeWhatIsExpected) {
     };
     return chosen_order(views, 0, most_for_what_is_sought(views, sensor, sought))[1];
   };
-  EXPECT_EQ(second({2.5, 0.0, 1.5}), 2U);   // the last alone sees it
-  EXPECT_EQ(second({0.95, 0.0, 1.6}), 1U);  // the middle one sees it, though it shows less
-  EXPECT_EQ(second({9.0, 0.0, 1.5}), 2U);   // nobody does
+  EXPECT_EQ(second({2.5, 0.0, 1.5}), 2U);   // only the last view sees it
+  EXPECT_EQ(second({0.95, 0.0, 1.6}), 1U);  // the middle view sees it, although it shows less
+  EXPECT_EQ(second({9.0, 0.0, 1.5}), 2U);   // no view sees it
 }
 
-// Every cell asked on its own.
+// Tests every cell separately.
 TEST(RecordedViews, BehindFrontiersIsWhatIsUnknownBesideAFreeCell) {
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -321,7 +322,7 @@ TEST(RecordedViews, BehindFrontiersIsWhatIsUnknownBesideAFreeCell) {
   EXPECT_GT(found, 10000);
 }
 
-// With an object, all around is known to be free, and beyond nothing is left to look for.
+// With an object, the surroundings are free, and nothing is sought beyond them.
 TEST(RecordedViews, AroundAnObjectNothingIsLeftToLookFor) {
   int frontier = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Registration on scans that others took, from guesses that are off by a known amount.
+// Registration of recorded scans, from initial poses that are off by a known amount.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// Turned about `middle` and moved, by exactly so much, in a direction drawn at random.
+// A pose rotated about `middle` by `turned_rad` and moved by `moved_m` metres, in random directions.
 Pose off_by(double moved_m, double turned_rad, const Eigen::Vector3d& middle, std::mt19937& engine) {
   std::normal_distribution<double> normal;
   const auto direction = [&] {
@@ -35,7 +35,7 @@ Pose off_by(double moved_m, double turned_rad, const Eigen::Vector3d& middle, st
          Eigen::Translation3d(-middle);
 }
 
-// A corner of three walls and a step: nothing slides.
+// A corner of three walls with a step, which fixes all degrees of freedom.
 std::vector<Eigen::Vector3f> corner() {
   std::vector<Eigen::Vector3f> points;
   for (float a = 0.0F; a < 1.0F; a += 0.02F) {
@@ -136,7 +136,7 @@ struct Tally {
 
 constexpr std::pair<double, double> kOff[] = {{0.02, 1.0 * kDegree}, {0.05, 3.0 * kDegree}, {0.1, 5.0 * kDegree}};
 
-// Every scan of the bunny against the nine others. The bunny is 15 cm long: 10 cm off is next to it.
+// Each scan of the bunny against the nine others. The bunny is 15 cm long, so an error of 10 cm is large.
 TEST(RealRegistration, BunnyScans) {
   VANTAGE_REAL_DATA(folder, "object_scans/stanford_bunny_range");
   const std::vector<test::BunnyScan> scans = test::bunny_scans(folder);
@@ -165,7 +165,7 @@ TEST(RealRegistration, BunnyScans) {
   }
 }
 
-// Median distance in depth between the points of a scan at `pose` and the image that another frame took, metres.
+// Median depth difference between the points of a scan at `pose` and the image of another frame, metres.
 double depth_gap_m(const Scan& scan, const Pose& pose, const Recording& recording, std::size_t other) {
   const DepthCamera& camera = recording.camera();
   const DepthImage image = recording.read(other).depth;
@@ -178,7 +178,7 @@ double depth_gap_m(const Scan& scan, const Pose& pose, const Recording& recordin
     if (p.allFinite() && p.z() > 0.0 && u >= 0.0 && v >= 0.0 && u < double(camera.width) &&
         v < double(camera.height)) {
       const double gap = std::abs(p.z() - double(image.at(std::size_t(u), std::size_t(v))));
-      if (gap < 0.1) {  // else: not measured, or hidden
+      if (gap < 0.1) {  // otherwise not measured or occluded
         gaps.push_back(gap);
       }
     }
@@ -187,8 +187,8 @@ double depth_gap_m(const Scan& scan, const Pose& pose, const Recording& recordin
   return gaps.at(gaps.size() / 2);
 }
 
-// Neighbouring frames of the kitchen, a second of hand-held motion apart: right where the two depth images agree by
-// the pose found as well as by the recording's own pose, or better than the 9.7 mm that its poses reach on the whole.
+// Frames of the kitchen one second apart (hand-held). A result is correct if the depth images agree as well as with
+// the recorded pose, or better than 9.7 mm, the overall accuracy of the recorded poses.
 TEST(RealRegistration, SevenScenesNeighbours) {
   VANTAGE_REAL_DATA(folder, "rgbd/7scenes_redkitchen_40");
   const Recording recording = Recording::open("7scenes", folder);

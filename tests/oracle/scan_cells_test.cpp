@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Insertion against its definition, cell by cell, where shortcuts might show: depth images dense enough that most
-// rays have nothing to add, images that are none, and rays that run exactly through edges and corners of cells.
+// Insertion against its definition, cell by cell, where shortcuts could fail: dense depth images in which most rays
+// add nothing, unorganised scans, and rays exactly through edges and corners of cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ double uniform(std::mt19937& engine, double lo, double hi) {
   return std::uniform_real_distribution<double>(lo, hi)(engine);
 }
 
-// Where a ray from `eye` meets a closed room with a few boxes in it.
+// The intersection of rays from `eye` with a closed room that contains a few boxes.
 struct Room {
   explicit Room(std::mt19937& engine) {
     for (Box& box : boxes) {
@@ -43,8 +43,7 @@ struct Room {
 
 enum class Kind { Pinhole, Spherical, Shuffled };
 
-// An image of a random room with noise, holes and rays without a return. A shuffled one is none: neighbours have
-// nothing to do with each other.
+// An image of a random room with noise, holes and rays without return. In a shuffled one, neighbours are unrelated.
 Scan random_image(std::mt19937& engine, Kind kind, std::size_t width, std::size_t height, const Room& room) {
   Scan scan;
   scan.width = width;
@@ -101,8 +100,8 @@ TEST(ScanCells, OfSphericalImages) { EXPECT_GT(compare_images(Kind::Spherical, 1
 
 TEST(ScanCells, OfImagesThatAreNone) { EXPECT_GT(compare_images(Kind::Shuffled, 13, 20), 500'000U); }
 
-// Rays from corners or centres of cells to points of a lattice: all is decided by ties. Either to anywhere, or to
-// stairs of walls that are dense enough for most rays to be drawn in part.
+// Rays from corners or centres of cells to lattice points, so that ties decide everything. Either to random points,
+// or to steps of walls that are dense enough for most rays to be inserted in part.
 Scan lattice_scan(std::mt19937& engine, double resolution_m, double offset, bool anywhere) {
   std::uniform_int_distribution<int> coordinate(-25, 25);
   const auto lattice = [&](double x, double y, double z) {
@@ -140,7 +139,8 @@ TEST(ScanCells, OfRaysThroughEdgesAndCorners) {
   EXPECT_GT(cells, 500'000U);
 }
 
-// Inserts the scan and expects every log-odds to move as the definition says. Returns how many cells were spared.
+// Inserts the scan and expects all log-odds to change as defined. Returns the number of cells kept by
+// keep_grazed_cells.
 std::size_t insert_beside_definition(const Scan& scan, RayPolicy policy, OccupancyMap& map) {
   OccupancyMapOptions of_octomap = map.options();
   of_octomap.keep_grazed_cells = false;
@@ -177,7 +177,7 @@ TEST(ScanCells, OfRaysThatGraze) {
   EXPECT_GT(spared, 1'000U);
 }
 
-// A sensor that passes along a known wall. Returns how many cells of the wall were worn away at most.
+// A sensor moves along a known wall. Returns the maximum number of wall cells that were free at once.
 std::size_t worn_cells(bool keep_grazed_cells) {
   OccupancyMap map({.resolution_m = 0.1, .keep_grazed_cells = keep_grazed_cells});
   for (std::int32_t x = -5; x < 80; ++x) {
@@ -217,7 +217,7 @@ TEST(ScanCells, AnImageWhoseSidesOverflowIsNone) {
   scan.height = 4;  // the product is 0 in 64 bits
   EXPECT_FALSE(scan.organised());
   scan.width = (std::size_t{1} << 63U) + 4;
-  scan.height = 4;  // and 16 here
+  scan.height = 4;  // the product is 16 in 64 bits
   EXPECT_FALSE(scan.organised());
   EXPECT_GT(test::compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EveryReturn), 5U);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stereo on pictures that others took, against the truth they measured.
+// Stereo on recorded images, compared with their ground truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace vantage {
 namespace {
 
-// A grey .pfm image, rows from the top.
+// Reads a grey .pfm image, rows from the top.
 std::vector<float> read_pfm(const std::filesystem::path& file, std::size_t& width, std::size_t& height) {
   std::ifstream in(file, std::ios::binary);
   std::string kind;
@@ -76,8 +76,8 @@ TEST(RealStereo, MotorcycleAgainstTheTruth) {
   }
 }
 
-// A chessboard of 25 mm in front of two cameras with distortion, a little askew: calibrated here from its own
-// corners, rectified and matched, its corners must come out 25 mm apart.
+// A chessboard with squares of 25 mm in front of two cameras with distortion and a slight rotation. Calibrated from
+// its own corners, rectified and matched, the corners must be 25 mm apart.
 TEST(RealStereo, AChessboardKeepsItsSizeThroughRectification) {
   VANTAGE_REAL_DATA(folder, "stereo/opencv_chessboard_rig");
   const cv::Size board(9, 6);
@@ -150,11 +150,10 @@ TEST(RealStereo, AChessboardKeepsItsSizeThroughRectification) {
   EXPECT_NEAR(median_m, 0.025, 0.001);
 }
 
-// Free cells of one pair in which the next one measures a surface, as a share of the cells that it hits. Noise alone
-// does that: at a share x of the range the depth of a match has a standard deviation of x^2 cells, and two such
-// depths are more than a cell apart the wrong way round with the probability Q(1 / (sqrt(2) x^2)), 24 % at the end of
-// the range and 2 % half-way. 15 % is what surfaces spread over the outer half would show; wrong matches, poses or
-// calibration show more.
+// The share of hit cells of one pair that are free cells of the previous pair. Noise alone causes some: at a share x
+// of the range, the standard deviation of a depth is x^2 cells, so two depths contradict each other by more than a
+// cell with probability Q(1 / (sqrt(2) x^2)): 24 % at the end of the range, 2 % half-way. Surfaces spread over the
+// outer half give 15 %; wrong matches, poses or calibration give more.
 TEST(RealStereo, KittiPairsContradictEachOtherSeldom) {
   VANTAGE_REAL_DATA(folder, "stereo/kitti_odometry_seq1_30");
   const OccupancyMapOptions options{.resolution_m = 0.2};

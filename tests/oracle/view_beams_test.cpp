@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The beams in which rays of a view go together: that they hold them, and that floods reach what their rays meet.
+// Beams group the rays of a view: they must contain their rays, and floods must reach all cells that the rays hit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-// Some look all around, and some have neighbours that are none.
+// Images of panoramic sensors and pinholes, some with unrelated neighbours.
 ViewRays image_of_any_kind(std::mt19937& engine) {
   std::uniform_real_distribution<double> angle(0.05, 2.5);
   const std::size_t width = 1 + engine() % 60;
@@ -98,7 +98,7 @@ TEST(ViewBeams, LayersOfABeamAreThoseOfItsSlices) {
   }
 }
 
-// A beam, windows of random cells on its way with gaps between them, and what a flood says of them.
+// A beam, windows of random cells along it with gaps between them, and the result of a flood.
 struct FloodCase {
   struct Passage {
     SliceWindows windows;
@@ -151,7 +151,7 @@ struct FloodCase {
     place[static_cast<Eigen::Index>(beam.axes.v)] += beam.within[1];
     return frame.size_m * place;
   }
-  // How many passages the flood reaches before nothing is left.
+  // Number of passages that the flood reaches before it is empty.
   std::size_t flood(const VoxelBox& box, InstructionSet set) {
     SliceFlood flood(box, set);
     EXPECT_TRUE(flood.begin(beam));
@@ -171,7 +171,7 @@ struct FloodCase {
   bool fits = true;
 };
 
-// Where a walk of a ray of these slopes is stopped: passage, slice, row and column, if it is anywhere.
+// Where a ray of these slopes is blocked: passage, slice, row and column.
 struct FloodStop {
   std::size_t passage;
   std::size_t slice;
@@ -221,7 +221,7 @@ TEST(ViewBeams, FloodsReachWhatRaysMeet) {
     ++cases;
     constexpr std::int32_t kFar = 1'000;
     VoxelBox box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
-    if (cases % 4 == 0) {  // a part of the way
+    if (cases % 4 == 0) {  // only a part of the beam
       const VoxelIndex at = of.beam.axes.at(of.beam.along(20), of.beam.first[0], of.beam.first[1]);
       box = {at - VoxelIndex{6, 7, 9}, at + VoxelIndex{8, 5, 4}};
     }
@@ -266,7 +266,7 @@ TEST(ViewBeams, FloodsReachWhatRaysMeet) {
   }
   EXPECT_GT(dry, cases / 4);
   EXPECT_GT(stopped, 5 * cases);
-  EXPECT_LT(3 * said, blocking);  // what is behind others is not said to be met
+  EXPECT_LT(3 * said, blocking);  // occluded cells are not reported as met
 }
 
 }  // namespace

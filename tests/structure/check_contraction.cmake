@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# cmake -D COMPILER=<g++ for x86-64> -D "INCLUDES=<folders>" -D "HEADERS=<public headers>" -D FOLDER=<to write to> -P ...
-# A host for another processor may round a * b + c once. No inline function of ours may have such a sum, or a host gets
-# other bits than the library, and the linker gives the library the host's copy of the function. What this compiler fuses
-# is what is found: another may fuse more.
+# cmake -D COMPILER=<g++ for x86-64> -D "INCLUDES=<folders>" -D "HEADERS=<public headers>" -D FOLDER=<output>
+#       -P check_contraction.cmake
+# On other processors, a compiler may round a * b + c once (contraction). Inline functions must not contain such an
+# expression: the host's copy would compute other bits than the library, and the linker may choose the host's copy for
+# the library. This finds what this compiler contracts; another compiler may contract more.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 list(TRANSFORM HEADERS REPLACE "(.+)" "#include <\\1>")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -D ROOT=<source tree> -P check_floors.cmake
-# Folders under include/vantage and src are floors. A folder includes itself and lower floors only; folders on the same
-# floor never see each other; nothing in the library includes the umbrella header or the applications.
+# Folders under include/vantage and src are floors. A folder includes only itself and lower floors, not folders of the
+# same floor. Nothing in the library includes the umbrella header or the applications.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 set(floor_geometry 0)
@@ -37,7 +37,7 @@ file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/vantage/*.hpp" "${RO
      "${ROOT}/src/*.hpp" "${ROOT}/src/*.cpp")
 foreach(file IN LISTS files)
   if(NOT file MATCHES "^(include/vantage|src)/([a-z_]+)/")
-    continue() # vantage.hpp itself
+    continue()  # vantage.hpp
   endif()
   set(folder "${CMAKE_MATCH_2}")
   math(EXPR checked "${checked} + 1")
@@ -61,7 +61,7 @@ foreach(file IN LISTS files)
     elseif(path MATCHES "^(vantage/)?([^/]+)/")
       set(public "${CMAKE_MATCH_1}")
       set(included_folder "${CMAKE_MATCH_2}")
-      # What is neither ours by its name nor on a floor nor in src/ is another project's.
+      # Headers that are not under vantage/, on a floor or in src/ belong to other projects.
       if(public OR DEFINED floor_${included_folder} OR EXISTS "${ROOT}/src/${path}")
         check_include("${file}" "${folder}" "${included_folder}")
       endif()

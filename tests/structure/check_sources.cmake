@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -D ROOT=<source tree> -D HEADERS=<installed headers> -D COMPONENTS=<what is built> -P check_sources.cmake
-# Every file of ours names its licence, every header is guarded and installed, and no file is longer than one can read: 300 lines for a header, 400 for a source.
+# Checks that every file names its licence, every header is guarded and installed, and no file is too long: 300 lines
+# for a header, 400 for a source.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 set(faults)

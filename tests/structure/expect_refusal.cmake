@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -D CHECK=<script> -D ROOT=<planted tree> -D MESSAGE=<regex> -P expect_refusal.cmake
-# Passes when the check fails on the planted tree, and fails for the planted reason.
+# Passes if the check fails on the planted tree with the expected message.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 execute_process(COMMAND "${CMAKE_COMMAND}" -D "ROOT=${ROOT}" -P "${CHECK}" RESULT_VARIABLE code ERROR_VARIABLE error

@@ -12,13 +12,13 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What the host is to do after a call of `plan`.
+/// What the host should do after a call of `plan`.
 enum class Outcome : std::uint8_t {
-  Move,         ///< there is a view to take: follow the path
-  Explored,     ///< nothing that this sensor on this platform could observe is left
-  Unreachable,  ///< all that can be reached is seen, but known free space with more to see is cut off: ask again
-                ///< later
-  Blocked,      ///< the platform cannot start or move; `reason` holds the remedy
+  Move,      ///< there is a view to take: follow the path
+  Explored,  ///< nothing is left that this sensor on this platform could observe
+  /// Everything within reach is seen, but known free space from which more could be seen is cut off: plan again later
+  Unreachable,
+  Blocked,  ///< the platform cannot start or move, or no path to any view exists; `reason` names the remedy
 };
 
 [[nodiscard]] constexpr std::string_view to_string(Outcome outcome) {
@@ -35,82 +35,94 @@ enum class Outcome : std::uint8_t {
   return "blocked";
 }
 
-/// How following a plan ended, as the host knows it.
+/// How following a plan ended. Reported by the host.
 enum class GoalResult : std::uint8_t {
-  Reached,    ///< the sensor is as near to the goal as the controller brings it, and has scanned there
-  Failed,     ///< the controller cannot get there
-  Preempted,  ///< the host has other plans; says nothing about the goal
+  Reached,    ///< the sensor is as close to the goal as the controller brings it, and has scanned there
+  Failed,     ///< the controller cannot reach the goal
+  Preempted,  ///< the host cancelled the goal; says nothing about whether it can be reached
 };
 
-/// Frontier cells that no view is planned for, by cause.
+/// Frontier cells that are no targets, by cause. The planners for an object (`next-best-view`) count unknown cells or
+/// faces of the object instead.
 struct Leftover {
-  std::size_t unreachable = 0;   ///< not beside any place that the platform can reach
-  std::size_t unobservable = 0;  ///< no reachable pose of this sensor has a line of sight to what lies behind them
-  std::size_t in_vain = 0;       ///< looked at from places that differ, and nothing was learned (TriedViews)
+  std::size_t unreachable = 0;  ///< not close to any reachable cell
+  /// No reachable pose of this sensor has a line of sight to the unknown cells behind them.
+  std::size_t unobservable = 0;
+  std::size_t in_vain = 0;  ///< looked at from enough different places without a result (TriedViews)
 
-  /// The same counts.
+  /// Compares all counts.
   friend bool operator==(const Leftover&, const Leftover&) = default;
 };
 
-/// Where to look, and what the planner expects of it.
+/// A sensor pose and its expected utility.
 struct View {
   Pose pose = Pose::Identity();  ///< world_from_sensor
-  double utility = 0.0;          ///< in the planner's own unit; 0 where there is nothing to expect
+  double utility = 0.0;          ///< in the unit of the planner, e.g. cells or faces; 0 if nothing is expected
 };
 
-/// Counts and times of one cycle. Times are for reports only; nothing depends on them.
+/// Counts and times of one plan. Times are for reports only; no decision depends on them.
 struct PlanStatistics {
-  std::size_t frontier_cells = 0;    ///< inside the region, reachable or not
-  std::size_t observable_cells = 0;  ///< of those, the ones some reachable pose can resolve
-  std::size_t reachable_cells = 0;   ///< cells the platform can bring the sensor to
-  std::size_t void_cells = 0;        ///< planners that look for voids
+  std::size_t frontier_cells = 0;    ///< all frontier cells in the region, reachable or not
+  std::size_t observable_cells = 0;  ///< those of them that some reachable pose can observe
+  std::size_t reachable_cells = 0;   ///< cells to which the platform can bring the sensor
+  std::size_t void_cells = 0;        ///< planners that search voids only
   std::size_t views_scored = 0;      ///< candidate views evaluated
   std::uint64_t ray_operations = 0;  ///< cells visited along rays, plus cell updates of a field
-  std::size_t solver_sweeps = 0;     ///< planners that solve a field
-  double survey_ms = 0.0;            ///< frontiers, reachability, observability
-  double evaluate_ms = 0.0;          ///< what candidate views would see; planners that evaluate them
-  double choose_ms = 0.0;            ///< the strategy itself
-  double path_ms = 0.0;              ///< the way there
+  std::size_t solver_sweeps = 0;     ///< planners that solve a field only
+  double survey_ms = 0.0;            ///< milliseconds: frontier, reachability, observability
+  double evaluate_ms = 0.0;  ///< milliseconds: visibility of candidate views; planners that evaluate it separately
+  double choose_ms = 0.0;    ///< milliseconds: choice of the view
+  double path_ms = 0.0;      ///< milliseconds: path to the view
 };
 
-/// The answer to "where should the sensor look next?".
+/// The result of a call of `plan`: where the sensor should look next.
 struct Plan {
-  Outcome outcome = Outcome::Blocked;  ///< what to do now
-  View goal;                           ///< the view to take; meaningful if outcome is Move
+  Outcome outcome = Outcome::Blocked;  ///< what the host should do
+  View goal;                           ///< the view to take; valid only if outcome is Move
   std::vector<Pose> path;  ///< from the current pose to goal.pose, both included; empty unless outcome is Move
-  /// The unknown cells that the view is to resolve, once for every frontier cell beside them. Once scans on the way
-  /// have made all of them known, the rest of the way is not worth following: plan again. Empty if the planner cannot
-  /// say.
+  /// The unknown cells that the view is to resolve; a cell appears once for each target frontier cell beside it. Once
+  /// all of them are known, the rest of the path is not worth following: plan again. Empty if the planner does not
+  /// know them.
   std::vector<VoxelIndex> sought;
-  /// The views that were weighed against the goal, itself included, with their utilities; for whoever wants to look.
-  /// Empty for planners that weigh none.
+  /// The views that were compared, with their utilities, for display. Includes the goal of a Move. Empty for planners
+  /// that compare none.
   std::vector<View> candidates;
-  Leftover leftover;                             ///< what no view is planned for
-  std::string reason = "plan() was not called";  ///< one sentence, for a person
-  PlanStatistics statistics;                     ///< what it took
+  Leftover leftover;                             ///< frontier cells that no view is planned for
+  std::string reason = "plan() was not called";  ///< one sentence for a person
+  PlanStatistics statistics;                     ///< counts and times of this plan
 };
 
-/// Answers once per cycle where to look next. A host's whole loop: `map.insert(scan)`, `planner->plan(map, pose)`,
-/// follow the path, repeat.
+/// Interface of all planners: decides once per cycle where the sensor should look next.
 ///
-/// Every planner keeps this contract, and one test suite holds all of them to it: the path starts at `current`, ends
-/// at `goal.pose` and stays in known-free cells that the platform admits; the outcome is Explored only when nothing
-/// is left that the sensor could observe and has not looked at in vain; the same map, pose and seed give the same
-/// plan for any number of threads; planning twice without a new scan changes nothing; a goal that the robot does not
-/// come nearer to is not asked for again and again; and but for the memory of views that were tried, which belongs to
-/// one map, a planner holds nothing that the map cannot rebuild.
+///     for (;;) {
+///       map.insert(scan);                               // host: scan at the current pose
+///       Plan plan = planner->plan(map, current);
+///       if (plan.outcome != Outcome::Move) break;
+///       follow(plan.path);                              // host: scan on the way, see `check`
+///     }
+///
+/// All planners keep one contract, which one test suite holds:
+/// - The path starts at `current`, ends at `goal.pose` and stays in cells that the platform admits.
+/// - Explored means that nothing is left that the sensor could observe and has not looked at in vain.
+/// - The same map, pose and seed give the same plan for any number of threads.
+/// - Planning twice without a new scan gives the same plan.
+/// - A goal to which the robot comes no nearer is given up (TriedViews).
+/// - Except for the memory of tried views, which belongs to one map, a planner keeps no state that the map cannot
+///   rebuild.
+///
+/// An ObjectPlanner remembers goals that were not reached, and ends by its own rule.
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;
-  /// The NAME that `make_planner` knows it by.
+  /// The name that `make_planner` accepts.
   [[nodiscard]] virtual std::string_view name() const = 0;
-  /// `current` is the sensor's pose at the last scan; a rotation that is off by up to 1e-3 is made orthonormal. A
-  /// pose that the platform does not admit, or outside of the region, gives a plan as well. Throws
-  /// std::invalid_argument if a number of the pose is not finite or it is no rigid transform.
+  /// Makes a plan. `current` is the sensor's pose (world_from_sensor) at the last scan; rotation errors of up to 1e-3
+  /// are corrected. A pose that the platform does not admit, or that lies outside the region, gives a plan, too.
+  /// Throws std::invalid_argument if the pose is not finite or not a rigid transform.
   [[nodiscard]] virtual Plan plan(const OccupancyMap& map, const Pose& current) = 0;
-  /// Tells how following the last plan ended. Optional: without it a goal counts as reached when `current` of the
-  /// next plan is within PlannerSetup's tolerances of it, and as failed when the robot came no nearer to it while the
-  /// map has grown twice.
+  /// Reports how following the last plan ended. Optional: without it, a goal counts as reached if `current` of the
+  /// next plan lies within the tolerances of PlannerSetup, and as failed if the robot came no nearer to it while the
+  /// map has changed twice.
   virtual void report(const OccupancyMap& map, const Pose& current, GoalResult result);
 };
 

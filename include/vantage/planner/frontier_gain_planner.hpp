@@ -9,26 +9,24 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Options of FrontierGainPlanner.
 struct FrontierGainOptions {
-  std::size_t hypotheses = 100;  ///< random poses tried per plan, >= 1
-  /// Share of the hypotheses that stand where some frontier is known to be visible, in [0, 1]; the rest are anywhere
-  /// in the reachable space. 0 is the paper's; it then falls back on such poses only if no random one sees a
+  std::size_t hypotheses = 100;  ///< random poses evaluated per plan, in [1, 1e6]
+  /// Share of the hypotheses that stand at the viewpoint of a random target and see it, in [0, 1]. The others are
+  /// drawn anywhere in the reachable space. With the paper's 0, aimed poses are tried only if no random pose sees a
   /// frontier.
   double aimed_share = 0.0;
-  /// What a metre of straight distance costs, in frontier cells, >= 0. 0 is the paper's: gain alone decides.
+  /// Cost of a metre of straight distance, in frontier cells, >= 0. With the paper's 0, the gain alone decides.
   double cost_per_m = 0.0;
-  FrontierSurveyOptions survey = {};  ///< how thoroughly it looks for frontiers
+  FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
-/// The frontier method of Shade & Newman 2011, III-B.1, their baseline: poses are drawn at random in the free space
-/// that the platform can reach, the frontier cells that the sensor would see from each are counted by casting rays
-/// through the map, and the way to the best pose is found by A*. Unlike the paper's, cells further off than the
-/// sensor resolves them do not count.
+/// Baseline planner: draws poses in the reachable space at random, counts by ray casting the frontier cells that the
+/// sensor would see from each, and takes the best. The path is found by A*. Unlike in the paper, cells beyond the
+/// resolving range of the sensor do not count. (Shade & Newman 2011, III-B.1.)
 class FrontierGainPlanner final : public FrontierPlanner {
  public:
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit FrontierGainPlanner(const PlannerSetup& setup, const FrontierGainOptions& options = {});
 
-  /// "frontier-gain".
   [[nodiscard]] std::string_view name() const override { return "frontier-gain"; }
 
  private:

@@ -11,26 +11,28 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a strategy chose: a view and the way there.
+/// The choice of a strategy: a view and the path to it.
 struct ChosenView {
-  TargetView view;  ///< the view and what it is to resolve
-  /// The way, as reachable cells from the start of the reachable space to the view's place ...
+  TargetView view;  ///< the view and the cells that it is to resolve
+  /// The path as reachable cells, from the start of the reachable space to the cell of the view. Ignored if `path` is
+  /// not empty.
   std::vector<VoxelIndex> way = {};
-  /// ... or, if not empty, as poses joined by admitted motions, from the current pose to the view's.
+  /// The path as poses joined by admitted motions, from the current pose to the pose of the view. Empty: `way` is
+  /// used.
   std::vector<Pose> path = {};
-  /// One sentence, for a person; empty: how many unknown cells the view is to resolve.
+  /// One sentence for a person; empty: a default one with the number of unknown cells to resolve.
   std::string reason = {};
 };
 
-/// A planner that goes for frontiers: all but the choice. It brings the situation up to date, ends the run where
-/// there is nothing to choose from, and turns a chosen view into a plan.
+/// Base class of planners that look at frontiers. It contains everything but the choice: it updates the Situation,
+/// ends the run if no target is left, and makes a plan of the chosen view. A new strategy overrides `choose`.
 ///
 ///     class MyPlanner final : public FrontierPlanner {
 ///       std::optional<ChosenView> choose(Plan& plan) override { ... situation().survey().targets ... }
 ///     };
 class FrontierPlanner : public ExplorationPlanner {
  public:
-  /// Throws std::invalid_argument naming the part of the setup or the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit FrontierPlanner(const PlannerSetup& setup, const FrontierSurveyOptions& options = {})
       : situation_(setup, options) {}
 
@@ -38,13 +40,13 @@ class FrontierPlanner : public ExplorationPlanner {
   void report(const OccupancyMap& map, const Pose& current, GoalResult result) final;
 
  protected:
-  /// What the plan is made from; up to date in `prepare` and `choose`.
+  /// The input of the plan. Up to date in `prepare` and `choose`.
   [[nodiscard]] const Situation& situation() const { return situation_; }
-  /// Called once per plan, before anything else: forgets what the last plan has left behind.
+  /// Called once per plan after the situation is up to date and before `choose`: discards results of the last plan.
   virtual void prepare(Plan& /*plan*/) {}
-  /// Chooses; there is at least one target. May fill in the plan's candidates, statistics and reason. None if no view
-  /// serves: then the plan's reason says why, and the plan is Blocked. A choice to which there turns out to be no way
-  /// is asked for again without the targets seen from there.
+  /// Chooses a view. At least one target exists. May fill in candidates, statistics and reason of `plan`. Returns
+  /// nothing if no view serves: the plan is then Blocked, and `plan.reason` should say why. If no path leads to the
+  /// chosen view, the targets that it sees are removed for this plan and `choose` is called again.
   [[nodiscard]] virtual std::optional<ChosenView> choose(Plan& plan) = 0;
 
  private:

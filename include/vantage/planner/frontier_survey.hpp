@@ -15,54 +15,59 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A frontier cell that the sensor can resolve, and one place to do it from.
+/// A frontier cell that the sensor can resolve, and one place from which it can.
 struct FrontierTarget {
   VoxelIndex frontier;  ///< the free cell
-  VoxelIndex unknown;   ///< its unknown face neighbour that is to be seen
-  /// A reachable cell from whose centre the centre of `unknown` is in plain sight and in range.
+  VoxelIndex unknown;   ///< the unknown face neighbour to observe
+  /// A reachable cell from whose centre the centre of `unknown` is in range and in clear line of sight.
   VoxelIndex viewpoint;
 };
 
-/// How thoroughly a survey looks, for every planner alike.
+/// Options of a survey, common to all planners.
 struct FrontierSurveyOptions {
-  int patience = 2;  ///< places that differ from which a cell is looked at in vain (TriedViews), >= 1
-  std::size_t sight_directions = 512;  ///< directions in which an unknown cell looks back for a viewpoint, >= 6
+  /// Number of different places from which a cell is looked at in vain before it is given up (TriedViews), >= 1
+  int patience = 2;
+  std::size_t sight_directions = 512;  ///< rays cast from an unknown cell to find a viewpoint, >= 6
 };
 
-/// Where the platform can go, which frontier cells are left and which of them some reachable pose can resolve: the
-/// definitions of "reachable", "observable" and "leftover" that all planners share.
+/// What is reachable, which frontier cells are left, and which of them can be observed. All planners share these
+/// definitions.
 ///
-/// A frontier cell is observable if, from the centre of some reachable cell, the straight line to the centre of one
-/// of its unknown face neighbours passes free cells only, none of them contested, is between the sensor's shortest
-/// and longest range, and falls into its field of view in an orientation that the platform can take there. It is no
-/// target if every such unknown cell was looked at in vain often enough (TriedViews).
+///     V . . . . . . . . . f u      V  viewpoint, a reachable cell     f  frontier cell (free)
+///                                  .  line of sight, clear cells       u  its unknown face neighbour
 ///
-/// For a sensor that does not report rays without return, targets whose unknown cell touches an occupied one (26
-/// neighbours) come first, the others when none of these is left: a ray into the open teaches such a sensor nothing,
-/// one along a known surface most likely meets more of it.
+/// A frontier cell is observable if a viewpoint for one of its unknown face neighbours exists: a reachable cell such
+/// that the line between both centres passes only clear cells (free and not contested), its length is within the
+/// range of the sensor, and it lies in the field of view in an orientation that the platform can take there. Unknown
+/// cells that are given up (TriedViews) do not count, nor do viewpoints that rest.
+///
+/// For a sensor that does not report missing returns, the targets are only those whose unknown cell touches an
+/// occupied cell (26 neighbours), as long as there are any: a ray into open space teaches such a sensor nothing,
+/// while a ray along a known surface probably hits more of it.
 struct FrontierSurvey {
-  ReachableSpace reachable;  ///< cells the platform can bring the sensor to
+  ReachableSpace reachable;  ///< cells to which the platform can bring the sensor
   /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};
-  std::size_t frontier_cells = 0;  ///< all of them, inside the region
-  bool exhausted = true;   ///< false: there were too many pairs of an unknown and a reachable cell to try every one
-  Leftover leftover = {};  ///< frontier cells that are no targets, by cause
-  std::uint64_t ray_operations = 0;  ///< cells visited while looking for lines of sight
+  std::size_t frontier_cells = 0;  ///< number of all frontier cells in the region
+  /// False if there were too many pairs of an unknown and a reachable cell to test all of them.
+  bool exhausted = true;
+  Leftover leftover = {};            ///< frontier cells that are no targets, by cause
+  std::uint64_t ray_operations = 0;  ///< cells visited in the search for lines of sight
 };
 
-/// Surveys the map from `current`. Targets that `tried` has given up count as unobservable. Whoever surveys a map
-/// again and again does it cheaper by a FrontierSurveyor.
+/// Surveys the map once, with the sensor at `current` (world_from_sensor). Unknown cells that `tried` has given up
+/// are no targets. For repeated surveys of a changing map, a FrontierSurveyor is faster.
 [[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
                                               const RangeSensor& sensor, const Pose& current,
                                               const FrontierSurveyOptions& options, const TriedViews& tried);
 
-/// Whether the centre of `target` is in plain sight from `from`: every cell before it on the straight line is free
-/// and not contested.
-/// `operations` counts the cells visited.
+/// Whether there is a clear line of sight from `from` (metres, world) to the centre of `target`: every cell on the
+/// line before `target` is free and not contested. Adds the number of visited cells to `operations`.
 [[nodiscard]] bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                                   std::uint64_t& operations);
 
-/// Whether a sensor at `pose` should resolve `unknown`: in range, in the field of view and in plain sight.
+/// Whether a sensor at `pose` (world_from_sensor) should resolve `unknown`: its centre is in range, in the field of
+/// view and in clear line of sight. Adds the number of visited cells to `operations`.
 [[nodiscard]] bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose,
                         const VoxelIndex& unknown, std::uint64_t& operations);
 

@@ -12,36 +12,37 @@ class SightMemory;
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Surveys a map again and again, as it changes.
+/// Surveys a map repeatedly while it changes.
 ///
-/// A survey is that of `survey_frontiers`, whatever was surveyed before: the same targets, seen from the same places.
-/// Only its price differs, and its `ray_operations` with it: what looking around an unknown cell has found stands
-/// until something changes where it was looked for.
+/// The result is always the same as that of `survey_frontiers`: the same targets with the same viewpoints. It is only
+/// faster, and counts fewer `ray_operations`: the viewpoint found for an unknown cell is kept until a cell that the
+/// search has looked at changes.
 class FrontierSurveyor {
  public:
-  /// For a platform, which must not be null, that always admits and faces alike.
+  /// Makes a surveyor without results. `platform` must not be null, and its answers must depend only on the map.
   FrontierSurveyor(std::shared_ptr<const Platform> platform, const RangeSensor& sensor,
                    const FrontierSurveyOptions& options);
-  /// One memory, one owner.
+  /// Not copyable.
   FrontierSurveyor(const FrontierSurveyor&) = delete;
-  /// One memory, one owner.
+  /// Not copyable.
   FrontierSurveyor& operator=(const FrontierSurveyor&) = delete;
-  /// Takes the memory along.
+  /// Moves the stored results.
   FrontierSurveyor(FrontierSurveyor&& other) noexcept;
-  /// Takes the memory along.
+  /// Moves the stored results.
   FrontierSurveyor& operator=(FrontierSurveyor&& other) noexcept;
   ~FrontierSurveyor();
 
-  /// Surveys the map from `current`. Targets that `tried` has given up count as unobservable.
+  /// Surveys the map with the sensor at `current` (world_from_sensor). Unknown cells that `tried` has given up are no
+  /// targets.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried);
-  /// The same for those who know the frontier cells of the map already (FrontierTracker), in raster order.
+  /// As above, with the frontier cells of the map given in raster order (FrontierTracker).
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                       std::vector<VoxelIndex> frontier);
-  /// The same from a space in which the platform may be anywhere.
+  /// As above, with the reachable space given. `admitted` is not updated.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,
                                       std::vector<VoxelIndex> frontier);
 
-  /// The cells that the platform admits in the map that was surveyed last, reachable or not.
+  /// The cells that the platform admitted in the last surveyed map, reachable or not.
   [[nodiscard]] const AdmittedCells& admitted() const { return admitted_; }
 
  private:

@@ -16,45 +16,44 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What FrontierVoidPlanner does that the paper leaves open or does otherwise; docs/frontier_void.md says what each
-/// part earns.
+/// What FrontierVoidPlanner does beyond the paper or differently.
 struct FrontierVoidStrategy {
-  /// Which frontier cells a void is looked into through.
+  /// The frontier cells through which a void is observed.
   FrontierShare share = FrontierShare::TouchingCells;
-  /// Orientations tried at a place, >= 1; a sensor that sees all around has one.
+  /// Orientations tried per place, >= 1; one is enough for a sensor that sees all around.
   std::size_t orientations_per_place = 5;
-  /// Places are at least so far apart, metres, >= 0: those of most utility lie side by side and see the same.
+  /// Minimum distance between places, metres, >= 0. The places of highest utility lie side by side and see the same.
   double place_spacing_m = 0.3;
-  /// Orientations look at the frontier of a void, drawn by its utility, instead of anywhere.
+  /// True: orientations look at a frontier cell of a void, drawn with its utility as weight. False: in random
+  /// directions.
   bool aimed = true;
-  /// Places and views are ranked by void cells / (1 + this * metres to the place, straight), >= 0; 0: void cells
+  /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
   /// alone count (eq. 3).
   double cost_per_m = 0.3;
-  /// Of the finalists the best by the metres of the way there is taken, not by the straight line: behind a wall is
-  /// far.
+  /// True: the finalists are compared by the length of the path, not by the straight distance. A view behind a wall
+  /// is far away.
   bool along_way = false;
-  /// So many views from the nearest places that see a void through its frontier are weighed besides, >= 0: places and
-  /// directions are drawn by the size of voids, which passes by the small ones.
+  /// Additional candidates, at most this many, from the nearest places that see a void through its frontier, >= 0.
+  /// Places and directions are drawn by the size of voids, which misses the small ones.
   std::size_t near_views = 0;
-  /// All views are counted by a sixteenth of the rays first, and the best so many of them by all, >= 1.
+  /// All views are first ranked with a sixteenth of the rays, and this many of the best again with all rays, >= 1.
   std::size_t finalists = 5;
-  /// So many views like the best of them, moved by up to `place_spacing_m` and turned by up to half a radian, are
-  /// counted, too, >= 0; a better one takes its place at once.
+  /// Number of attempts to improve the best view by moving it up to `place_spacing_m` and turning it up to half a
+  /// radian, >= 0. A better view replaces the best one at once.
   std::size_t refinements = 0;
-  /// UnknownSightOptions::opaque_share of void cells: what a view is expected to learn behind the first void cell of
-  /// a ray counts, too. 1: the first alone.
+  /// UnknownSightOptions::opaque_share for void cells, in (0, 1]. With 1, only the first void cell of a ray counts.
   double opaque_share = 0.05;
-  double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface of void cells
-  /// A view has failed to resolve void cells that it was to make known with at least this chance, in [0, 1], where
-  /// they are still unknown after it: with 1 only those that its rays surely end in.
+  double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface, in (0, 1]
+  /// Void cells that a view should observe with at least this probability, in [0, 1], and that stay unknown, count as
+  /// looked at in vain. With 1, only cells in which its rays certainly end.
   double sought_chance = 1.0;
-  /// A view that is expected to learn less of the voids than this, m^3, is none, >= 0.
+  /// Minimum expected volume of voids that a view must observe, m^3, >= 0.
   double least_view_m3 = 0.0;
-  /// When no view sees a void any more, frontiers that border none are explored, the nearest first.
+  /// True: when no view sees a void any more, frontiers that border no void are explored, the nearest first.
   bool beyond_voids = true;
 
-  /// The paper's plain method, which ends when the best utility is 0: Explored where nothing observable is left,
-  /// else Blocked.
+  /// The plain method of the paper. It ends when the best utility is 0: Explored if nothing observable is left, else
+  /// Blocked.
   [[nodiscard]] static FrontierVoidStrategy faithful() {
     return {.share = FrontierShare::WholeClusters,
             .place_spacing_m = 0.0,
@@ -65,12 +64,12 @@ struct FrontierVoidStrategy {
             .opaque_beside_surface = 1.0,
             .beyond_voids = false};
   }
-  /// For a body to which metres matter and views do not: what is near is finished before it goes on.
+  /// For a robot for which metres matter and views do not: finishes nearby voids before it moves on.
   [[nodiscard]] static FrontierVoidStrategy travelling() {
     return {.cost_per_m = 100.0, .along_way = true, .near_views = 20};
   }
-  /// For a camera on an arm, whose reach is short and whose views are dear: many views are weighed, metres do not
-  /// count, and the search ends where no view sees a void.
+  /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
+  /// when no view sees a void.
   [[nodiscard]] static FrontierVoidStrategy searching() {
     return {.orientations_per_place = 8,
             .place_spacing_m = 0.1,
@@ -83,43 +82,44 @@ struct FrontierVoidStrategy {
 
 /// Options of FrontierVoidPlanner.
 struct FrontierVoidOptions {
-  VoidClusterOptions clusters = {};    ///< how void cells are clustered; its seed is the setup's
-  std::size_t most_vectors = 200'000;  ///< see utility_vectors, > 0
-  std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, >= 1
-  FrontierVoidStrategy strategy = {};  ///< what to make of the voids
-  /// Fewer directions than elsewhere: a void is looked into through many frontier cells.
+  VoidClusterOptions clusters = {};    ///< how void cells are clustered; its seed is replaced by that of the setup
+  std::size_t most_vectors = 200'000;  ///< limit of utility_vectors, > 0
+  std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, in [1, 1e6]
+  FrontierVoidStrategy strategy = {};  ///< refinements of the method
+  /// How frontiers are surveyed, with fewer rays than elsewhere: a void is seen through many frontier cells.
   FrontierSurveyOptions survey = {.sight_directions = 128};
 };
 
-/// What a plan of FrontierVoidPlanner was made from, for pictures and for those who want to look.
+/// Intermediate results of a plan of FrontierVoidPlanner, for display.
 struct VoidSearch {
-  VoidClusters voids;                        ///< all void cells
-  std::vector<FrontierVoid> frontier_voids;  ///< those with an observable frontier
-  std::vector<VoxelIndex> frontier;          ///< the observable frontier cells
-  std::vector<VoxelIndex> places;            ///< reachable cells with a utility
-  std::vector<std::uint64_t> utility;        ///< and what each has accumulated (Algorithm 1), in void cells
-  std::optional<Pose> view;                  ///< the view that was chosen; none where none sees a void
+  VoidClusters voids;                        ///< clusters of all void cells
+  std::vector<FrontierVoid> frontier_voids;  ///< voids with an observable frontier
+  std::vector<VoxelIndex> frontier;          ///< observable frontier cells
+  std::vector<VoxelIndex> places;            ///< reachable cells with a utility above 0
+  std::vector<std::uint64_t> utility;        ///< the accumulated utility of each place, in void cells (Algorithm 1)
+  std::optional<Pose> view;                  ///< the chosen view; none if no view sees a void
 };
 
-/// The search of voids of Dornhege & Kleiner 2011: voids, the frontiers through which they can be seen, places from
-/// which many of them can be (Algorithm 1), and of N views from the best places the one that sees most void cells
-/// (eq. 3).
+/// Searches voids: unknown cells inside the convex hull of the occupied ones. A plan takes four steps:
 ///
-/// The utility of a view is the number of distinct void cells that its rays end in, counted exactly. Of the frontier
-/// only what the survey that all planners share finds observable is looked through, so the search ends when
-/// everything is seen that can be, and what is left is reported by cause. docs/frontier_void.md names the place of
-/// every equation.
+///     void cells  ->  clusters with the frontier through which they can be observed   (IV-A, IV-B)
+///                 ->  utility of each reachable place: rays back from the frontier    (Algorithm 1)
+///                 ->  N views at the places of highest utility                        (IV-C)
+///                 ->  the view that observes most distinct void cells, by ray casting (eq. 3)
+///
+/// Only frontier cells that the shared survey finds observable are used. So the search ends when everything
+/// observable is seen, and the leftover is reported by cause. docs/frontier_void.md lists where each equation is
+/// implemented. (Dornhege & Kleiner 2011.)
 class FrontierVoidPlanner final : public FrontierPlanner {
  public:
-  /// Throws std::invalid_argument naming the option or the part of the setup at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options = {});
 
-  /// "frontier-void".
   [[nodiscard]] std::string_view name() const override { return "frontier-void"; }
 
-  /// The options it was made with.
+  /// The options, with the seed of the setup in `clusters`.
   [[nodiscard]] const FrontierVoidOptions& options() const { return options_; }
-  /// What the last plan was made from; empty where nothing observable was left.
+  /// The intermediate results of the last plan; empty if no observable frontier was left.
   [[nodiscard]] const VoidSearch& search() const { return search_; }
 
  private:
@@ -148,7 +148,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
 
   FrontierVoidOptions options_;
   VoidSearch search_;
-  // Of the map that was planned in last:
+  // State that follows the map of the last plan:
   KnownMap followed_;
   std::optional<UnknownSight> sight_;
   std::optional<VoidTracker> void_cells_;

@@ -15,29 +15,31 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How the harmonic field is found.
+/// How the harmonic field is solved.
 enum class FieldSolver : std::uint8_t {
-  Multigrid,    ///< to a small residual, with a certificate that the way down from every cell ends at a sink
-  GaussSeidel,  ///< the method of the paper: relaxation from zero until the largest relative change is small (eq. 10)
+  /// Multigrid, to a small residual. It certifies that descent from every cell ends at a sink.
+  Multigrid,
+  /// The method of the paper: relaxation from zero until the largest relative change is small (eq. 10).
+  GaussSeidel,
 };
 
-/// What HarmonicPlanner does that the paper leaves open or does otherwise; docs/harmonic.md has what each part earns.
+/// What HarmonicPlanner does beyond the paper or differently. docs/results.md shows the effect of each part.
 struct HarmonicStrategy {
-  /// Sinks whose way is longer than the way to the nearest by more than this wait for a later plan, metres, >= 0:
-  /// what is near is cleared first. Infinity: every frontier draws.
+  /// A sink whose path is longer than that to the nearest sink by more than this waits for a later plan, metres, >=
+  /// 0. So nearby frontiers are finished first. Infinity: all frontiers are sinks.
   double detour_m = 0.2;
-  /// Looks from the first place on the way from which the boundary it came for is in sight, not from beside it.
+  /// True: looks from the first cell of the path that sees the target frontier, not from its end.
   bool look_early = true;
-  /// With look_early: once it has gone so far, metres, >= 0, any other boundary that comes into sight is looked at,
-  /// too.
+  /// With look_early: after this length of the path, metres, >= 0, any other frontier in sight is looked at, too.
   double look_spacing_m = 0.5;
-  /// Of a sensor that does not see all around: before it moves on it looks from where it is, in the direction that is
-  /// expected to teach most, as long as that is at least so much unknown space, m^3, >= 0; and at its goal it takes
-  /// such a direction, too. Infinity: it looks once, at most of the boundary. Not in a plane.
+  /// For a sensor that does not see all around: before it moves on, it looks from where it is in the direction of
+  /// highest expected gain, as long as that gain is at least this volume of unknown space, m^3, >= 0. At its goal it
+  /// also takes the direction of highest gain. Infinity: one look per place, at most of the frontier. Ignored for a
+  /// map of one layer of cells.
   double look_again_m3 = 0.1;
-  /// Takes the shortest way to the place it looks from, not the streamline.
+  /// True: takes the shortest path to the place of the view, not the streamline.
   bool shortest_way = true;
-  /// The paper's plain method.
+  /// The plain method of the paper.
   [[nodiscard]] static HarmonicStrategy faithful() {
     return {.detour_m = std::numeric_limits<double>::infinity(),
             .look_early = false,
@@ -49,44 +51,50 @@ struct HarmonicStrategy {
 /// Options of HarmonicPlanner.
 struct HarmonicOptions {
   FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< what a closed face contributes
-  double tolerance = 1e-4;            ///< GaussSeidel: largest relative change of the last sweep (eq. 10), > 0
-  std::size_t max_sweeps = 50000;     ///< of the relaxation; no field takes more, > 0
-  double uniform_source = 1e-4;       ///< see RelaxationOptions; 0 is the field of the paper
-  HarmonicStrategy strategy = {};     ///< what to make of the field
-  FrontierSurveyOptions survey = {};  ///< what counts as observable
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< contribution of a closed face (boundary without flow)
+  double tolerance = 1e-4;         ///< GaussSeidel: largest relative change of the last sweep, in [1e-15, 1] (eq. 10)
+  std::size_t max_sweeps = 50000;  ///< GaussSeidel: maximum number of sweeps per field, in [1, 1e7]
+  double uniform_source = 1e-4;    ///< see RelaxationOptions; 0: the field of the paper
+  HarmonicStrategy strategy = {};  ///< refinements of the method
+  FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
-/// The field behind a plan, for pictures and for those who want to look.
+/// The field of a plan, for display.
 struct HarmonicField {
-  LaplaceProblem problem;                   ///< what was solved
-  std::vector<double> phi;                  ///< by position in the problem
-  std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the sink that was chosen
+  LaplaceProblem problem;                   ///< domain, sinks and source
+  std::vector<double> phi;                  ///< the solution, by position in the problem
+  std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the chosen sink, metres, world
   LaplaceReport report;                     ///< how the solver ended
-  std::size_t stuck_cells =
-      0;  ///< cells without a strictly lower neighbour; 0: descent from every cell ends in a sink
-  /// False: the field is not certified (Multigrid), or descent from the source gets stuck (the others), and the plan
-  /// takes the shortest way instead.
+  /// Cells without a strictly lower neighbour. 0: descent from every cell ends at a sink.
+  std::size_t stuck_cells = 0;
+  /// False: the field is not certified (Multigrid), or descent from the source does not reach a sink (GaussSeidel).
+  /// The plan then takes the shortest path.
   bool followed = true;
 };
 
-/// Harmonic exploration, Shade & Newman 2011: solve Laplace's equation over the space the platform can reach, 1 at
-/// the sensor, 0 at the boundaries to explore, no flow through the rest, and follow the steepest streamline down.
+/// Harmonic exploration: solves Laplace's equation over the reachable space, with 1 at the sensor, 0 at the frontiers
+/// and no flow through the rest of the boundary, and follows the steepest descent.
 ///
-/// The paper's sensor is a point; here the domain is the platform's reachable space, and a frontier cell that lies
-/// outside it is represented by the reachable cell from which its unknown neighbour is seen (FrontierSurvey). Only a
-/// way that is known to end at a sink is ever followed. docs/harmonic.md names the place of every equation.
+///     ###########################      phi = 1 at S (sensor), 0 at o (sink)
+///     #  S . .                  o      #  no flow
+///     #        . . . . . . . .  o      .  streamline: follows -grad phi to one sink
+///     ###########################
+///
+/// The sensor of the paper is a point. Here the domain is the reachable space of the platform, and a frontier cell is
+/// represented by the reachable cell from which its unknown neighbour is observed (FrontierSurvey). A streamline is
+/// used only if it is known to end at a sink. docs/harmonic.md lists where each equation is implemented. (Shade &
+/// Newman 2011.)
 class HarmonicPlanner final : public FrontierPlanner {
  public:
-  /// Throws std::invalid_argument naming the option or the part of the setup at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options = {});
 
   [[nodiscard]] std::string_view name() const override { return "harmonic"; }
 
-  /// The options it was made with.
+  /// The options of the constructor.
   [[nodiscard]] const HarmonicOptions& options() const { return options_; }
-  /// The field of the last plan; none where it needed none: nothing is left, the sensor looks from where it is, or
-  /// there is one place to go and the shortest way is taken.
+  /// The field of the last plan. None if the plan needed none: nothing was left, the sensor looks from where it is,
+  /// or there was only one sink and the shortest path is taken.
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
 
  private:

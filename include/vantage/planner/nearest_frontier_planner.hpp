@@ -6,13 +6,12 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Goes to the nearest place from which some frontier is seen (Yamauchi 1997, "A Frontier-Based Approach for
-/// Autonomous Exploration"), and looks at as much of the frontier from there as comes into view.
+/// Goes along the shortest path to the nearest place that sees a frontier, and takes the orientation there that sees
+/// most of the frontier. (Yamauchi 1997, "A Frontier-Based Approach for Autonomous Exploration".)
 class NearestFrontierPlanner final : public FrontierPlanner {
  public:
   using FrontierPlanner::FrontierPlanner;
 
-  /// "nearest-frontier".
   [[nodiscard]] std::string_view name() const override { return "nearest-frontier"; }
 
  private:

@@ -9,18 +9,18 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Options of NextBestViewExplorer.
 struct NextBestViewExplorerOptions {
-  std::size_t hypotheses = 100;       ///< views weighed per plan, >= 1
-  FrontierSurveyOptions survey = {};  ///< how thoroughly it looks for frontiers
+  std::size_t hypotheses = 100;       ///< views evaluated per plan, >= 1
+  FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
-/// Next best views without an object: of views drawn at random, half of them aimed at frontiers, the one that sees
-/// most unknown cells for its distance (Vasquez-Gomez et al. 2013, eq. 2 and 6, over the whole map).
+/// Next-best-view planning without an object: draws views at random, every other one aimed at a target, and takes the
+/// one with the highest utility among those that see a target: unknown cells seen, divided by 1 + distance.
+/// (Vasquez-Gomez et al. 2013, eq. 2 and 6, over the whole map.)
 class NextBestViewExplorer final : public FrontierPlanner {
  public:
-  /// Throws std::invalid_argument naming the option or the part of the setup at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit NextBestViewExplorer(const PlannerSetup& setup, const NextBestViewExplorerOptions& options = {});
 
-  /// "next-best-view".
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
 
  private:

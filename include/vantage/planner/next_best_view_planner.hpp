@@ -19,70 +19,74 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How a NextBestViewPlanner counts what a view of an object sees.
+/// How a NextBestViewPlanner counts the cells that a view of an object sees.
 enum class VisibilityMethod : std::uint8_t {
   Exact,         ///< distinct cells, by evaluate_view
-  Uniform,       ///< the same cells, by walking every ray: the paper's method of comparison
-  Hierarchical,  ///< rays, by HierarchicalRayTracer: the paper's own
+  Uniform,       ///< the same cells, by walking each ray: the method that the paper compares with
+  Hierarchical,  ///< rays instead of cells, by HierarchicalRayTracer: the method of the paper
 };
 
-/// How a NextBestViewPlanner chooses among the views of an object.
+/// How a NextBestViewPlanner chooses a view of an object.
 enum class ViewChoice : std::uint8_t {
-  Greedy,  ///< the one of the largest utility: the paper's own
-  /// Of the few that together see every unknown cell that any sees (cover_views), found anew every cycle, the one of
-  /// the largest utility: a view that others make needless is not taken because it is near.
+  Greedy,  ///< the view of highest utility, as in the paper
+  /// The view of highest utility in a small set of views that together see every unknown cell that any view sees
+  /// (cover_views), computed anew for each plan. A view that others make redundant is not taken just because it is
+  /// near.
   Cover,
 };
 
 /// Options of NextBestViewPlanner.
 struct NextBestViewOptions {
-  /// The box of the object to reconstruct, metres; none: the whole map is to be seen.
+  /// Box of the object to reconstruct, metres, world, min < max; none: the whole map is explored.
   std::optional<Box> object = std::nullopt;
 
-  // With an object:
-  /// Candidates look at the middle of the object from shells this far off, each > 0, at least one (VI-A).
+  // Used with an object:
+  /// Radii of the candidate spheres around the centre of the object, metres, each > 0, at least one. Candidates look
+  /// at the centre (VI-A).
   std::vector<double> radii_m = {1.5};
-  /// Those of a shell are 20 * 4^this, evenly spread, in [-1, 6]; the paper's 320 by default. -1: there are none.
+  /// Candidates per sphere: 20 * 4^subdivisions, evenly distributed, in [-1, 6]; -1: none. The paper uses 320.
   int subdivisions = 2;
-  /// As many more, from places drawn in the region or, without one, in the known part of the map (VI-B).
+  /// Additional candidates that look at the object from random places in the region or, without a region, in the
+  /// known part of the map (VI-B).
   std::size_t random_candidates = 0;
-  /// And these, drawn anew for every map: aimed at unknown cells of the object from where they can be seen.
+  /// Additional candidates that aim at unknown cells of the object from places that can see them, computed for each
+  /// plan.
   AimedViewOptions aimed = {};
-  /// The least overlap: how many occupied cells of the object a view must see, `h_oc` in eq. 2. Waived while none is
-  /// known.
+  /// Minimum number of occupied cells of the object that a view must see, `h_oc` in eq. 2. Ignored while no cell of
+  /// the object is occupied.
   std::size_t min_overlap_cells = 0;
-  /// A view must see this many unknown cells of the object, >= 1; when none does, the object is done (VI-B: 50).
+  /// Minimum number of unknown cells of the object that a view must see, >= 1. If no view does, the object is
+  /// finished (VI-B: 50).
   std::size_t min_unknown_cells = 50;
 
-  /// What new surface is worth (eq. 3); none: the paper's count of unknown cells (eq. 4). Whatever it is, a view must
-  /// see `min_unknown_cells`; where it finds nothing in any view, the count decides.
+  /// Information gain of a view (eq. 3); none: the number of unknown cells (eq. 4), which also decides if the gain is
+  /// 0 for all views. `min_unknown_cells` applies in both cases.
   RayGainMaker gain = nullptr;
-  SensingOptions sensing = {};            ///< which of the cells that a view sees its sensor would measure (II-C)
-  ViewChoice choice = ViewChoice::Cover;  ///< which view is taken
+  SensingOptions sensing = {};            ///< which of the cells that a view sees the sensor would measure (II-C)
+  ViewChoice choice = ViewChoice::Cover;  ///< how the view is chosen
 
   VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
   int hierarchical_levels = 3;  ///< HierarchicalRayTracerOptions::levels, in [1, 16] (VI-B: start depth 14 of 16)
 
-  // Without one:
-  std::size_t hypotheses =
-      100;  ///< poses drawn in the reachable space per plan, every other aimed at a frontier; >= 1
+  // Used without an object:
+  /// Poses drawn in the reachable space per plan, every other one aimed at a target, >= 1.
+  std::size_t hypotheses = 100;
 
-  FrontierSurveyOptions survey = {};  ///< how thoroughly it looks for frontiers, and the patience with failed views
+  /// How frontiers are surveyed without an object. `patience` applies in both cases.
+  FrontierSurveyOptions survey = {};
 };
 
-/// The next best view of Vasquez-Gomez et al. 2013, Algorithm 1: of many candidate views, the one of the largest
-/// utility `u = pos reg sur dist` (eq. 1-5), where what a view would see is counted exactly, in distinct cells
-/// (evaluate_view), rather than by their hierarchical approximation.
+/// Next-best-view planning: takes the candidate view of the highest utility `u = pos reg sur dist` (eq. 1-5). By
+/// default, the visible cells are counted exactly, as distinct cells (evaluate_view), instead of by the hierarchical
+/// approximation of the paper.
 ///
-/// With an object box, that object is reconstructed: the run is over when no admitted candidate sees enough unknown
-/// cells of it. Without, the map is explored: candidates are drawn where the platform can get, and what is left is
-/// judged by the survey that all planners share.
+/// With an object, that object is reconstructed; the run ends when no admitted candidate sees enough unknown cells of
+/// it. Without an object, the map is explored (NextBestViewExplorer). (Vasquez-Gomez et al. 2013, Algorithm 1.)
 class NextBestViewPlanner final : public ExplorationPlanner {
  public:
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options = {});
 
-  /// "next-best-view".
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
   void report(const OccupancyMap& map, const Pose& current, GoalResult result) override {
@@ -94,7 +98,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   struct Candidate {
     ScoredView view;
     CellSet sought;        // the unknown cells that it would measure and that are not given up
-    double counted = 0.0;  // how many they are by the method asked for
+    double counted = 0.0;  // their number, as counted by the chosen VisibilityMethod
   };
 
   [[nodiscard]] std::vector<Pose> views_of_object(const OccupancyMap& map, const VoxelBox& object) const;
@@ -112,7 +116,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   NextBestViewOptions options_;
   TriedViews tried_;
   NextBestViewExplorer explorer_;
-  FollowingCaster looking_;  // in the map that was planned in last
+  FollowingCaster looking_;  // follows the map of the last plan
 };
 
 }  // namespace vantage

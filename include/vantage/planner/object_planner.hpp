@@ -18,27 +18,29 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Options of ObjectPlanner.
 struct ObjectPlannerOptions {
-  Box object;                           ///< the box of the object, metres
-  std::vector<double> radii_m = {1.5};  ///< candidates look at its middle from shells this far off, > 0
-  int subdivisions = 2;                 ///< those of a shell are 20 * 4^this, in [-1, 6]; -1: none
-  std::size_t random_candidates = 0;    ///< as many more, from places drawn in the region
-  AimedViewOptions aimed = {};          ///< and these, aimed at what is left to be seen
-  double min_new_share = 0.002;  ///< a view must be expected to show this share of the surface seen so far, in [0, 1)
-  double near_share = 0.7;  ///< of views expected to show this share of what the best would, the nearest is taken; in
-                            ///< (0, 1]
+  Box object;  ///< box of the object, metres, world, min < max
+  /// Radii of the candidate spheres around the centre of the object, metres, each > 0, at least one.
+  std::vector<double> radii_m = {1.5};
+  int subdivisions = 2;  ///< candidates per sphere: 20 * 4^subdivisions, in [-1, 6]; -1: none
+  /// Number of additional candidates from random places in the region or, without one, the known space
+  std::size_t random_candidates = 0;
+  AimedViewOptions aimed = {};  ///< additional candidates that aim at surface that is not yet observed
+  /// Minimum expected number of new faces of a view, as a share of the faces observed so far, in [0, 1).
+  double min_new_share = 0.002;
+  /// Of the views whose expected gain is at least this share of the best one's, the nearest is taken, in (0, 1].
+  double near_share = 0.7;
 };
 
-/// Takes the view that is expected to show most of the surface of an object that no view has shown (UnseenSurface).
-/// The run is over when no admitted candidate is expected to show any that is worth a view.
+/// Reconstructs one object: takes a view that is expected to observe most faces of its surface that no view has
+/// observed yet (UnseenSurface). The run ends when no admitted candidate is expected to observe enough of them.
 ///
-/// Beside the map it remembers which sides of the surface were looked at. One that begins anew with a map looks again
-/// at sides of which the map cannot tell.
+/// Unlike other planners, it remembers which sides of the surface were observed, which the map does not store. A new
+/// planner for an existing map looks at some sides again.
 class ObjectPlanner final : public ExplorationPlanner {
  public:
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   ObjectPlanner(const PlannerSetup& setup, const ObjectPlannerOptions& options);
 
-  /// "next-best-view".
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& pose) override;
   void report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) override {
@@ -48,7 +50,7 @@ class ObjectPlanner final : public ExplorationPlanner {
  private:
   struct Candidate {
     Pose pose;
-    std::vector<UnseenSurface::Face> faces;  // that it is expected to be the first to look at
+    std::vector<UnseenSurface::Face> faces;  // that it is expected to be the first to observe
     double way_m = 0.0;
   };
   void follow(const OccupancyMap& map, const Pose& current);
@@ -60,7 +62,7 @@ class ObjectPlanner final : public ExplorationPlanner {
 
   PlannerSetup setup_;
   ObjectPlannerOptions options_;
-  KnownMap map_;  // that was planned in last
+  KnownMap map_;  // of the last plan
   OccupancyMap::Revision revision_ = 0;
   TriedViews tried_;  // goals that the robot failed to get to
   std::optional<UnseenSurface> surface_;

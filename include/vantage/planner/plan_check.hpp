@@ -10,17 +10,17 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Whether a plan that is being followed is still worth following.
+/// Whether a plan that is being followed is still valid.
 enum class PlanCheck : std::uint8_t {
-  Good,         ///< go on
-  WayClosed,    ///< a motion of the rest of the way is not admitted any more
-  NothingLeft,  ///< scans on the way have made all known that the plan sought
+  Good,         ///< continue
+  WayClosed,    ///< a motion of the rest of the path is not admitted any more
+  NothingLeft,  ///< all cells that the plan sought are known
   OffPath,      ///< the sensor is too far from the path
 };
 
-/// Checks a plan against the map as it is now, with the sensor at `current`: what a host asks after every scan on the
-/// way, and plans again unless all is Good. `off_path_m` is how far from the path the sensor may be, metres. A plan
-/// that is no Move is Good.
+/// Checks a plan against the current map, with the sensor at `current` (world_from_sensor). A host calls it after
+/// each scan on the way, and plans again unless the result is Good. `off_path_m` is the allowed distance from the
+/// path, metres. A plan whose outcome is not Move is Good.
 [[nodiscard]] PlanCheck check(const Plan& plan, const OccupancyMap& map, const Platform& platform,
                               const Pose& current, double off_path_m = 0.5);
 

@@ -9,18 +9,19 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What every planner needs to know of the robot.
+/// The robot, as every planner needs it.
 struct PlannerSetup {
-  RangeSensor sensor;                        ///< what it sees
-  std::shared_ptr<const Platform> platform;  ///< what carries it; never null
-  std::uint64_t seed = 1;                    ///< of everything random
-  int threads = 1;                           ///< > 0; never changes the plan
-  /// A goal counts as reached when the sensor is no further from it than this, metres, >= 0 (a cell at least), ...
+  RangeSensor sensor;                        ///< sensor model
+  std::shared_ptr<const Platform> platform;  ///< the body that carries the sensor; not null
+  std::uint64_t seed = 1;                    ///< seed of all random choices
+  int threads = 1;                           ///< number of threads, >= 1; does not change the plan
+  /// A goal counts as reached if the sensor is within this distance of it, metres, >= 0 (at least one cell is
+  /// allowed), and `goal_tolerance_rad` holds.
   double goal_tolerance_m = 0.3;
-  /// ... and its optical axis is turned by no more than this from the goal's, radians, >= 0.
+  /// Allowed angle between the optical axes of the sensor and of the goal, radians, >= 0.
   double goal_tolerance_rad = 0.35;
 
-  /// Throws std::invalid_argument naming what is missing or breaks its rule.
+  /// Throws std::invalid_argument, which names the missing or invalid part.
   void validate() const;
 };
 

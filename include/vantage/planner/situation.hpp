@@ -17,57 +17,70 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a plan is made from: the map and its frontier, where the platform can go, which frontier cells can be seen
-/// from where, and which views were tried before. Owned by a planner, brought up to date once per plan; a strategy
-/// reads it and chooses.
+/// The input of a plan: the map and its frontier, the reachable space, the observable frontier cells with their
+/// viewpoints, and the memory of tried views. A planner owns one and updates it once per plan; the strategy only
+/// reads it.
+///
+///     sync(map, current)
+///       |  FrontierTracker   frontier cells, from the change log of the map
+///       |  TriedViews        what became of the last view; unknown cells in sight after the scan
+///       |  FrontierSurveyor  admitted cells -> reachable space -> targets
+///       |                    (no target left: places that rest are allowed again, one more survey)
+///       v
+///     end()  --- no target --->  Explored | Unreachable | Blocked | turn on the spot (Move)
+///       |
+///       v  targets
+///     strategy chooses ---> no path to the view: drop(view), choose again
+///       |
+///       v
+///     remember(plan)         TriedViews expects the result of this view
 ///
 ///     situation.sync(map, current);
 ///     if (std::optional<Plan> end = situation.end()) return *end;
 ///     const FrontierTarget& target = situation.survey().targets.front();
 class Situation {
  public:
-  /// Throws std::invalid_argument naming the part of the setup or the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit Situation(const PlannerSetup& setup, const FrontierSurveyOptions& options = {});
 
-  /// Takes the map and the sensor's pose as they are now; both must outlive the plan. Throws std::invalid_argument
-  /// unless `current` is finite and rigid up to 1e-3.
+  /// Updates everything for this map and sensor pose (world_from_sensor). Only the map must outlive the plan. Throws
+  /// std::invalid_argument unless `current` is finite and rigid up to 1e-3.
   void sync(const OccupancyMap& map, const Pose& current);
-  /// The plan that ends the run or turns the sensor where it stands, if there is nothing to choose from: no target is
-  /// left. Its leftover and its counts are those of the survey.
+  /// If no target is left: the plan that ends the run, or that turns the sensor on the spot. None if there are
+  /// targets. Leftover and counts are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
-  /// Leaves out, for this plan, the targets of a view to which there is no way, and those seen from its place.
-  /// Returns whether there were any.
+  /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
+  /// viewpoint. Returns whether there were any.
   bool drop(const TargetView& view);
-  /// Remembers that this plan was made.
+  /// Stores this plan for the next `sync`. `hoped`: see TriedViews::expect.
   void remember(const Plan& plan, std::vector<VoxelIndex> hoped);
 
-  /// What every planner needs to know of the robot.
+  /// The setup of the planner.
   [[nodiscard]] const PlannerSetup& setup() const { return setup_; }
-  /// What carries the sensor.
+  /// The body that carries the sensor.
   [[nodiscard]] const Platform& platform() const { return *setup_.platform; }
-  /// What it sees.
+  /// The sensor model.
   [[nodiscard]] const RangeSensor& sensor() const { return setup_.sensor; }
   /// The map of the last `sync`.
   [[nodiscard]] const OccupancyMap& map() const { return *map_; }
-  /// The sensor's pose at the last `sync`, its rotation orthonormal.
+  /// The sensor pose (world_from_sensor) of the last `sync`, with an orthonormal rotation.
   [[nodiscard]] const Pose& current() const { return current_; }
-  /// Reachable space, observable frontier cells and where to see them from.
+  /// Reachable space and observable frontier cells with their viewpoints.
   [[nodiscard]] const FrontierSurvey& survey() const { return survey_; }
-  /// The cells the platform can bring the sensor to.
+  /// The cells to which the platform can bring the sensor.
   [[nodiscard]] const ReachableSpace& reachable() const { return survey_.reachable; }
-  /// Frontier cells and their clusters, kept by the map's change log.
+  /// Frontier cells and their clusters.
   [[nodiscard]] const FrontierTracker& frontier() const { return *frontier_; }
-  /// What was tried and what came of it.
+  /// The memory of tried views.
   [[nodiscard]] const TriedViews& tried() const { return tried_; }
-  /// How following the last plan ended.
+  /// Stores how following the last plan ended.
   void report(GoalResult result) { tried_.report(result); }
-  /// Rays in the map of the last `sync`, and those of the sensor, as dense as the map's cells ask for. Following the
-  /// map costs something: only strategies that cast rays ask. The first call after a `sync` follows the map, later
-  /// ones may come from several threads.
+  /// Casts rays through the map of the last `sync`. The first call of `caster` or `rays` after a `sync` updates the
+  /// caster, which has a cost; later calls may come from several threads.
   [[nodiscard]] const RayCaster& caster() const;
-  /// The rays of the sensor.
+  /// The rays of the sensor, as dense as the cells of the map require.
   [[nodiscard]] const ViewRays& rays() const;
-  /// The plan with the counts of the survey filled in, and nothing chosen.
+  /// A plan that contains the counts of the survey and no choice.
   [[nodiscard]] Plan open_plan() const;
 
  private:
@@ -87,7 +100,7 @@ class Situation {
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;
   mutable FollowingCaster looking_;
-  mutable bool looking_follows_ = false;  // the map of the last sync
+  mutable bool looking_follows_ = false;  // whether looking_ is up to date with the map of the last sync
   double sync_ms_ = 0.0;
 };
 

@@ -11,20 +11,21 @@ namespace VANTAGE_EXPORT vantage {
 
 class Situation;
 
-/// A view and what it is meant to resolve.
+/// A view and the cells that it is to resolve.
 struct TargetView {
-  View view;                             ///< utility: the number of frontier targets seen
-  std::vector<VoxelIndex> unknown = {};  ///< their unknown cells, in the order of the survey's targets
-  /// Unknown cells that it may resolve besides; they were looked at in vain if it resolves none of them.
+  View view;                             ///< its utility is the number of targets seen, unless a planner replaces it
+  std::vector<VoxelIndex> unknown = {};  ///< the unknown cells of these targets, in the order of the survey
+  /// More unknown cells that it may resolve. They count as looked at in vain only if it resolves none of them.
   std::vector<VoxelIndex> hoped = {};
 };
 
-/// What a given pose sees of the targets of the situation's survey, no further off than the sensor resolves cells of
-/// the map (RangeSensor::resolving_range_m). `operations` counts the cells that lines of sight visit.
+/// The targets of the survey that the sensor sees from `pose` (world_from_sensor), within its range and within the
+/// range in which it resolves cells of the map (RangeSensor::resolving_range_m). Adds the number of visited cells to
+/// `operations`.
 [[nodiscard]] TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::uint64_t& operations);
 
-/// The pose at the viewpoint of `wanted` that sees `wanted` and, of the orientations tried, most other targets too
-/// that are near enough to be resolved.
+/// A view from the viewpoint of `wanted` that sees `wanted` and, among the orientations tried, the largest number of
+/// other targets within the resolving range. Adds the number of visited cells to `operations`.
 [[nodiscard]] TargetView view_of_target(const Situation& situation, const FrontierTarget& wanted,
                                         std::uint64_t& operations);
 

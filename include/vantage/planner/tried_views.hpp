@@ -17,75 +17,88 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A way's length in metres plus its turn in radians: what shrinks while a robot follows it.
+/// Length of a path in metres plus the angle between the first and the last optical axis in radians. It shrinks while
+/// a robot follows the path.
 [[nodiscard]] double way_of(const std::vector<Pose>& path);
 
-/// When a goal counts as reached, and when evidence suffices.
+/// When a goal counts as reached, and when a cell is given up.
 struct TriedViewsOptions {
-  double goal_tolerance_m = 0.3;     ///< how far from the goal a robot may stop, metres, >= 0
-  double goal_tolerance_rad = 0.35;  ///< how far its optical axis may be turned from the goal's, radians, >= 0
-  int patience = 2;                  ///< places that differ from which a cell is looked at in vain, >= 1
+  double goal_tolerance_m = 0.3;     ///< allowed distance from the goal, metres, >= 0
+  double goal_tolerance_rad = 0.35;  ///< allowed angle between the optical axes, radians, >= 0
+  int patience = 2;  ///< different places from which a cell is looked at in vain before it is given up, >= 1
 };
 
-/// What the sensor has tried, and what came of it: the only memory of a planner beside the map, so that it neither
-/// stares at what its sensor cannot measure nor sends the robot for ever where the robot cannot go.
+/// Remembers which views were tried and what they resolved. This is the only state of a planner beside the map. With
+/// it, a planner does not look forever at cells that its sensor cannot measure, and does not send the robot forever
+/// to places that it cannot reach.
 ///
-/// **Looked at in vain.** An unknown cell was looked at in vain from a place if it is still unknown after a scan from
-/// there that should have resolved it: it was what a plan sought, or in plain sight and near enough. It is given up
-/// after `patience` such looks from places that differ. Two places differ, as seen from a cell, if they are further
-/// apart than half of the shorter distance to the cell: another direction, or half as far. The evidence ends when the
-/// cell becomes known, or one more of its face neighbours does.
+/// **Evidence about an unknown cell.** A cell was looked at in vain from a place if it is still unknown after a scan
+/// there that should have resolved it: the plan sought it, or it was in clear line of sight and near enough.
 ///
-/// This alone ends runs where a surface wears away and comes back: rays that meet it at a small angle clear some of
-/// its cells, and unknown cells inside of it become targets until a view from the front closes it again. Each such
-/// cell takes part in at most `patience` looks, and no more after that, whatever its neighbours' states do: what is
-/// known only grows, so a cell gets at most six further chances.
+///       cell becomes known, or one more face neighbour does: evidence is deleted
+///        <----------------------------------------------------------+
+///        |                                                          |
+///     no evidence --- look in vain ---> tried --- `patience` looks from different places ---> given up
 ///
-/// **Places that could not be reached.** A goal that the robot failed to reach (GoalResult::Failed, or it came no
-/// nearer while the map has grown twice) rests, with the places within the goal tolerance of it, for 8 plans, twice
-/// as long after every further failure. When nothing else is left to go for, it is tried again, three times in all.
+/// Two places differ, as seen from a cell, if the distance between them is more than half of the shorter distance to
+/// the cell. A goal from which the cell was sought but not in view when the robot stopped is stored as missed: the
+/// cell is not sought from there again, and it is also given up after 2 * `patience` looks and misses together.
 ///
-/// All of it belongs to one map, and is bounded: the oldest evidence is dropped first.
+/// This ends runs in which a surface wears away: rays at a small angle clear some of its cells, and unknown cells
+/// behind them become targets until a view from the front closes the surface again. The number of known neighbours
+/// only grows, whatever their states, so a cell gets at most six further chances.
+///
+/// **Places that could not be reached.** A place fails if the host reports GoalResult::Failed, or if the robot came
+/// no nearer while the map has changed twice.
+///
+///     asked for --- fails ---> rests 8 plans (then 16, 32, ...) ---> may be asked for again
+///                                |
+///                                +--- no other target is left: allowed again at once, until the third failure
+///
+/// A place rests together with all places within the goal tolerance.
+///
+/// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first.
 class TriedViews {
  public:
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option.
   explicit TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options = {});
 
-  // --- what the planner tells
-  /// A view from `goal` was asked for, at the end of a way of `way` (see way_of). It
-  /// is to resolve the cells `sought`, and may resolve some of `hoped`: these are looked at in vain, too, if it
+  // --- input from the planner
+  /// Stores that a view from `goal` (world_from_sensor) was planned, at the end of a path whose way_of is `way`. It
+  /// is to resolve the cells `sought`. It may resolve some of `hoped`: they count as looked at in vain only if it
   /// resolves none of them.
   void expect(const OccupancyMap& map, const Pose& goal, double way, std::vector<VoxelIndex> sought,
               std::vector<VoxelIndex> hoped = {});
-  /// How following the plan ended, if the host tells.
+  /// Stores how following the plan ended, if the host reports it. Used by the next `review`.
   void report(GoalResult result) { reported_ = result; }
-  /// Looks at the map now, with the sensor at `current`, and at what became of the view that was asked for last.
-  /// Returns whether a scan was taken since the last call, so that what is in sight of `current` is evidence. A
-  /// second call without a change of the map does nothing.
+  /// Compares the current map, with the sensor at `current` (world_from_sensor), with what the last view was to
+  /// resolve. Starts with an empty memory if the map is another one. Returns whether a scan was taken in the same map
+  /// since the last call, so that unknown cells in sight of `current` are evidence. Without a change of the map, a
+  /// call has an effect only after GoalResult::Failed.
   bool review(const OccupancyMap& map, const Pose& current);
-  /// This cell was in plain sight of `place`, near enough to be resolved, and is unknown after the scan.
+  /// Stores evidence: the cell was in clear line of sight of `place` and near enough, and is unknown after the scan.
   void in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place);
-  /// Lets places be tried again that rest after fewer than three failures. Returns whether there were any.
+  /// Ends the rest of all places that failed fewer than three times. Returns whether there were any.
   bool try_resting_again();
 
-  // --- what it knows
-  /// Whether any view of this unknown cell was in vain.
+  // --- queries
+  /// Whether there is any evidence about this unknown cell.
   [[nodiscard]] bool tried(const VoxelIndex& unknown) const { return looks_at(unknown) != nullptr; }
-  /// Whether one was from here, or from a place that does not differ.
+  /// Whether it was looked at in vain from this place or from one that does not differ, or missed from this place.
   [[nodiscard]] bool tried_from(const VoxelIndex& unknown, const VoxelIndex& place) const;
-  /// Whether the evidence suffices.
+  /// Whether the evidence suffices to give the cell up.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
-  /// Whether the robot failed to get to this place, and it is not to be tried now.
+  /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.
   [[nodiscard]] bool any_rests() const { return !resting_.empty(); }
-  /// Places that the robot failed three times to get to.
+  /// The number of resting places that failed three times.
   [[nodiscard]] std::size_t places_given_up() const;
-  /// The poses of the latest scans, the latest last.
+  /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.
   [[nodiscard]] const std::deque<Pose>& scanned_from() const { return scanned_from_; }
-  /// How many cells were looked at in vain at least once.
+  /// The number of cells with evidence.
   [[nodiscard]] std::size_t size() const { return looks_.size(); }
-  /// The options it was made with.
+  /// The options of the constructor.
   [[nodiscard]] const TriedViewsOptions& options() const { return options_; }
 
  private:
@@ -95,24 +108,24 @@ class TriedViews {
     std::vector<VoxelIndex> sought;
     std::vector<VoxelIndex> hoped;
   };
-  // At one unknown cell.
+  // Evidence about one unknown cell.
   struct Looks {
     std::vector<VoxelIndex> in_vain;  // places that differ
     std::vector<VoxelIndex> missed;   // goals from which the cell was sought, but not in view when the robot stopped
-    int known_neighbours = 0;         // when the latest look was taken
-    std::uint64_t latest = 0;         // its plan
+    int known_neighbours = 0;         // at the latest look
+    std::uint64_t latest = 0;         // number of the plan of the latest look
   };
-  // A goal that was asked for.
+  // A goal that was planned.
   struct Place {
     VoxelIndex cell;
-    double nearest_way = 0.0;  // of all times it was asked for
-    int no_nearer = 0;         // times in a row that the map had grown, but the way was no shorter
+    double nearest_way = 0.0;  // shortest way_of of all plans to it
+    int no_nearer = 0;         // consecutive plans after a change of the map in which the way was no shorter
     int failures = 0;
-    std::uint64_t rests_until = 0;  // this plan
+    std::uint64_t rests_until = 0;  // number of a plan
     OccupancyMap::Revision revision = 0;
   };
-  // Planners ask millions of times and hardly any cell was looked at in vain: a bit that all cells share whose
-  // coordinates are the same modulo its size answers for most.
+  // A filter in front of the hash map, because planners ask millions of times and few cells have evidence: one bit
+  // for all cells with the same coordinates modulo 128 x 128 x 64.
   class MayHold {
    public:
     void insert(const VoxelIndex& cell) {
@@ -125,14 +138,14 @@ class TriedViews {
     }
 
    private:
-    static constexpr std::size_t kWords = std::size_t{2} * 128 * 64;  // 128 x 128 x 64 cells
+    static constexpr std::size_t kWords = std::size_t{2} * 128 * 64;  // 128 x 128 x 64 bits
     static std::size_t word_of(const VoxelIndex& cell) {
       return (static_cast<std::size_t>(cell.z & 63) * 128 + static_cast<std::size_t>(cell.y & 127)) * 2 +
              static_cast<std::size_t>(cell.x >> 6 & 1);
     }
     static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (cell.x & 63); }
 
-    std::vector<std::uint64_t> bits_;  // none until there is a cell
+    std::vector<std::uint64_t> bits_;  // empty until the first cell is inserted
   };
 
   [[nodiscard]] const Looks* looks_at(const VoxelIndex& unknown) const;
@@ -148,15 +161,15 @@ class TriedViews {
 
   RangeSensor sensor_;
   TriedViewsOptions options_;
-  KnownMap map_;  // that was reviewed last
+  KnownMap map_;  // of the last review
   double cell_m_ = 0.0;
   OccupancyMap::Revision reviewed_ = 0;
-  std::uint64_t plans_ = 0;  // reviewed after a change of the map
+  std::uint64_t plans_ = 0;  // number of reviews after a change of the map
   std::optional<Expectation> expected_;
   std::optional<GoalResult> reported_;
   std::unordered_map<VoxelIndex, Looks> looks_;
   MayHold may_hold_;
-  std::deque<Place> places_;  // goals asked for, the latest last
+  std::deque<Place> places_;  // planned goals, the newest last
   std::vector<VoxelIndex> resting_;
   std::deque<Pose> scanned_from_;
 };

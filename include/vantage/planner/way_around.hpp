@@ -11,8 +11,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A way between two views of an object: straight, or an arc about its middle where the platform can go that way, for
-/// that is soon known; else by the platform's own search. None if it finds none.
+/// A path between two views of an object, as poses joined by admitted motions. Tries the straight motion first, then
+/// an arc around `middle` (metres, world), because both are quickly checked, then the platform's own path search.
+/// None if all fail.
 [[nodiscard]] std::optional<std::vector<Pose>> way_around(const OccupancyMap& map, const Platform& platform,
                                                           const Pose& from, const Pose& to,
                                                           const Eigen::Vector3d& middle);

@@ -9,24 +9,23 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The known cells of a map that a platform admits (Platform::admits_cell), kept up to date by what is written to the
-/// map.
+/// The known cells of a map that a platform admits (Platform::admits_cell), updated from the change log of the map.
 ///
 ///     AdmittedCells admitted;
 ///     map.insert(scan);
-///     admitted.follow(map, platform);  // costs what the scan changed
+///     admitted.follow(map, platform);  // the cost follows what the scan changed
 ///     const ReachableSpace space(map, platform, pose, admitted);
 ///
-/// At every moment it holds what a new one would, whatever the way by which the map came there.
+/// The content is always the same as that of a new object that follows the map once.
 class AdmittedCells {
  public:
-  /// Brings it up to date. Another map or another platform than the last is taken from its beginning; cells are asked
-  /// again only where one no further off than Platform::reach_m has become clear, or is clear no more.
+  /// Updates the content. Starts anew if the map or the platform is another one than in the last call. Otherwise only
+  /// cells within Platform::reach_m of a cell that became clear or stopped being clear are tested again.
   void follow(const OccupancyMap& map, const Platform& platform);
 
-  /// The cells.
+  /// The admitted cells.
   [[nodiscard]] const BrickSet& cells() const { return cells_; }
-  /// Whether the platform admits a cell.
+  /// Whether the platform admits a known cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const { return cells_.contains(cell); }
 
  private:
@@ -35,7 +34,7 @@ class AdmittedCells {
   KnownMap map_;
   const Platform* platform_ = nullptr;
   OccupancyMap::Revision followed_ = 0;
-  BrickSet clear_;  // what bodies may touch, as followed last
+  BrickSet clear_;  // clear cells at the last follow
   BrickSet cells_;
 };
 

@@ -15,72 +15,73 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The values a joint can take, radians or metres.
+/// Range of a joint, radians or metres.
 struct JointRange {
   double min = 0.0;  ///< lowest value
   double max = 0.0;  ///< highest value, >= min
 };
 
-/// Where the sensor is when the joints have these values, `base_from_sensor`; none where the robot cannot take them
-/// (it would touch itself, say).
+/// Forward kinematics: the sensor pose `base_from_sensor` for these joint values. None if the configuration is not
+/// valid, e.g. because of a self-collision.
 using ForwardKinematics = std::function<std::optional<Pose>(std::span<const double> joints)>;
 
-/// How a CapabilityMap is made.
+/// Options of a CapabilityMap.
 struct CapabilityMapOptions {
-  double cell_m = 0.05;  ///< edge of a cell of positions, > 0
-  /// Directions are told apart by a grid of this many by this many on each side of a cube, in [1, 32]: 4 makes 96
-  /// bins of about 20 degrees.
+  double cell_m = 0.05;  ///< edge of a position cell, metres, > 0
+  /// Direction bins along each edge of each face of a cube, in [1, 32]. 4 gives 96 bins of about 20 degrees.
   int direction_bins_per_edge = 4;
   std::size_t samples = 200'000;  ///< configurations drawn, > 0
-  std::uint64_t seed = 1;         ///< of the drawing
+  std::uint64_t seed = 1;         ///< seed of the random configurations
 };
 
-/// What a kinematic chain can do with its sensor, asked without inverse kinematics: for each cell of positions in the
-/// base's frame, the directions in which the sensor was found able to look there (Zacharias, Borst & Hirzinger 2007,
-/// as Dornhege & Kleiner 2011 use it). It is filled from configurations drawn at random, so what it holds can be
-/// done, up to the size of a cell and a bin; what it does not hold was never drawn.
+/// The directions in which a kinematic chain can point its sensor at each position, without inverse kinematics.
+/// Positions are cells and directions are bins, both in the frame of the robot's base. The map is filled from random
+/// configurations: what it contains is feasible up to the size of a cell and a bin; what it does not contain may be
+/// feasible but was not drawn.
 ///
 ///     const CapabilityMap map(forward, ranges, {.cell_m = 0.025});
 ///     if (map.contains(position, direction)) ...
+///
+/// (Zacharias, Borst & Hirzinger 2007, as used by Dornhege & Kleiner 2011.)
 class CapabilityMap {
  public:
-  /// Draws each joint evenly from its range. Throws std::invalid_argument naming the option at fault, or if there is
-  /// no joint, a range is empty, or no configuration drawn can be taken.
+  /// Draws each joint uniformly from its range. Throws std::invalid_argument, which names the invalid option, or if
+  /// there is no joint, a range is not finite or has min > max, or no drawn configuration is valid.
   CapabilityMap(const ForwardKinematics& forward, std::span<const JointRange> ranges,
                 const CapabilityMapOptions& options = {});
 
-  /// Reads what `save` wrote. Throws std::runtime_error naming the path and what is wrong.
+  /// Reads a file of `save`. Throws std::runtime_error with the path and the problem.
   [[nodiscard]] static CapabilityMap load(const std::filesystem::path& path);
-  /// Writes the map to a file, replacing it. Throws std::runtime_error naming the path if it cannot be written.
+  /// Writes the map to a file and replaces an existing one. Throws std::runtime_error with the path if that fails.
   void save(const std::filesystem::path& path) const;
 
-  /// The options it was made with.
+  /// The options of the constructor.
   [[nodiscard]] const CapabilityMapOptions& options() const { return options_; }
-  /// Where cells lie in the base's frame.
+  /// The grid of position cells in the base frame.
   [[nodiscard]] VoxelFrame frame() const { return {options_.cell_m}; }
-  /// The smallest box that holds every cell the sensor can be in.
+  /// Bounding box of all cells in which the sensor was found.
   [[nodiscard]] const VoxelBox& cells() const { return cells_; }
 
-  /// Whether the sensor can be in this cell, looking somewhere.
+  /// Whether the sensor can be in this cell, in any direction.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const { return directions_in(cell) > 0; }
-  /// Whether the sensor can be in the cell of `position_m` and look into the bin of `direction` (any non-zero length)
-  /// there; both in the base's frame.
+  /// Whether the sensor can be in the cell of `position_m` (metres) and look into the bin of `direction` (any length)
+  /// there; both in the base frame. False if one is not finite or the direction is zero.
   [[nodiscard]] bool contains(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const;
-  /// How many bins of directions the sensor can look into in this cell.
+  /// Number of direction bins in which the sensor can look in this cell.
   [[nodiscard]] std::size_t directions_in(const VoxelIndex& cell) const;
-  /// Unit vectors to the middles of these bins, in the order of their numbers.
+  /// Unit vectors to the centres of these bins, in the base frame, by ascending bin.
   [[nodiscard]] std::vector<Eigen::Vector3d> directions_at(const VoxelIndex& cell) const;
-  /// How many cells the sensor can be in.
+  /// Number of cells in which the sensor can be.
   [[nodiscard]] std::size_t reachable_cells() const;
 
-  /// How many bins of directions there are: six sides of a cube.
+  /// Number of direction bins: 6 * direction_bins_per_edge^2.
   [[nodiscard]] std::size_t bin_count() const;
-  /// The bin of a direction (any non-zero length).
+  /// The bin of a direction (any non-zero length) in the base frame.
   [[nodiscard]] std::size_t bin_of(const Eigen::Vector3d& direction) const;
-  /// Unit vector to the middle of a bin, which must be below `bin_count()`.
+  /// Unit vector to the centre of a bin, in the base frame. `bin` must be below `bin_count()`.
   [[nodiscard]] Eigen::Vector3d middle_of(std::size_t bin) const;
 
-  /// The same options, cells and directions.
+  /// Compares options, cells and directions.
   [[nodiscard]] bool operator==(const CapabilityMap& other) const;
 
  private:
@@ -90,7 +91,8 @@ class CapabilityMap {
 
   CapabilityMapOptions options_;
   VoxelBox cells_;
-  std::vector<std::uint64_t> bits_;  // words_per_cell() for each cell of cells_, x running fastest: a bit per bin
+  std::vector<std::uint64_t>
+      bits_;  // words_per_cell() words for each cell of cells_, x varies fastest; one bit per bin
 };
 
 }  // namespace vantage

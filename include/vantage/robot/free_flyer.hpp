@@ -7,24 +7,27 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The body of a FreeFlyer and how it may move.
+/// Body and motion limits of a FreeFlyer.
 struct FreeFlyerOptions {
-  double radius_m = 0.3;  ///< the body is a sphere about the sensor, in [0, 1000] (0: the sensor's own cell)
-  double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor
-  double max_height_m = std::numeric_limits<double>::infinity();   ///< highest admitted z of the sensor
-  /// Cells this much further off must be free too, in [0, 1000]: a free cell may hold a corner of a wall.
+  /// Radius of the body, a sphere around the sensor, metres, in [0, 1000] (0: the sensor's cell)
+  double radius_m = 0.3;
+  double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor, metres, world
+  double max_height_m = std::numeric_limits<double>::infinity();  ///< highest admitted z of the sensor, metres, world
+  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]: a free cell may contain
+  /// a corner of a wall.
   double margin_m = 0.0;
-  bool yaw_only = false;  ///< the optical axis stays level (a multirotor with a fixed camera, a ground robot)
+  bool yaw_only = false;  ///< true: the optical axis stays horizontal, e.g. a multirotor with a fixed camera
 };
 
-/// A sphere that flies: every cell it touches must be known free and not contested (OccupancyMap::contested).
+/// A flying sphere around the sensor. All cells that it touches must be clear: free and not contested
+/// (OccupancyMap::is_clear).
 class FreeFlyer final : public Platform {
  public:
   FreeFlyer() : FreeFlyer(FreeFlyerOptions{}) {}
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option.
   explicit FreeFlyer(const FreeFlyerOptions& options);
 
-  /// The options it was made with.
+  /// The options of the constructor.
   [[nodiscard]] const FreeFlyerOptions& options() const { return options_; }
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;

@@ -6,23 +6,25 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The body of a GroundRobot.
+/// Body of a GroundRobot.
 struct GroundRobotOptions {
-  double radius_m = 0.3;  ///< the body is a disc about the sensor, in [0, 1000] (0: the sensor's own cell)
-  /// Cells this much further off must be free too, in [0, 1000]: a free cell may hold a corner of a wall.
+  /// Radius of the body, a disc around the sensor, metres, in [0, 1000] (0: the sensor's cell)
+  double radius_m = 0.3;
+  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]: a free cell may contain
+  /// a corner of a wall.
   double margin_m = 0.0;
 };
 
-/// A disc that drives in one layer of cells, its sensor level: for the plane of a HeightBand, in which every cell
-/// speaks for all heights of the robot. Only cells of the sensor's own layer count; each that the disc touches must
-/// be known free and not contested.
+/// A disc that drives in one layer of cells, with a horizontal optical axis. Meant for HeightBand::plane, whose cells
+/// represent all heights of the robot. Only cells in the layer of the sensor count: all that the disc touches must be
+/// clear (free and not contested).
 class GroundRobot final : public Platform {
  public:
   GroundRobot() : GroundRobot(GroundRobotOptions{}) {}
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option.
   explicit GroundRobot(const GroundRobotOptions& options);
 
-  /// The options it was made with.
+  /// The options of the constructor.
   [[nodiscard]] const GroundRobotOptions& options() const { return options_; }
 
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;

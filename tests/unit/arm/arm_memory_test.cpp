@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// What an Arm remembers of maps must not change what it says of them.
+// What an Arm caches about maps must not change its answers.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,7 +25,7 @@ Arm new_arm() {
   return Arm(test::tracked_arm(), options);
 }
 
-// Cells become occupied, free, unknown or contested, more or less of them free with every round.
+// Random changes of cells to occupied, free, unknown or contested; the share of free cells varies by round.
 void change(OccupancyMap& map, std::mt19937_64& engine, int count) {
   std::uniform_int_distribution<std::int32_t> side(-24, 24);
   for (int i = 0; i < count; ++i) {
@@ -64,7 +63,7 @@ void expect_same(const Arm& used, const OccupancyMap& map, std::mt19937_64& engi
   ASSERT_EQ(used.admits_motion(map, from, to), other.admits_motion(map, from, to));
 }
 
-// One arm that is asked about two maps that change, and one of larger cells, in turn, against arms that know nothing.
+// Compares one arm, asked in turn about two changing maps and a map with larger cells, with new arms.
 TEST(ArmMemory, AnArmThatWasAskedBeforeSaysWhatANewOneSays) {
   std::mt19937_64 engine(1);
   const Arm used = new_arm();
@@ -95,7 +94,7 @@ TEST(ArmMemory, ManyThreadsMayAskAtOnce) {
     expected[i] = new_arm().admitted_cells(maps[i], kAsked);
   }
   const Arm arm = new_arm();
-  const Arm copy = arm;  // NOLINT(performance-unnecessary-copy-initialization): copies share what they remember
+  const Arm copy = arm;  // NOLINT(performance-unnecessary-copy-initialization): copies share the cache
   std::array<int, 4> same{};
   std::vector<std::thread> threads;
   for (std::size_t thread = 0; thread < same.size(); ++thread) {

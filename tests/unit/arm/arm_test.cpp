@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kCell = 0.05;
 
-/// The tracked arm, off the origin and turned, with few postures: tests ask for laws, not for reach.
+/// The arm of tests/support, moved and turned, with few postures to be fast.
 ArmOptions few_postures() {
   ArmOptions options;
   options.world_from_base = Eigen::Translation3d(0.1, -0.2, 0.05) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ());
@@ -30,14 +30,14 @@ const Arm& arm() {
   return one;
 }
 
-/// All free around the arm.
+/// A map with free space all around the arm.
 OccupancyMap free_space() {
   OccupancyMap map({.resolution_m = kCell});
   map.assume_free({{-1.6, -1.6, -1.0}, {1.6, 1.6, 1.8}});
   return map;
 }
 
-/// The same with single cells knocked out: occupied, unknown or contested.
+/// As above, with single cells occupied, unknown or contested.
 OccupancyMap littered_space(std::mt19937_64& engine, int count) {
   OccupancyMap map = free_space();
   std::uniform_int_distribution<std::int32_t> side(-20, 20);
@@ -52,8 +52,8 @@ OccupancyMap littered_space(std::mt19937_64& engine, int count) {
   return map;
 }
 
-/// The definition, spelled out: points along every moving capsule, and every cell that comes nearer to one of them
-/// than its radius and `fatter_m`.
+/// By definition: sample points along every moving capsule; all cells within its radius plus `fatter_m` must be
+/// clear.
 bool body_is_clear(const OccupancyMap& map, const Joints& joints, double fatter_m) {
   const KinematicChain& chain = arm().chain();
   const std::vector<Pose> links = chain.link_poses(joints);
@@ -193,7 +193,7 @@ TEST(Arm, KnowsAllAdmittedCellsAtOnceAsItKnowsEach) {
   EXPECT_GT(admitted_count, 3000U);
 }
 
-// Every configuration along a path, finer than the path was tested at, is admitted, if the path keeps a margin.
+// If the path keeps a margin, all configurations along it, sampled more finely than in planning, are admitted.
 TEST(Arm, PathsAreAdmittedAllTheWayAndTheSameEveryTime) {
   ArmOptions wary = few_postures();
   wary.margin_m = 0.02;

@@ -27,7 +27,7 @@ Eigen::Vector3d random_place(const VoxelBox& box, std::mt19937_64& engine) {
   return {between(box.lo.x, box.hi.x), between(box.lo.y, box.hi.y), between(box.lo.z, box.hi.z)};
 }
 
-// The definition, sweep by sweep: capsules, spheres at rest and points, thin and thick, in little and in much litter.
+// By definition, sweep by sweep: capsules, spheres at rest and points of various radii, with few and many obstacles.
 TEST(ClearSpace, FindsAnObstacleExactlyWhereTheSweptSphereTouchesOne) {
   std::mt19937_64 engine(1);
   std::size_t clear_count = 0;

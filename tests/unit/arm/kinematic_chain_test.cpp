@@ -71,7 +71,8 @@ TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
   std::mt19937_64 engine(2);
   for (int i = 0; i < 1000; ++i) {
     const Joints q = test::random_joints(chain, engine);
-    Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();  // z forward, x right, y down on a head with x forward
+    // Camera (z forward, x right, y down) on a head with x forward
+    Eigen::Matrix4d camera = Eigen::Matrix4d::Identity();
     camera.topLeftCorner<3, 3>() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
     const Eigen::Matrix4d expected = shift(0, 0, 0.25) * turn(2, q[0]) * shift(0, 0, 0.15) * turn(1, q[1]) *
                                      shift(0, 0, 0.45) * turn(1, q[2]) * shift(0, 0, 0.45) * turn(1, q[3]) *
@@ -80,11 +81,11 @@ TEST(KinematicChain, TheTrackedArmGoesWhereItsFileSays) {
     ASSERT_TRUE(chain.link_poses(q).back().isApprox(chain.sensor_pose(q), 1e-12));
   }
   EXPECT_TRUE(optical_axis(chain.sensor_pose(Joints(5, 0.0))).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
-  // 1 m about its shoulder, as the paper's.
+  // The reach is about 1 m from the shoulder, as in the paper.
   EXPECT_NEAR((chain.sensor_pose(Joints(5, 0.0)).translation() - Eigen::Vector3d(0, 0, 0.4)).norm(), 0.97, 0.03);
 }
 
-// Joints of all kinds, capsules on any link, several or none on one: the body is where the links say.
+// Random chains with all joint types and any number of capsules per link.
 TEST(KinematicChain, TheBodyIsWhereTheLinksAre) {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> any(-1.5, 1.5);
@@ -123,7 +124,7 @@ TEST(KinematicChain, TheBodyIsWhereTheLinksAre) {
   EXPECT_THROW((void)test::tracked_arm().body_at(Joints(4, 0.1)), std::invalid_argument);
 }
 
-// Any number of joints, some of which slide.
+// Random chains with revolute and prismatic joints.
 TEST(KinematicChain, InverseKinematicsTakesAnyChain) {
   std::mt19937_64 engine(8);
   std::uniform_real_distribution<double> any(-1.5, 1.5);
@@ -151,7 +152,7 @@ TEST(KinematicChain, InverseKinematicsTakesAnyChain) {
   }
 }
 
-// Inverse kinematics leads back to the pose, from guesses that are off by up to 0.4 in every joint.
+// Starts from joint values that are off by up to 0.4 each.
 TEST(KinematicChain, InverseKinematicsLeadsBackToThePose) {
   const KinematicChain chain = test::tracked_arm();
   std::mt19937_64 engine(3);
@@ -266,7 +267,7 @@ TEST(KinematicChain, SaysWhatIsWrongWithAFile) {
             "Capsule::link is 3, must be < 3");
 }
 
-// Links in a row, the next one fixed to the one before, after a joint that moves.
+// A URDF with one moving joint, followed by `links` links with fixed joints.
 std::string long_urdf(std::size_t links) {
   std::string text =
       "<robot name='r'><link name='a'/><link name='l0'/><joint name='j' type='continuous'><parent link='a'/>"

@@ -12,7 +12,7 @@ namespace {
 
 const Box kRoom{{0.0, 0.0, 0.0}, {4.0, 4.0, 2.0}};
 
-// A room with two walls across, each with an opening.
+// A room with two walls across it, each with an opening.
 OccupancyMap room_with_walls(std::mt19937& engine) {
   OccupancyMap map({.resolution_m = 0.1, .region = kRoom});
   map.assume_free(kRoom);

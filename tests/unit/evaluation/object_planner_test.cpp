@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-// A camera with an object before it, in free space.
+// A camera in free space in front of an object.
 struct LookedAtObject {
   explicit LookedAtObject(std::string_view name, bool reports_no_return = true)
       : sensor(RangeSensor::pinhole(96, 96, 0.8, 0.8, 0.0, 5.0)), object(generated_object(name, 3)) {
@@ -41,7 +41,7 @@ struct LookedAtObject {
   std::shared_ptr<const FreeFlyer> platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.05});
 };
 
-// What is left when it says that it is done is judged by the truth: no view of the shell shows much that is new.
+// After Explored, the true surface shows whether a view of the sphere would show much more.
 TEST(ObjectPlanner, EndsWhenNoViewWouldShowMore) {
   std::size_t runs = 0;
   for (const std::string_view name : {"chair", "crate", "vase", "banana", "shelf"}) {

@@ -71,7 +71,7 @@ TEST(LaplaceMultigrid, WithoutSinksThereIsNothingToSolve) {
   EXPECT_EQ(field.phi({1, 0, 0}), 1.0);
 }
 
-// A straight corridor: the field is a ramp, through many bricks and below zero.
+// In a straight corridor, the field is linear. It spans many bricks and negative coordinates.
 TEST(LaplaceMultigrid, ACorridorIsARamp) {
   for (const int axis : {0, 1, 2}) {
     const auto at = [&](std::int32_t i) {
@@ -98,7 +98,7 @@ TEST(LaplaceMultigrid, StopsAtItsLimit) {
   EXPECT_GT(field.report().residual, 1e-8);
 }
 
-// Components against those of the list, which finds them cell by cell.
+// Compares the components with those of LaplaceProblem, which searches cell by cell.
 LaplaceDomain::Dropped keep_one(const std::vector<VoxelIndex>& cells, const VoxelIndex& source) {
   LaplaceDomain domain;
   for (const VoxelIndex& cell : cells) {
@@ -121,7 +121,7 @@ TEST(LaplaceDomain, KeepsTheComponentAndCountsTheOthers) {
   std::size_t components = 0;
   for (int world = 0; world < 400 && !HasFailure(); ++world) {
     RandomLaplace random(engine, world % 2 == 0 ? 6 : 40);
-    if (world % 2 != 0) {  // large and thin: many components
+    if (world % 2 != 0) {  // large and sparse: many components
       std::bernoulli_distribution open(0.4);
       std::erase_if(random.cells, [&](const VoxelIndex& cell) { return cell != random.source && !open(engine); });
     }
@@ -134,7 +134,7 @@ TEST(LaplaceDomain, KeepsTheComponentAndCountsTheOthers) {
   EXPECT_GE(components, 1000U);
 }
 
-// A wall a cell thick across everything, with a hole of 2 x 2 cells or without.
+// A wall of one cell across everything, with or without a hole of 2 x 2 cells.
 struct CrossWall {
   std::size_t axis;
   VoxelIndex through;
@@ -148,7 +148,7 @@ struct CrossWall {
   }
 };
 
-// Halls of full bricks between walls.
+// Halls of full bricks with walls between them.
 TEST(LaplaceDomain, KeepsTheHallsThatHangTogether) {
   std::mt19937 engine(44);
   std::uniform_int_distribution<std::int32_t> place(-20, 20);
@@ -194,7 +194,7 @@ TEST(LaplaceDomain, OfAMapHoldsItsFreeCellsAndFrontiers) {
   }
 }
 
-// The field of a robot that drives: certified, and of two dimensions, for nothing flows out of the plane.
+// The field of a ground robot: certified and two-dimensional, because no flow leaves the plane.
 TEST(LaplaceDomain, OfAHeightBandIsAPlane) {
   std::mt19937 engine(43);
   std::uniform_int_distribution<int> draw(0, 99);

@@ -40,7 +40,7 @@ TEST(LaplaceRelaxation, MirrorIsEquationNine) {
   EXPECT_NEAR(phi(2, 2), 0.25 * (2 * phi(1, 2) + 2 * phi(2, 1)), 1e-13);
   EXPECT_NEAR(phi(1, 2), 0.25 * (phi(0, 2) + phi(2, 2) + 2 * phi(1, 1)), 1e-13);
   EXPECT_NEAR(phi(1, 1), 0.25 * (phi(0, 1) + phi(2, 1) + phi(1, 0) + phi(1, 2)), 1e-13);
-  EXPECT_GT(std::abs(phi(1, 2) - phi(1, 1)), 1e-3);  // so the folded term matters
+  EXPECT_GT(std::abs(phi(1, 2) - phi(1, 1)), 1e-3);  // so that the mirrored term has an effect
 }
 
 TEST(LaplaceRelaxation, StopsAtTheSweepLimitAndSaysSo) {

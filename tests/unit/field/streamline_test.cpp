@@ -19,7 +19,7 @@ TEST(Streamline, DescentFallsStrictlyThroughFacesAndEnds) {
   std::size_t stuck = 0;
   for (int world = 0; world < 300; ++world) {
     const LaplaceProblem problem = RandomLaplace(engine).problem();
-    // A handful of sweeps, not a solution: descent must end all the same, and say where.
+    // Descent must also end, and report where, after a few sweeps without convergence.
     const LaplaceSolution rough = relax_laplace(problem, {.max_sweeps = 2});
     const Descent descent = descend(problem, rough.phi, problem.source());
     ASSERT_EQ(descent.cells.front(), problem.source());

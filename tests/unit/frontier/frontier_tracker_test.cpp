@@ -21,7 +21,7 @@ OccupancyMap empty_map(bool with_region) {
   return OccupancyMap(options);
 }
 
-// What happens to a map: boxes become free, occupied or unknown again, and scans come in.
+// Random changes: boxes become free, occupied or unknown, and scans are inserted.
 void change(OccupancyMap& map, std::mt19937& engine) {
   std::uniform_int_distribution<std::int32_t> coordinate(-kExtent, kExtent);
   std::uniform_int_distribution<std::int32_t> extent(1, 14);
@@ -43,7 +43,7 @@ void change(OccupancyMap& map, std::mt19937& engine) {
   for_each_cell(box, [&](const VoxelIndex& cell) { map.set(cell, state); });
 }
 
-// Against extraction and clustering from nothing, after every one of many changes.
+// Compares with full extraction and clustering after each of many changes.
 TEST(FrontierTracker, HoldsWhatExtractionFromNothingFinds) {
   std::mt19937 engine(11);
   constexpr int kWorlds = test::kSanitized ? 12 : 42;
@@ -107,7 +107,7 @@ TEST(FrontierTracker, KnowsTheClusterOfEveryCell) {
   EXPECT_EQ(compared, 20U * 60 * 60 * 60);
 }
 
-// A copy goes its own way, and a tracker that comes late finds the same.
+// A tracker of a copy, and one that starts late, find the same.
 TEST(FrontierTracker, DoesNotDependOnTheWayTheMapCame) {
   std::mt19937 engine(13);
   OccupancyMap map = empty_map(false);
@@ -126,7 +126,7 @@ TEST(FrontierTracker, DoesNotDependOnTheWayTheMapCame) {
   EXPECT_GT(early.cluster_count(), 1U);
 }
 
-// What an update looks at anew follows the change, not the map.
+// The work of an update follows the change, not the size of the map.
 TEST(FrontierTracker, OneCellConcernsAtMostSevenBricks) {
   OccupancyMap map({.resolution_m = 0.1});
   map.assume_free({{-5, -5, -2}, {5, 5, 2}});

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-// A world of known boxes and single cells, around the origin so that negative addresses occur.
+// A map of random boxes and cells around the origin, so that negative coordinates occur.
 OccupancyMap random_map(std::mt19937& engine, bool with_region) {
   OccupancyMapOptions options{.resolution_m = 0.1};
   std::uniform_int_distribution<std::int32_t> coordinate(-14, 14);
@@ -88,7 +88,7 @@ bool neighbours(const VoxelIndex& a, const VoxelIndex& b, Connectivity connectiv
   return furthest == 1 && sum <= limit;
 }
 
-// Flood fill over all pairs: slow and obvious.
+// Slow flood fill over all pairs.
 std::vector<std::vector<VoxelIndex>> flood(const std::vector<VoxelIndex>& cells, Connectivity connectivity) {
   std::vector<bool> seen(cells.size(), false);
   std::vector<std::vector<VoxelIndex>> clusters;
@@ -121,7 +121,7 @@ TEST(Frontiers, ClustersAreThoseOfAFloodFill) {
   std::size_t differing = 0;
   for (int world = 0; world < 40; ++world) {
     const std::vector<VoxelIndex> cells = frontier_cells(random_map(engine, false));
-    // Thin out, so that there are many clusters of every kind.
+    // Keep a fifth of the cells, so that there are many clusters of all shapes.
     std::vector<VoxelIndex> kept;
     std::sample(cells.begin(), cells.end(), std::back_inserter(kept), cells.size() / 5, engine);
     std::vector<VoxelIndex> shuffled = kept;

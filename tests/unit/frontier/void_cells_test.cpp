@@ -62,7 +62,7 @@ TEST(VoidCells, WithoutVolumeThereAreNone) {
   EXPECT_EQ(occupied_hull(map).reason(), "all points lie in one plane");
 }
 
-// Four cells 10 km apart: of the hull, what lies near them counts, and costs.
+// Four cells 10 km apart: only the part of the hull near known cells counts, and only that part takes time.
 TEST(VoidCells, OfAHugeHullAreNearWhatIsKnown) {
   OccupancyMap map({.resolution_m = 0.1});
   const std::vector<VoxelIndex> corners{{0, 0, 0}, {100'000, 0, 0}, {0, 100'000, 0}, {0, 0, 100'000}};
@@ -72,7 +72,7 @@ TEST(VoidCells, OfAHugeHullAreNearWhatIsKnown) {
   const std::vector<VoxelIndex> voids = void_cells(map);
   EXPECT_EQ(count_void_cells(map), voids.size());
   EXPECT_EQ(VoidTracker(map).cells(), voids);
-  // The corner at the origin: all of the tile it lies in and of those beyond, but where the hull ends.
+  // The corner at the origin: all of its tile and of the neighbouring tiles, where they are inside the hull.
   EXPECT_EQ(std::count_if(voids.begin(), voids.end(),
                           [](const VoxelIndex& cell) {
                             return VoxelBox{{0, 0, 0}, {128, 128, 128}}.contains(cell);

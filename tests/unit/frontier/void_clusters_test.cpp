@@ -35,7 +35,8 @@ std::vector<VoxelIndex> joined(std::vector<VoxelIndex> a, const std::vector<Voxe
   return a;
 }
 
-/// Scans into a region whose corners are occupied, so that all of it is in the hull, and a closed chest in it.
+/// Scans in a region with a closed chest. The corners of the region are occupied, so that the hull contains all of
+/// it.
 OccupancyMap random_map(std::mt19937& engine) {
   OccupancyMap map({.resolution_m = 0.1, .region = Box{{-0.8, -0.7, -0.6}, {0.9, 0.8, 0.7}}});
   for (int scan = 0; scan < 3; ++scan) {
@@ -55,7 +56,7 @@ OccupancyMap random_map(std::mt19937& engine) {
 
 std::vector<VoxelIndex> random_voids(std::mt19937& engine) { return void_cells(random_map(engine)); }
 
-/// Eq. 1 and 2 as they are written, over the centres of cells; what makes cells solid is added at the end.
+/// Eq. 1 and 2 as written, over cell centres; the moments of solid cells are added at the end.
 double score_of(const Cells& cells, FitScore kind) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const VoxelIndex& cell : cells) {
@@ -88,7 +89,7 @@ Cells stepped_along(const Cells& region, const Cells& allowed, std::size_t axis)
   return grown;
 }
 
-/// The cluster that grows from `start` in the cells that are left, by sets.
+/// The cluster grown from `start` in the remaining cells, with plain sets.
 Cells grown_from(const VoxelIndex& start, const Cells& left, const VoidClusterOptions& options) {
   for (Cells region{start};;) {
     Cells grown = region;
@@ -118,13 +119,13 @@ TEST(VoidClusters, GrowAsTheDefinitionSaysCellByCell) {
   for (int round = 0; round < 16; ++round) {
     std::vector<VoxelIndex> cells = random_voids(engine);
     if (round % 2 == 1) {
-      cells.push_back({100'000, -70'000, 5});  // no box holds them tightly
+      cells.push_back({100'000, -70'000, 5});  // a far cell, so that the bounding box is sparse
     }
     const VoidClusterOptions options{.score = round % 4 == 3 ? FitScore::Literal : FitScore::VolumeRatio,
                                      .min_score = round % 4 == 3 ? 3e4 : 0.4123 + 0.1 * (round % 3),
                                      .seed = engine()};
     const VoidClusters voids = cluster_void_cells(cells, kFrame, options);
-    const std::vector<Cells> members = members_of(voids, cells);  // throws where a cell has no cluster
+    const std::vector<Cells> members = members_of(voids, cells);  // throws if a cell has no cluster
     Cells left(cells.begin(), cells.end());
     for (std::size_t i = 0; i < members.size(); ++i) {
       const VoidCluster& cluster = voids.clusters()[i];
@@ -145,7 +146,7 @@ TEST(VoidClusters, GrowAsTheDefinitionSaysCellByCell) {
   EXPECT_GT(cells_seen, 30'000U);
 }
 
-/// A hall with pillars and a wall across it, or cut short at a slant: voids of many layers.
+/// A hall with pillars and a wall across it, or with a slanted end, so that voids have many layers.
 std::vector<VoxelIndex> random_hall(std::mt19937& engine) {
   const auto draw = [&](std::int32_t count) { return static_cast<std::int32_t>(engine() % 1000) % count; };
   std::vector<VoxelIndex> cells = box({}, {18 + draw(12), 10 + draw(8), 5 + draw(5)});

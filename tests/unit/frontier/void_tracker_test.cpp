@@ -17,8 +17,8 @@ VoxelIndex cell_at(const Eigen::Vector3d& corner) {
   return {whole(corner.x()), whole(corner.y()), whole(corner.z())};
 }
 
-// What happens to a map: scans come in, from ever further away, cells at the rim of all that is occupied become
-// free, and boxes become free or unknown again.
+// Random changes: scans from increasing distances, cells at the border of the occupied ones become free, boxes become
+// free or unknown.
 void change(OccupancyMap& map, int step, std::mt19937& engine) {
   std::uniform_int_distribution<std::int32_t> coordinate(-kHalfExtent, kHalfExtent);
   const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
@@ -45,7 +45,7 @@ void change(OccupancyMap& map, int step, std::mt19937& engine) {
   }
 }
 
-// Against extraction from nothing, after every one of many changes.
+// Compares with full extraction after each of many changes.
 TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
   std::mt19937 engine(71);
   std::size_t compared = 0;
@@ -94,7 +94,8 @@ TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
   EXPECT_GT(hulls_shrunk, 10U);
 }
 
-// Points, lines and planes of occupied cells span nothing, until one lies beside them; and then they may again.
+// Points, lines and planes of occupied cells have no volume until a cell is added beside them, and again after it is
+// removed.
 TEST(VoidTracker, KeepsUpWithCloudsWithoutVolume) {
   OccupancyMap map({.resolution_m = 0.1});
   VoidTracker tracker(map);

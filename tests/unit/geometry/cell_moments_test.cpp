@@ -17,7 +17,7 @@ CellMoments moments_of(const std::vector<VoxelIndex>& cells, const VoxelIndex& o
   return moments;
 }
 
-// Against sums over the centres of cells, about their mean, wherever the sums start and whatever went in and out.
+// Compares with sums over cell centres about their mean, for any origin and after any additions and removals.
 TEST(CellMoments, AreTheMeanAndCovarianceOfSolidCells) {
   std::mt19937 engine(5);
   std::uniform_int_distribution<std::int32_t> coordinate(-300, 300);
@@ -62,7 +62,7 @@ TEST(Ellipsoid, LiesAlongItsCellsTheLongestAxisFirst) {
   std::vector<VoxelIndex> cells;
   for_each_cell({{0, 0, 0}, {4, 20, 10}}, [&](const VoxelIndex& cell) { cells.push_back(cell); });
   const Ellipsoid box = moments_of(cells, {}).ellipsoid(kLattice);
-  const double share = std::sqrt(5.0 / 12.0);  // of the side of a box: its variance is side^2 / 12
+  const double share = std::sqrt(5.0 / 12.0);  // of the side of a box, whose variance is side^2 / 12
   EXPECT_TRUE(box.semi_axes_m.isApprox(share * Eigen::Vector3d(2.0, 1.0, 0.4), 1e-9));
   EXPECT_NEAR(std::abs(box.axes(1, 0)), 1.0, 1e-9);
   EXPECT_NEAR(std::abs(box.axes(2, 1)), 1.0, 1e-9);

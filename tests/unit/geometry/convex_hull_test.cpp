@@ -11,8 +11,8 @@
 namespace vantage {
 namespace {
 
-// Independent of any hull: the corners of a tetrahedron hold what has barycentric weights >= 0, and a point is in the
-// hull of a small cloud exactly when one of its tetrahedra holds it (Caratheodory).
+// Independent definition of a hull: a tetrahedron contains a point if its barycentric weights are >= 0, and the hull
+// of a small cloud contains a point exactly if one of its tetrahedra does (Caratheodory).
 bool in_some_tetrahedron(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& point) {
   for (std::size_t a = 0; a < points.size(); ++a) {
     for (std::size_t b = a + 1; b < points.size(); ++b) {

@@ -17,7 +17,7 @@ std::vector<Eigen::Vector3d> as_points(const std::vector<VoxelIndex>& cells) {
   return points;
 }
 
-// Clouds as maps have them: whole walls in one plane, edges of many cells, scattered cells, and cells far away.
+// Clouds as they occur in maps: walls in one plane, edges of many cells, scattered cells and distant cells.
 std::vector<VoxelIndex> cloud(int kind, std::mt19937& engine) {
   std::uniform_int_distribution<std::int32_t> near(-9, 9);
   std::uniform_int_distribution<std::int32_t> far(-4'000, 4'000);
@@ -40,7 +40,7 @@ std::vector<VoxelIndex> cloud(int kind, std::mt19937& engine) {
   return cells;
 }
 
-// Every plane of either hull is one of the other's.
+// Expects each plane of one hull to be a plane of the other.
 void expect_same_planes(const LatticeHull& ours, const ConvexHull& theirs) {
   for (const LatticeHull::Plane& exact : ours.planes()) {
     const ConvexHull::Plane plane = exact.plane();
@@ -56,7 +56,7 @@ void expect_same_planes(const LatticeHull& ours, const ConvexHull& theirs) {
   }
 }
 
-// Against Qhull: the same planes, and corners that are corners there.
+// Compares planes and corners with Qhull.
 TEST(LatticeHull, HasThePlanesThatQhullFinds) {
   std::mt19937 engine(5);
   std::size_t compared = 0;
@@ -75,7 +75,7 @@ TEST(LatticeHull, HasThePlanesThatQhullFinds) {
   EXPECT_EQ(compared, 200U);
 }
 
-// Grown bit by bit, in any order, it is the hull of all; and its corners alone have the same.
+// Growing in any order gives the hull of all points, and the hull of its corners is the same.
 TEST(LatticeHull, GrowsToTheHullOfAll) {
   std::mt19937 engine(6);
   std::size_t compared = 0;
@@ -115,13 +115,13 @@ TEST(LatticeHull, AWallOfCellsHasFourCorners) {
   EXPECT_FALSE(hull.contains({4, 4, -1}));
 }
 
-// Normals of such a size do not fit 32 bits, nor distances 64.
+// Normals of this size do not fit 32 bits, distances do not fit 64.
 TEST(LatticeHull, IsExactAtTheEndsOfTheMap) {
   constexpr std::int32_t kFar = kFurthestVoxel;
   const LatticeHull hull(std::vector<VoxelIndex>{
       {-kFar, -kFar, kFar}, {kFar, -kFar, -kFar}, {-kFar, kFar, -kFar}, {kFar, kFar, kFar}, {1, 2, 3}});
   EXPECT_EQ(hull.corners().size(), 4U);
-  EXPECT_TRUE(hull.contains({0, 0, kFar}));  // on the edge of two corners
+  EXPECT_TRUE(hull.contains({0, 0, kFar}));  // on the edge between two corners
   EXPECT_FALSE(hull.contains({1, 0, kFar}));
   EXPECT_TRUE(hull.contains({0, 0, kFar - 1}));
 }

@@ -19,7 +19,7 @@ TEST(Orthonormalised, LeavesARigidTransformAsItIs) {
   }
 }
 
-// No rotation is nearer: those a little turned from the answer are further off.
+// Rotations slightly turned from the result must be further away.
 TEST(Orthonormalised, FindsTheNearestRotationOfOneWrittenWithFewDigits) {
   std::mt19937 engine(4);
   std::normal_distribution<double> draw;

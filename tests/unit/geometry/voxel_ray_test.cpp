@@ -9,8 +9,8 @@
 namespace vantage {
 namespace {
 
-// Among the segments are many between cell centres, which pass exactly through edges and corners: there the walk back
-// between the exchanged ends passes other cells.
+// Many segments connect cell centres and pass exactly through edges and corners. There, a ray with exchanged ends
+// visits other cells, but all_from_the_end must not.
 TEST(VoxelRay, FromTheEndPassesTheSameCellsBackwards) {
   const VoxelFrame frame{0.2};
   std::mt19937 engine(5);

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-// Against asking every brick, for boxes of every size and bricks near and far apart.
+// Compares with a test of every brick, for boxes of all sizes and bricks near and far apart.
 TEST(BrickTree, TellsWhetherABoxTouchesABrick) {
   std::mt19937 engine(3);
   std::size_t touched = 0;

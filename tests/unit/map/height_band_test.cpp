@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCell = 0.1;
 
-/// The definition, spelled out, for one column.
+/// The state of one column by definition.
 Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
   int cells = 0;
   int free = 0;
@@ -34,7 +34,7 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
     return Occupancy::Unknown;
   }
   bool all_free = true;
-  bool any = false;  // a step of less than a cell may have no layer
+  bool any = false;  // a step smaller than a cell may have no layer
   for (std::int32_t z = -40; z < 40 && options.floor != FloorRule::Ignored; ++z) {
     const VoxelIndex cell{x, y, z};
     if (map.frame().centre_of(cell).z() >= options.min_height_m ||
@@ -111,7 +111,7 @@ TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
   EXPECT_GT(free, 1000U);
 }
 
-// A hall with a floor, and a pit of 2 m in it that has been looked into.
+// A hall with a floor and a pit of 2 m whose inside was observed.
 TEST(HeightBand, AGroundRobotKeepsOutOfAPit) {
   OccupancyMap map({.resolution_m = kCell});
   map.set_log_odds(VoxelBox{{0, 0, -1}, {40, 30, 0}}, 3.5);
@@ -162,7 +162,7 @@ TEST(HeightBand, TellsOfALookInVainWithoutAChange) {
   band.follow(map);
   EXPECT_EQ(band.plane().revision(), before);
   map.set({3, 3, 30}, Occupancy::Occupied);  // above the band
-  map.set({3, 3, 7}, Occupancy::Occupied);   // above it, too, but in the same brick
+  map.set({3, 3, 7}, Occupancy::Occupied);   // also above the band, but in the same brick
   band.follow(map);
   EXPECT_GT(band.plane().revision(), before);
   EXPECT_TRUE(band.plane().changed_since(before).empty());

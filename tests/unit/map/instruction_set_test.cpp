@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every instruction set that this processor has gives the bits that plain C++ gives.
+// Every instruction set of this processor gives the same bits as plain C++.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ TEST(InstructionSet, MayBeLimitedToOneThatHasAName) {
   }
 }
 
-// Eight rays on the lattice of a window of 512 cells an edge, whose positions are plain coordinates side by side.
+// Eight rays in a window of 512 cells per edge, with plain coordinates as positions.
 RayLanes random_lanes(std::mt19937& engine) {
   RayLanes lanes;
   std::uniform_int_distribution<std::int64_t> time(0, FaceCrossings::kEnd);
@@ -86,7 +86,7 @@ TEST(InstructionSet, LanesWalkAlike) {
   EXPECT_GT(marks, 1'000'000U * instruction_sets().size());
 }
 
-// Coordinates of every size, on and off the lattice, and some that are none.
+// Coordinates of all magnitudes, on and off the lattice, including non-finite ones.
 float random_coordinate(std::mt19937& engine) {
   std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
   constexpr float kInf = std::numeric_limits<float>::infinity();

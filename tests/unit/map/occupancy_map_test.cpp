@@ -37,8 +37,9 @@ TEST(OccupancyMap, KnowsNothingAtFirst) {
   EXPECT_TRUE(map.bounds().empty());
 }
 
-// Against the history of the cell: a free cell is contested exactly when a ray has ended in it since it last was
-// unknown or at the lower clamp. (So few updates cannot add up to a whole number of misses.)
+// Compares with the history of the cell. A free cell is contested exactly if a ray has ended in it since it was last
+// unknown or at the lower clamp. (The number of updates is too small for their sum to equal a whole number of
+// misses.)
 TEST(OccupancyMap, AFreeCellThatWasHitIsContestedUntilItIsFreeForSure) {
   std::mt19937 engine(7);
   const OccupancyMapOptions options;
@@ -104,7 +105,7 @@ TEST(OccupancyMap, LogOddsStayWithinTheClamps) {
   EXPECT_NEAR(map.log_odds({3, 0, 0}).value(), -2.0, 1e-12);
 }
 
-// A depth image of a random scene: every pixel meets one of a few planes, and some have no measurement.
+// A depth image of a random scene: every pixel sees one of three planes, and some have no return.
 Scan random_depth_image(std::mt19937& engine) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Scan scan;
@@ -154,7 +155,7 @@ TEST(OccupancyMap, InsertUpdatesExactlyTheDefinedCellsOfADepthImage) {
     for (const RayPolicy policy : {RayPolicy::EveryReturn, RayPolicy::EachEndCell}) {
       for (const double resolution_m : {0.03, 0.1, 0.37}) {
         cells_compared += test::compare_with_definition(scan, {.resolution_m = resolution_m}, policy);
-        // A region that holds the sensor in about half of the worlds.
+        // The region contains the sensor in about half of the worlds.
         const Box region{{-3.0, -1.5, -0.5}, {0.1, 2.0, 1.7}};
         cells_compared +=
             test::compare_with_definition(scan, {.resolution_m = resolution_m, .region = region}, policy);
@@ -169,7 +170,7 @@ TEST(OccupancyMap, ARayFarBeyondTheOthersIsDrawnLikeThem) {
   Scan scan = random_scan(engine, 50);
   scan.max_range_m = std::numeric_limits<double>::infinity();
   scan.no_return.clear();
-  scan.points.push_back({300.0F, 200.0F, 400.0F});  // a window over this one would be too large
+  scan.points.push_back({300.0F, 200.0F, 400.0F});  // this return makes the window too large
   scan.points.push_back({-3.0F, -200.0F, 400.0F});
   EXPECT_GT(test::compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EveryReturn), 10'000U);
   EXPECT_GT(test::compare_with_definition(scan, {.resolution_m = 0.1}, RayPolicy::EachEndCell), 10'000U);
@@ -324,7 +325,7 @@ TEST(OccupancyMap, IsKnownWhereverItIsMoved) {
   OccupancyMap moved = std::move(map);
   EXPECT_TRUE(known.is(moved));
   EXPECT_FALSE(known.is_in_place(moved));
-  EXPECT_FALSE(known.is(map)) << "moved from";  // NOLINT(bugprone-use-after-move)
+  EXPECT_FALSE(known.is(map)) << "moved from";  // NOLINT(bugprone-use-after-move): tested on purpose
   map = std::move(moved);
   EXPECT_TRUE(known.is_in_place(map));
   map = copy;
@@ -337,7 +338,7 @@ TEST(OccupancyMap, IsKnownWhereverItIsMoved) {
   EXPECT_FALSE(gone.is(*short_lived)) << "another at the same address";
 }
 
-// Rays that are clipped to a small region pass the cells of it that whole rays pass.
+// Rays clipped to a small region visit the same cells of it as complete rays.
 TEST(OccupancyMap, ClipsRaysToItsRegion) {
   std::mt19937 engine(41);
   std::uniform_real_distribution<double> metre(-3.0, 3.0);
@@ -445,7 +446,7 @@ TEST(OccupancyMap, MovedFromIsEmptyWithTheSameOptions) {
   const OccupancyMap taken = std::move(map);
   EXPECT_EQ(taken.counts().free, counts.free);
   EXPECT_TRUE(known.is(taken));
-  EXPECT_FALSE(known.is(map));  // NOLINT(bugprone-use-after-move): that is what is tested
+  EXPECT_FALSE(known.is(map));  // NOLINT(bugprone-use-after-move): tested on purpose
   EXPECT_TRUE(map.bounds().empty());
   EXPECT_EQ(map.revision(), 0U);
   EXPECT_TRUE(map.changed_since(0).empty());

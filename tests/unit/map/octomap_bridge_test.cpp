@@ -30,7 +30,7 @@ Occupancy state_in(const Tree& tree, const VoxelIndex& cell) {
   return node == nullptr ? Occupancy::Unknown : tree.isNodeOccupied(node) ? Occupancy::Occupied : Occupancy::Free;
 }
 
-// How many known cells `tree` has, counted leaf by leaf.
+// Number of known cells of `tree`, counted leaf by leaf.
 template <class Tree>
 std::size_t known_cells(const Tree& tree) {
   std::size_t count = 0;
@@ -138,7 +138,7 @@ TEST(OctomapBridge, OctomapReadsWhatItSaves) {
   EXPECT_GT(compared, 50'000U);
 }
 
-// A tree as a host makes it: OctoMap's own constants, which no step holds exactly.
+// A tree as a host makes it, with OctoMap's own constants, which are not multiples of a step.
 template <class Tree>
 void fill_with_octomaps_constants(Tree& tree, std::mt19937& engine) {
   std::uniform_real_distribution<float> metre(-2.0F, 2.0F);
@@ -206,7 +206,7 @@ TEST(OctomapBridge, ATreesOwnThresholdDecidesWhatIsOccupied) {
   EXPECT_NEAR(import.log_odds_rounding, 0.8, 1e-6);
 }
 
-// Scans of a wall in a tree with other constants: its free cells are free, not contested.
+// Scans of a wall in a tree with other constants: its free cells are not contested.
 TEST(OctomapBridge, FreeCellsOfAnotherBeamModelAreNotContested) {
   octomap::OcTree tree(0.1);
   tree.setProbMiss(0.45);
@@ -281,7 +281,7 @@ TEST(OctomapBridge, NamesTheFileAndWhatIsWrong) {
   complains(head + "id OcTree\nsize 1000000000000\nres 0.1\ndata\n", "ends within node 1");
   complains(head + "id OcTree\nsize 1\nres 0.1\ndata\n" + std::string(2, '\0'), "no children");
   complains(head + "id OcTree\nsize 50\nres 0.1\ndata\n" + std::string(40, '\x03'), "node 17");
-  // One free leaf below the root: an eighth of all there can be.
+  // One free leaf below the root: an eighth of all cells.
   complains(head + "id OcTree\nsize 2\nres 0.1\ndata\n" + std::string("\x01\x00", 2), "max_cells");
   complains(head + "id OcTree\nsize 0\nres 0.1\ndata\nx", "1 bytes follow the last node");
 

@@ -30,7 +30,7 @@ TEST(OptionRule, SaysWhichOptionItsValueAndItsRule) {
   EXPECT_EQ(refusal(std::numeric_limits<double>::quiet_NaN()), "HostOptions::reach_m is nan, must be > 0");
 }
 
-// A value just past its limit must not look like the limit, nor a tiny one like zero.
+// A value just beyond its limit must not print like the limit, nor a tiny value like zero.
 TEST(OptionRule, PrintsEnoughDigitsToTellValuesApart) {
   EXPECT_EQ(refusal(1e-9), "HostOptions::reach_m is 1e-09, must be > 0");
   EXPECT_EQ(refusal(1.0000000000000002), "HostOptions::reach_m is 1.0000000000000002, must be > 0");

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-// Returns how many cells were compared.
+// Returns the number of compared cells.
 std::size_t expect_equal(const OccupancyMap& a, const OccupancyMap& b) {
   std::size_t cells = 0;
   for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
@@ -24,7 +24,7 @@ std::size_t expect_equal(const OccupancyMap& a, const OccupancyMap& b) {
   return cells;
 }
 
-// A loop is closed: poses drifted, and are corrected afterwards.
+// Loop closure: poses have drifted and are corrected later.
 TEST(ScanLog, CorrectedPosesMakeTheMapOfTheRightOnes) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> drift(-0.3, 0.3);
@@ -38,7 +38,7 @@ TEST(ScanLog, CorrectedPosesMakeTheMapOfTheRightOnes) {
       Scan scan = test::random_scan(engine, 80);
       poses.push_back(scan.world_from_sensor);
       right.insert(scan);
-      if (i >= 3) {  // the first ones are right
+      if (i >= 3) {  // the first poses are correct
         scan.world_from_sensor =
             Eigen::Translation3d(drift(engine), drift(engine), drift(engine)) * scan.world_from_sensor;
       }

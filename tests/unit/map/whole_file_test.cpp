@@ -25,7 +25,7 @@ std::string write_error(const std::function<void()>& act) {
   return "";
 }
 
-// While it lives, no file grows beyond so many bytes: as on a disk that is full.
+// Limits the file size during its lifetime, to simulate a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {

@@ -13,7 +13,7 @@ RangeSensor rays_all_around() {
   return RangeSensor::spherical(120, 60, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0);
 }
 
-// A closed room of 12 x 12 x 12 free cells; what lies behind its walls is unknown.
+// A closed room of 12 x 12 x 12 free cells; the space behind the walls is unknown.
 OccupancyMap closed_room() {
   OccupancyMap map({.resolution_m = 0.2});
   for_each_cell({{-1, -1, -1}, {13, 13, 13}}, [&](const VoxelIndex& cell) {
@@ -43,8 +43,8 @@ TEST(FrontierSurvey, AnOpeningOfFreeCellsIsATarget) {
   }
 }
 
-// A sensor to which a ray into the open tells nothing goes for the rim of a wide opening first; where nothing touches
-// a surface, it takes what there is.
+// If rays into open space teach the sensor nothing, the rim of a wide opening comes first. Without any surface, all
+// targets remain.
 TEST(FrontierSurvey, WithoutNoReturnsTheRimOfAnOpeningComesFirst) {
   constexpr VoxelBox kWide{{12, 3, 3}, {13, 9, 9}};
   OccupancyMap map = closed_room();
@@ -63,7 +63,7 @@ TEST(FrontierSurvey, WithoutNoReturnsTheRimOfAnOpeningComesFirst) {
   EXPECT_EQ(survey_of(map).targets.size(), 12U * 12U * 12U - 10U * 10U * 10U);
 }
 
-// Hit once, missed three times: free by 0.35, which no number of misses makes.
+// Hit once, missed three times: free with log-odds -0.35, which is not a multiple of a miss.
 TEST(FrontierSurvey, SightDoesNotPassAContestedWall) {
   OccupancyMap map = closed_room();
   for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set_log_odds(cell, 0.85 - 3 * 0.4); });
@@ -73,14 +73,14 @@ TEST(FrontierSurvey, SightDoesNotPassAContestedWall) {
   EXPECT_EQ(survey.leftover.unobservable + survey.leftover.unreachable, 4U);
 }
 
-// Hit, and missed until it is free for sure: what a cell was before is no reason not to look through it.
+// Hit, then missed until it is certainly free: its earlier state does not matter.
 TEST(FrontierSurvey, AWornCellIsATargetLikeAnyOther) {
   OccupancyMap map = closed_room();
   for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set_log_odds(cell, -2.0); });
   EXPECT_EQ(survey_of(map).targets.size(), 4U);
 }
 
-// One cell of an opening is enough, and it is, too, beside a contested wall.
+// A single cell of an opening is enough, even beside a contested wall.
 TEST(FrontierSurvey, NoClusterIsTooSmall) {
   OccupancyMap map = closed_room();
   map.set(kOpening.lo, Occupancy::Free);
@@ -90,8 +90,8 @@ TEST(FrontierSurvey, NoClusterIsTooSmall) {
   EXPECT_EQ(survey.targets.front().frontier, kOpening.lo);
 }
 
-// What was looked at in vain from places enough is none, and is counted so; a body too large to come near and a view
-// too narrow to look there have causes of their own.
+// Counts by cause: looked at in vain from enough places, unreachable for a large body, unobservable for a narrow
+// view.
 TEST(FrontierSurvey, WhatIsLeftIsCountedByItsCause) {
   OccupancyMap map = closed_room();
   for_each_cell(kOpening, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
@@ -106,7 +106,7 @@ TEST(FrontierSurvey, WhatIsLeftIsCountedByItsCause) {
   const FreeFlyer flyer({.radius_m = 0.1});
   EXPECT_EQ(survey_frontiers(map, flyer, sensor, current, {}, tried).leftover, (Leftover{.in_vain = 4}));
 
-  // A body that stays on the floor, and a view that stays level.
+  // A body that stays near the floor, with a horizontal field of view.
   const RangeSensor level = RangeSensor::spherical(120, 2, 2.0 * std::numbers::pi, 0.01, 0.0, 6.0);
   const FreeFlyer low({.radius_m = 0.1, .max_height_m = 0.25, .yaw_only = true});
   const Pose below = pose_looking({1.1, 1.1, 0.1}, 0.0);

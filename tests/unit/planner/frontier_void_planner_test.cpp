@@ -23,7 +23,7 @@ constexpr std::int32_t kY = 28;
 constexpr std::int32_t kZ = 18;
 const VoxelBox kChest{{18, 12, 4}, {26, 20, 12}};
 
-// A closed room with a chest in it whose side away from the start is open.
+// A closed room with a chest that is open on the side away from the start.
 CellWorld chest_world() {
   CellWorld world{VoxelFrame{0.1}, VoxelGrid<std::uint8_t>({{0, 0, 0}, {kX, kY, kZ}}, 1), {4, 4, 8}};
   const auto fill = [&](const VoxelBox& box, std::uint8_t value) {
@@ -52,7 +52,7 @@ struct Robot {
     for_each_cell(kChest, [&](const VoxelIndex& cell) { unknown += map.at(cell) == Occupancy::Unknown ? 1U : 0U; });
     return unknown;
   }
-  // Plans and goes until the planner says that it is done; the last plan.
+  // Plans and moves until the planner is done. Returns the last plan.
   Plan run(FrontierVoidPlanner& planner) {
     Plan plan = planner.plan(map, pose);
     for (views = 1; plan.outcome == Outcome::Move && views < 150; ++views) {
@@ -124,7 +124,7 @@ double length_m(const std::vector<Pose>& path) {
   return length_m;
 }
 
-// Every finalist's way is looked for; those that resolve no frontier do not count.
+// The path length of every finalist counts; finalists that see no target do not count.
 TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
   constexpr double kCostPerM = 20.0;
   Robot robot;
@@ -152,7 +152,7 @@ TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
   EXPECT_GE(compared, 15U);
 }
 
-// With nothing to pay for the way, a view that climbed sees no less than what it climbed from.
+// Without cost for the distance, a refined view sees at least as much as the original one.
 TEST(FrontierVoidPlanner, ARefinedViewSeesNoLess) {
   Robot robot;
   std::size_t compared = 0;
@@ -221,7 +221,7 @@ TEST(FrontierVoidPlanner, ALevelPlatformStaysLevel) {
   EXPECT_LT(robot.unknown_in_the_chest(), kChest.size() / 10);
 }
 
-// Free space without any obstacle: there is no hull, and so no void.
+// Free space without obstacles has no hull, and so no void.
 TEST(FrontierVoidPlanner, EndsAsThePaperDoesOnlyWhenAsked) {
   Robot robot;
   OccupancyMap open({.resolution_m = 0.1});

@@ -25,7 +25,8 @@ RangeSensor all_around() {
   return sensor;
 }
 
-// A closed box of 20 x 16 x 12 free cells with one opening of 2 x 2 cells in the wall at x = 20; beyond it, unknown.
+// A closed box of 20 x 16 x 12 free cells with an opening of 2 x 2 cells in the wall at x = 20; the space beyond is
+// unknown.
 OccupancyMap box_with_opening() {
   OccupancyMap map({.resolution_m = 0.2});
   for_each_cell({{-1, -1, -1}, {21, 17, 13}}, [&](const VoxelIndex& cell) {
@@ -46,7 +47,7 @@ void expect_admitted(const OccupancyMap& map, const Platform& platform, const Po
   }
 }
 
-// The boundary conditions of the paper (IV-B), and what they are for: the streamline leads to the opening.
+// The boundary conditions of the paper (IV-B) and their purpose: the streamline leads to the opening.
 TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
   const OccupancyMap map = box_with_opening();
   const Pose current = pose_looking({0.5, 0.5, 0.5}, 0.0);
@@ -59,7 +60,7 @@ TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
       ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
       expect_admitted(map, *setup.platform, current, plan);
       EXPECT_LT((plan.goal.pose.translation() - Eigen::Vector3d(4.0, 2.4, 1.2)).norm(), 0.7);
-      EXPECT_GT(optical_axis(plan.goal.pose).x(), 0.5);  // looks out, into the unknown
+      EXPECT_GT(optical_axis(plan.goal.pose).x(), 0.5);  // looks out into the unknown
 
       ASSERT_TRUE(planner.field());
       const HarmonicField& field = *planner.field();
@@ -106,8 +107,8 @@ double length_m(const Plan& plan) {
   return sum_m;
 }
 
-// From every corner of the box: the view is taken where the boundary first comes into sight, so the way is never
-// longer than to the boundary itself.
+// From every corner of the box: the view is taken where the frontier first comes into sight, so the path is never
+// longer than the path to the frontier.
 TEST(HarmonicPlanner, LooksFromTheFirstPlaceThatSeesTheBoundary) {
   const OccupancyMap map = box_with_opening();
   const PlannerSetup setup = setup_with(all_around());
@@ -132,11 +133,11 @@ TEST(HarmonicPlanner, LooksFromTheFirstPlaceThatSeesTheBoundary) {
   EXPECT_GE(shorter, 4U);
 }
 
-// What is near is cleared first, however much more flow a large boundary further off draws.
+// Near frontiers come first, even if a large frontier further away attracts more flow.
 TEST(HarmonicPlanner, ClearsWhatIsNearBeforeItGoesFar) {
   OccupancyMap map = box_with_opening();
   for_each_cell({{20, 2, 2}, {21, 14, 10}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
-  map.set({4, -1, 5}, Occupancy::Free);  // a scrap in the near wall
+  map.set({4, -1, 5}, Occupancy::Free);  // one cell in the near wall
   const Pose current = pose_looking({1.9, 0.9, 1.1}, 0.0);
   HarmonicPlanner near_first(setup_with(all_around()), {.strategy = {.look_early = false}});
   HarmonicPlanner faithful(setup_with(all_around()), {.strategy = HarmonicStrategy::faithful()});
@@ -147,7 +148,7 @@ TEST(HarmonicPlanner, ClearsWhatIsNearBeforeItGoesFar) {
   EXPECT_FALSE(seeks_the_scrap(faithful.plan(map, current)));
 }
 
-// By whatever field, the way down would end there.
+// Descent in any field would end there.
 TEST(HarmonicPlanner, OnePlaceToGoNeedsNoField) {
   OccupancyMap map({.resolution_m = 0.2});
   for_each_cell({{-1, -1, -1}, {21, 17, 13}}, [&](const VoxelIndex& cell) {
@@ -168,7 +169,7 @@ TEST(HarmonicPlanner, OnePlaceToGoNeedsNoField) {
   }
 }
 
-// A height band one cell high makes the problem of the paper's own experiments: a plane.
+// A height band of one cell gives a problem in the plane, as in the experiments of the paper.
 TEST(HarmonicPlanner, APlatformThatKeepsItsHeightSolvesInThePlane) {
   const OccupancyMap map = box_with_opening();
   const Pose current = pose_looking({0.5, 0.5, 1.1}, 0.0);
@@ -264,12 +265,12 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
 struct Travelled {
   Outcome outcome = Outcome::Move;
   double path_m = 0.0;
-  std::size_t looks = 0;  // from where it was
+  std::size_t looks = 0;  // from the current place
   std::size_t plans = 0;
   std::size_t free_cells = 0;
 };
 
-// A camera in the middle of a closed, empty room, followed to the end of its run.
+// Follows a camera from the middle of a closed, empty room to the end of its run.
 Travelled explore_room(const HarmonicStrategy& strategy) {
   constexpr VoxelBox kRoom{{0, 0, 0}, {20, 20, 12}};
   GridWorld world{VoxelFrame{0.2}, VoxelGrid<std::uint8_t>(kRoom)};
@@ -295,7 +296,7 @@ Travelled explore_room(const HarmonicStrategy& strategy) {
   return run;
 }
 
-// What it keeps of a map from plan to plan follows the map: one that gets a copy each time plans the same.
+// State kept between plans follows the map: a planner that gets a new copy each time gives the same plans.
 TEST(HarmonicPlanner, KeepsNothingThatTheMapHasOutgrown) {
   constexpr VoxelBox kRoom{{0, 0, 0}, {16, 16, 10}};
   GridWorld world{VoxelFrame{0.2}, VoxelGrid<std::uint8_t>(kRoom)};

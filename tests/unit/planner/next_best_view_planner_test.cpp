@@ -22,7 +22,7 @@ namespace {
 
 using testing::CellWorld;
 
-// A thing with arms on a table in a closed room, of cells of 5 cm.
+// A closed room, in cells of 5 cm, with a table and a branched object on it.
 CellWorld table_world(std::uint32_t seed) {
   CellWorld world{VoxelFrame{0.05}, VoxelGrid<std::uint8_t>({{-30, -30, 0}, {30, 30, 44}}, 1), {}};
   std::mt19937 engine(seed);
@@ -53,7 +53,7 @@ struct RobotAtTable {
 
   void look() { map.insert(testing::scan_cells_of(world, sensor, pose)); }
   [[nodiscard]] PlannerSetup setup(int threads = 1) const { return {sensor, platform, 7, threads}; }
-  // Share of the object's faces towards free space that the map knows to be occupied.
+  // Share of the object's faces towards free space whose cells are occupied in the map.
   [[nodiscard]] double coverage() const {
     std::size_t surface = 0;
     std::size_t known = 0;
@@ -75,7 +75,7 @@ struct RobotAtTable {
   Pose pose;
 };
 
-// The largest utility by uniform ray tracing of every candidate.
+// The highest utility of all candidates, computed by uniform ray tracing.
 double best_utility(const RobotAtTable& run, const NextBestViewOptions& options) {
   const ViewRays rays(run.sensor.rays_for(0.05));
   const UniformRayTracer uniform(run.map);
@@ -105,7 +105,7 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
     std::size_t views = 0;
     Plan plan = planner.plan(run.map, run.pose);
     for (; views < 40 && plan.outcome == Outcome::Move; ++views) {
-      if (views < 3) {  // before anything can have been given up
+      if (views < 3) {  // while nothing can be given up yet
         EXPECT_DOUBLE_EQ(plan.goal.utility, best_utility(run, options));
       }
       EXPECT_GE(plan.sought.size(), options.min_unknown_cells);
@@ -156,7 +156,7 @@ TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
   EXPECT_GT(run.coverage(), 0.9);
 }
 
-// Runs to the end; how many views it took.
+// Runs to the end and returns the number of views.
 std::size_t reconstruct(RobotAtTable& run, const PlannerSettings& settings) {
   PlannerSettings all = settings;
   all.merge(PlannerSettings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"},
@@ -190,7 +190,7 @@ TEST(NextBestViewPlanner, NeedsNoMoreViewsByACoverThanByGreed) {
   EXPECT_LE(by_cover, by_greed);
 }
 
-// Views aimed at what is unknown see into what those of the whole pass over.
+// Aimed views see parts that views of the whole object miss.
 TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
   double by_one_shell = 0.0;
   double by_aimed = 0.0;
@@ -223,7 +223,7 @@ TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
   for (Plan plan = follower.plan(run.map, run.pose); plans < 3 && plan.outcome == Outcome::Move; ++plans) {
     EXPECT_LE(plan.candidates.size(), 100U);
     EXPECT_EQ(plan.goal.pose.matrix(), follower.plan(run.map, run.pose).goal.pose.matrix());
-    if (plans == 0) {  // before anything can have been given up
+    if (plans == 0) {  // while nothing can be given up yet
       const Plan alone = NextBestViewPlanner(run.setup(2), options).plan(run.map, run.pose);
       EXPECT_EQ(plan.goal.pose.matrix(), alone.goal.pose.matrix());
     }

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-// Along a hall of free cells of 0.2 m, from x = 0.3 to x = 1.9, then along y.
+// A path through a hall of free cells of 0.2 m: from x = 0.3 to x = 1.9, then along y.
 struct Walk {
   Walk() {
     for_each_cell({{0, 0, 0}, {12, 12, 5}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// The settings that a planner lists are those that it takes.
+// A planner accepts exactly the settings that it lists.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@
 namespace vantage {
 namespace {
 
-// What make_planner says against these settings; empty: nothing.
+// The error message of make_planner for these settings; empty if there is none.
 std::string objection(std::string_view planner, const PlannerSettings& settings) {
   const PlannerSetup setup{.sensor = RangeSensor::spherical(60, 30, 2.0 * std::numbers::pi, 1.0, 0.0, 4.0),
                            .platform = std::make_shared<FreeFlyer>()};
@@ -79,7 +78,7 @@ TEST(PlannerSettings, TextThatIsNoneIsRefusedByName) {
   EXPECT_GE(refused, 7U * 30U);
 }
 
-// Every number has a rule, and one of these is against it.
+// Every number has a range, and one of these values is outside it.
 TEST(PlannerSettings, NumbersOutsideTheirRangeAreRefusedByName) {
   std::size_t numbers = 0;
   for (const std::string_view planner : planner_names()) {

@@ -19,7 +19,7 @@ RangeSensor sees_all_around() {
   return RangeSensor::spherical(90, 45, 2.0 * std::numbers::pi, std::numbers::pi, 0.0, 6.0);
 }
 
-// Free before kHidden, which stays unknown.
+// Free cells in front of kHidden, which stays unknown.
 OccupancyMap free_before_the_hidden() {
   OccupancyMap map({.resolution_m = 0.2});
   for_each_cell({{-10, 0, 0}, {5, 10, 10}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
@@ -30,7 +30,7 @@ Pose at(const OccupancyMap& map, const VoxelIndex& cell, double yaw_rad = 0.0) {
   return pose_looking(map.frame().centre_of(cell), yaw_rad);
 }
 
-// A planner's and a host's part: a view is asked for, a scan is taken that tells nothing, the planner looks again.
+// Plays planner and host: a view is planned, a scan without new information is inserted, the planner reviews.
 void view_in_vain(TriedViews& tried, OccupancyMap& map, const Pose& goal, const Pose& taken_from) {
   tried.review(map, taken_from);
   tried.expect(map, goal, 1.0, {kHidden});
@@ -38,7 +38,7 @@ void view_in_vain(TriedViews& tried, OccupancyMap& map, const Pose& goal, const 
   tried.review(map, taken_from);
 }
 
-// By its definition, in metres.
+// By definition, in metres.
 bool places_differ(const OccupancyMap& map, const VoxelIndex& seen, const VoxelIndex& a, const VoxelIndex& b) {
   const auto metres = [&](const VoxelIndex& p, const VoxelIndex& q) {
     return (map.frame().centre_of(p) - map.frame().centre_of(q)).norm();
@@ -74,7 +74,8 @@ TEST(TriedViews, EvidenceCountsFromPlacesThatDifferAsSeenFromTheCell) {
       EXPECT_EQ(tried.gave_up(kHidden), evidence.size() >= static_cast<std::size_t>(patience));
       given_up += tried.gave_up(kHidden) ? 1U : 0U;
     }
-    // A filter of cells modulo a power of two stands before the memory: none that shares its bit is taken for it.
+    // The memory has a filter with one bit for all cells that are equal modulo a power of two. Cells that share a bit
+    // must not be mixed up.
     for (const VoxelIndex& other : {VoxelIndex{0, 0, 1}, {128, 0, 0}, {0, -128, 0}, {0, 0, 64}, {64, 0, 0}}) {
       EXPECT_FALSE(tried.tried(kHidden + other));
       EXPECT_FALSE(tried.gave_up(kHidden + other));
@@ -115,18 +116,18 @@ TEST(TriedViews, ARobotHasArrivedWithinTheTolerances) {
     there.translation().x() -= one.off_m;
     view_in_vain(tried, map, goal, there);
     EXPECT_EQ(tried.tried(kHidden), one.arrived) << one.off_m << " m, " << one.off_rad << " rad";
-    map.confirm();  // a later scan from the goal itself settles what was under way
+    map.confirm();  // a later scan at the goal itself gives the evidence
     tried.review(map, goal);
     EXPECT_TRUE(tried.tried(kHidden));
   }
-  // A cell is the least: who stands in the next cell cannot come nearer by the map.
+  // The tolerance is at least one cell: a robot in the neighbouring cell cannot come nearer in the map.
   OccupancyMap map = free_before_the_hidden();
   TriedViews strict(sees_all_around(), {.goal_tolerance_m = 0.0, .patience = 1});
   view_in_vain(strict, map, at(map, {2, 5, 5}), at(map, {1, 5, 5}));
   EXPECT_TRUE(strict.tried(kHidden));
 }
 
-// Turned by less than the tolerance, but by more than the view is wide: the cell was not looked at at all.
+// Turned by less than the tolerance but more than the field of view: the cell was not looked at.
 TEST(TriedViews, WhatWasNotInViewIsMissedFromThatGoalAndGivenUpLater) {
   OccupancyMap map = free_before_the_hidden();
   const RangeSensor narrow = RangeSensor::pinhole(60, 60, 0.4, 0.4, 0.1, 6.0);
@@ -180,7 +181,7 @@ TEST(TriedViews, AHostThatReportsIsBelieved) {
   EXPECT_FALSE(after(GoalResult::Preempted, place).any_rests());
 }
 
-// Whoever gives up before it has moved has nothing new to scan.
+// A robot that gives up before it moves has no new scan.
 TEST(TriedViews, AFailureNeedsNoScanToCount) {
   OccupancyMap map = free_before_the_hidden();
   TriedViews tried(sees_all_around());
@@ -204,7 +205,7 @@ TEST(TriedViews, AGoalThatTheRobotComesNoNearerToRests) {
         break;
       }
       tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});
-      tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});  // planning twice is one plan
+      tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});  // planning twice counts once
       map.confirm();
     }
     EXPECT_FALSE(tried.tried(kHidden)) << "it was never there";
@@ -315,7 +316,7 @@ TEST(TriedViews, BelongsToOneMap) {
   EXPECT_EQ(tried.scanned_from().size(), 1U);
 }
 
-// The memory stays as large as it is allowed to be, and the latest evidence stays.
+// The size of the memory is limited, and the newest evidence remains.
 TEST(TriedViews, IsBoundedWhateverHappens) {
   constexpr std::size_t kMost = std::size_t{1} << 18;
   OccupancyMap map = free_before_the_hidden();

@@ -100,8 +100,8 @@ TEST(RangeSensor, EveryDirectionIsAUnitVectorInView) {
   EXPECT_GT(checked, 30'000U);
 }
 
-// The law that ties `in_view` to the angles: a pinhole sees exactly what projects onto its image, a spherical one
-// what lies between its angles, told here by an independent test of planes and angles.
+// A pinhole sensor sees exactly what projects into its image, a spherical one what lies between its angles. Tested
+// with independent code.
 TEST(RangeSensor, SeesWhatLiesBetweenItsAngles) {
   std::mt19937 engine(4);
   std::normal_distribution<double> normal;

@@ -25,7 +25,7 @@ TEST(RayTree, RaysAreThoseOfTheEquation) {
   EXPECT_THROW((void)equal_angle_rays(sensor, 4.0), std::invalid_argument);
 }
 
-// The smallest angle to a ray of the level above, by trying all.
+// Cosine of the smallest angle to a ray of the level above, by trying all.
 double nearest_cosine(const RayImage& above, const Eigen::Vector3f& ray) {
   double most = -2.0;
   for (const Eigen::Vector3f& other : above.directions) {

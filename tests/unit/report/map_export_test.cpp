@@ -33,7 +33,8 @@ std::size_t count_open_faces(const OccupancyMap& map) {
   return faces;
 }
 
-// Read by Assimp: as many triangles as faces ask for, closed and turned outwards, holding the volume of the cells.
+// Read by Assimp: the mesh has the expected number of triangles, is closed, faces outwards and has the volume of the
+// cells.
 TEST(MapExport, MeshIsTheClosedSurfaceOfTheOccupiedCells) {
   const test::TemporaryFolder folder;
   std::size_t maps = 0;

@@ -19,7 +19,7 @@ namespace {
 
 using Face = std::tuple<std::size_t, VoxelIndex>;  // direction, cell
 
-// By definition: cells of `kind` beside free ones.
+// By definition: faces of cells of one kind towards free cells.
 template <class IsSolid>
 std::set<Face> faces_by_definition(const OccupancyMap& map, const IsSolid& is_solid) {
   std::set<Face> faces;
@@ -34,7 +34,7 @@ std::set<Face> faces_by_definition(const OccupancyMap& map, const IsSolid& is_so
   return faces;
 }
 
-// What a page shows after view `now`; a face that two rectangles show is reported.
+// The faces that a page shows after view `now`. Reports a face that is shown twice.
 std::set<Face> faces_shown(const std::array<std::vector<detail::TimedQuad>, 6>& quads, std::size_t now) {
   std::set<Face> faces;
   for (std::size_t direction = 0; direction < 6; ++direction) {
@@ -62,7 +62,7 @@ std::set<VoxelIndex> cells_shown(const std::vector<detail::TimedCell>& cells, st
   return shown;
 }
 
-// Cells come and go, boxes of them too, so that there is something to merge.
+// Random changes of cells and boxes of cells, so that faces can be merged.
 void change(OccupancyMap& map, std::mt19937& engine) {
   map.insert(test::random_scan(engine, 60));
   std::uniform_int_distribution<std::int32_t> at(-9, 9);

@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-// The runs as the page's script will read them.
+// The runs, parsed as the page's script parses them.
 std::vector<nlohmann::json> runs_in(const std::string& page) {
   const std::string open = "<script type=\"application/json\" class=\"run\">";
   std::vector<nlohmann::json> runs;

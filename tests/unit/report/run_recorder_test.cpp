@@ -23,7 +23,7 @@ void write_all(const std::filesystem::path& file, std::string_view bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-// Every cell's state, in an order that does not depend on how the map came to be.
+// The states of all cells in an order that does not depend on the history of the map.
 std::vector<std::pair<VoxelIndex, Occupancy>> states_of(const OccupancyMap& map) {
   std::vector<std::pair<VoxelIndex, Occupancy>> states;
   map.for_each_known([&](const VoxelIndex& cell, Occupancy state) { states.emplace_back(cell, state); });
@@ -50,7 +50,7 @@ Plan some_plan(std::mt19937& engine) {
   return plan;
 }
 
-// Scans and now and then a cell that is forgotten again; what the map was after each cycle.
+// A run of scans in which a cell is sometimes forgotten. Stores the states after each cycle.
 class Rehearsal {
  public:
   explicit Rehearsal(unsigned seed, std::size_t rays = 80) : engine_(seed), rays_(rays) {
@@ -95,7 +95,7 @@ RunRecorderSetup setup() {
       .command = "host", .world = "lab", .planner = "harmonic", .seed = 7, .sensor = RangeSensor::preset("kinect")};
 }
 
-// Reads `file` beside a rehearsal of the same run: how many cycles agree.
+// Reads `file` and repeats the same run. Returns the number of equal cycles.
 std::size_t cycles_that_agree(RunRecordReader& reader, unsigned seed) {
   Rehearsal rehearsal(seed);
   OccupancyMap map = reader.new_map();
@@ -160,8 +160,8 @@ TEST(RunRecorder, WhatIsReadIsWhatWasRecorded) {
   EXPECT_EQ(runs, 8U);
 }
 
-// A record of three cycles, cut after every byte: never an exception but within the head, never a cycle that was not
-// recorded, and every cycle that is whole.
+// A record of three cycles, truncated at every byte: an exception only if the head is incomplete; all complete cycles
+// are read and no others.
 TEST(RunRecorder, OpensHoweverItWasCut) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder / "run";
@@ -181,7 +181,7 @@ TEST(RunRecorder, OpensHoweverItWasCut) {
   ASSERT_EQ(whole.size(), ends.back());
   std::size_t refused = 0;
   std::size_t opened = 0;
-  std::size_t whole_chunks = 0;  // cuts that leave nothing half
+  std::size_t whole_chunks = 0;  // lengths at which no chunk is incomplete
   for (std::size_t length = whole.size(); length-- > 0;) {
     std::filesystem::resize_file(file, length);
     try {
@@ -256,7 +256,7 @@ TEST(RunRecorder, SurvivesBeingKilled) {
         ::_exit(1);
       }
       if (cycles == 100) {
-        ::_exit(0);  // nobody came to kill it
+        ::_exit(0);  // ends by itself if it was not killed
       }
     }
   }
@@ -268,7 +268,7 @@ TEST(RunRecorder, SurvivesBeingKilled) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFSIGNALED(status)) << "it was killed in the middle of its work";
   ::close(pipe_ends[1]);
-  while (::read(pipe_ends[0], &told, 1) == 1) {  // cycles that were finished before the end
+  while (::read(pipe_ends[0], &told, 1) == 1) {  // cycles finished before the process ended
   }
   ::close(pipe_ends[0]);
 

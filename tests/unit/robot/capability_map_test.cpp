@@ -18,7 +18,7 @@ namespace {
 using Key = std::array<long, 3>;
 const std::array<JointRange, 3> kRanges{{{-3.0, 3.0}, {-1.2, 1.9}, {0.0, 2.4}}};
 
-/// A turret with two links of 0.6 m and 0.4 m; the sensor looks along the last.
+/// A turret with two links of 0.6 m and 0.4 m; the sensor looks along the last link.
 Pose turret(std::span<const double> joints) {
   const Eigen::AngleAxisd yaw(joints[0], Eigen::Vector3d::UnitZ());
   const Eigen::AngleAxisd shoulder(joints[1], Eigen::Vector3d::UnitY());
@@ -27,8 +27,8 @@ Pose turret(std::span<const double> joints) {
          Eigen::Translation3d(0.0, 0.0, 0.4);
 }
 
-/// The bin of a direction, found the slow way: of all bins, the one on whose side of the cube it lies and between
-/// whose bounding planes.
+/// The bin of a direction by exhaustive search: the bin on the same face of the cube whose bounding planes enclose
+/// the direction.
 std::size_t slow_bin(int edge, const Eigen::Vector3d& direction) {
   const auto n = static_cast<std::size_t>(edge);
   for (std::size_t bin = 0; bin < 6 * n * n; ++bin) {
@@ -118,7 +118,7 @@ TEST(CapabilityMap, AgreesWithTheReachOfTheArm) {
       EXPECT_LT(from_shoulder_m, 1.0 + 0.09);
     }
   });
-  // Straight up, with the elbow straight, the sensor looks up; it never looks down there.
+  // Straight up with a straight elbow, the sensor looks up and never down.
   EXPECT_TRUE(map.contains(Eigen::Vector3d(0.01, 0.0, 1.27), Eigen::Vector3d(0.05, 0.02, 1.0)));
   EXPECT_FALSE(map.contains(Eigen::Vector3d(0.01, 0.0, 1.27), Eigen::Vector3d(0.0, 0.0, -1.0)));
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kCell = 0.1;
 
-/// A block of known-free cells with single cells knocked out of it: occupied, contested or unknown.
+/// A block of free cells in which random single cells are occupied, contested or unknown.
 OccupancyMap random_map(std::mt19937& engine, std::int32_t side, double blocked_share) {
   OccupancyMap map({.resolution_m = kCell});
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -30,13 +30,13 @@ OccupancyMap random_map(std::mt19937& engine, std::int32_t side, double blocked_
     } else if (draw > 0.6 * blocked_share) {
       map.set(cell, Occupancy::Occupied);
     } else if (draw > 0.3 * blocked_share) {
-      map.set_log_odds(cell, 0.85 - 3 * 0.4);  // hit once, missed three times
+      map.set_log_odds(cell, 0.85 - 3 * 0.4);  // hit once, missed three times: contested
     }
   });
   return map;
 }
 
-/// The definition, spelled out: every cell whose box comes nearer than the radius is free for sure.
+/// By definition: all cells whose box is closer than the radius are clear.
 bool sphere_is_free(const OccupancyMap& map, const Eigen::Vector3d& centre, double radius_m) {
   const VoxelIndex home = map.frame().cell_of(centre);
   bool free = true;
@@ -242,7 +242,7 @@ TEST(GridPath, FindsAllGoalsThatAreHardlyFurtherThanTheNearest) {
   EXPECT_GT(beyond, 60U);
 }
 
-// However large a body is, and however far apart the little that is known.
+// For any body size and any distance between the few known cells.
 TEST(FreeFlyer, ABodyLargerThanTheKnownFitsNowhere) {
   std::mt19937 engine(9);
   OccupancyMap map = random_map(engine, 16, 0.0);
@@ -266,7 +266,7 @@ TEST(FreeFlyer, ABodyLargerThanTheKnownFitsNowhere) {
   }
 }
 
-// Two wild returns: the box around the known cells is a thousand times a room, what can be reached is not.
+// Two outliers make the bounding box a thousand times as large as the room, but not the reachable space.
 TEST(ReachableSpace, CostsNothingForTheBoxAroundTheKnown) {
   OccupancyMap map({.resolution_m = 0.1});
   map.set_log_odds(VoxelBox{{0, 0, 0}, {20, 20, 20}}, -2.0);
@@ -277,7 +277,7 @@ TEST(ReachableSpace, CostsNothingForTheBoxAroundTheKnown) {
   EXPECT_EQ(space.size(), 18U * 18U * 18U);
 }
 
-/// The cells that a flood finds which asks the platform cell by cell, in its order.
+/// Flood fill that asks the platform cell by cell, in the same order.
 std::vector<VoxelIndex> flooded(const OccupancyMap& map, const Platform& platform, const VoxelIndex& start) {
   std::vector<VoxelIndex> cells{start};
   std::set<VoxelIndex> met{start};
@@ -303,7 +303,7 @@ void change_at_random(OccupancyMap& map, std::mt19937& engine) {
       map.set(lo, Occupancy::Unknown);
       break;
     case 2:
-      map.set_log_odds(lo, 0.85 - 3 * 0.4);  // contested: free as before
+      map.set_log_odds(lo, 0.85 - 3 * 0.4);  // contested, still free
       break;
     case 3: {
       Scan scan;
@@ -320,7 +320,7 @@ void change_at_random(OccupancyMap& map, std::mt19937& engine) {
   }
 }
 
-// Against a new one, and against asking cell by cell, after every few of thousands of changes.
+// Compares with a new object and with single queries after every few of thousands of changes.
 TEST(AdmittedCells, FollowWhateverHappensToAMap) {
   std::mt19937 engine(17);
   std::size_t compared = 0;
@@ -333,7 +333,7 @@ TEST(AdmittedCells, FollowWhateverHappensToAMap) {
     for (int step = 0; step < 400; ++step) {
       change_at_random(map, engine);
       if (step == 250) {
-        map = OccupancyMap(map);  // another one: its log begins anew
+        map = OccupancyMap(map);  // another map with a new change log
       }
       if (engine() % 3 != 0) {
         continue;

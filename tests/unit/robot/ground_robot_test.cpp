@@ -13,7 +13,7 @@ namespace {
 constexpr double kFloorCell = 0.1;
 constexpr std::int32_t kLayer = 4;
 
-/// A layer of known-free cells with single cells knocked out of it.
+/// A layer of free cells in which random single cells are blocked.
 OccupancyMap random_plane(std::mt19937& engine, std::int32_t side, double blocked_share) {
   OccupancyMap map({.resolution_m = kFloorCell});
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -28,7 +28,7 @@ OccupancyMap random_plane(std::mt19937& engine, std::int32_t side, double blocke
   return map;
 }
 
-/// The definition, spelled out in the plane: every square of the layer nearer than the radius is free.
+/// By definition: all cells of the layer closer than the radius are clear.
 bool disc_is_free(const OccupancyMap& map, const Eigen::Vector3d& centre, double radius_m) {
   const VoxelIndex home = map.frame().cell_of(centre);
   bool free = home.z == kLayer;
@@ -103,7 +103,7 @@ TEST(GroundRobot, AMotionIsAdmittedExactlyWhenEveryPoseOfItIs) {
       expected = disc_is_free(map, at.translation(), 0.12);
     }
     const bool found = robot.admits_motion(map, from, to);
-    ASSERT_TRUE(expected || !found);  // steps of a millimetre may pass by a corner that the motion grazes
+    ASSERT_TRUE(expected || !found);  // samples every millimetre may miss a corner that the motion touches
     ++(found ? admitted : refused);
   }
   EXPECT_GT(admitted, 20U);

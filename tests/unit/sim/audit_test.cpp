@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-// A known-free room, its walls, and in them a recess whose cells are not known: what the test makes of it.
+// A free room with occupied walls; each test adds unknown cells.
 OccupancyMap audited_room() {
   OccupancyMap map({.resolution_m = 0.1});
   for_each_cell(VoxelBox{{-1, -1, -1}, {21, 11, 11}}, [&](const VoxelIndex& cell) {
@@ -51,7 +51,7 @@ TEST(Audit, CountsOnlyWhatRangeHeightAndBodyLetTheSensorSee) {
   const auto left = [&](const Platform& robot, const RangeSensor& sensor) {
     return audit(map, robot, sensor, kInTheRoom, {}).observable_left;
   };
-  // A ceiling over all but the first three cells: nobody flies nearer than 1.8 m.
+  // Below: a wall across x = 3 with a hole of one cell.
   const FreeFlyer low({.radius_m = 0.0, .max_height_m = 1.0});
   for_each_cell(VoxelBox{{3, 0, 0}, {4, 10, 10}}, [&](const VoxelIndex& cell) {
     if (cell != VoxelIndex{3, 5, 5}) {
@@ -93,7 +93,7 @@ TEST(Audit, TellsApartWhatWasLookedAtInVain) {
   EXPECT_EQ(in_vain({kInTheRoom, other}), 1U);
 }
 
-// Whether the straight line between the centres of two cells touches this one, by the distances along its axes.
+// Whether the straight line between two cell centres touches this cell, by its distances along the axes.
 bool line_touches(const VoxelIndex& a, const VoxelIndex& b, const VoxelIndex& cell) {
   double enter = 0.0;
   double leave = 1.0;
@@ -114,7 +114,7 @@ bool line_touches(const VoxelIndex& a, const VoxelIndex& b, const VoxelIndex& ce
   return enter <= leave + 1e-9;
 }
 
-// The definition, in a world small enough to ask every cell about every line.
+// Compares with the definition in a map small enough to test every cell with every line.
 TEST(Audit, AgreesWithItsDefinitionInRandomMaps) {
   std::mt19937_64 engine(3);
   const VoxelBox box{{-3, 2, -2}, {4, 9, 3}};
@@ -174,7 +174,7 @@ TEST(Audit, AgreesWithItsDefinitionInRandomMaps) {
   EXPECT_GT(hidden, 100U);
 }
 
-// The same run to its end and cut short leaves nothing and something.
+// A complete run leaves nothing, the same run cut short leaves something.
 TEST(Audit, OfARunThatExploredFindsNothing) {
   GroundPlan plan{.pixel_m = 0.2};
   plan.solid = VoxelGrid<std::uint8_t>({{0, 0, 0}, {40, 30, 1}}, 0);

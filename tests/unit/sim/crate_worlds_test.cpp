@@ -16,7 +16,7 @@ struct Escapes {
   std::size_t escaped = 0;
 };
 
-/// Of rays all around from places inside a hollow box of `outside` cells, those that get out of it.
+/// Casts rays in all directions from inside a hollow box of `outside` cells and counts those that leave it.
 Escapes rays_out_of(const TriangleScene& scene, const VoxelBox& outside) {
   std::mt19937_64 engine(3);
   std::normal_distribution<double> normal;

@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-// Rows from the top, as a picture.
+// A plan from rows of text, the top row first.
 GroundPlan drawn_plan(const std::vector<std::string>& rows, double pixel_m) {
   GroundPlan plan{.pixel_m = pixel_m};
   const auto height = static_cast<std::int32_t>(rows.size());
@@ -47,7 +47,7 @@ GroundPlan random_plan(std::mt19937_64& engine, double solid_share) {
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
-// What of a convex polygon lies on the side of a line where `normal . p <= offset` (Sutherland & Hodgman 1974).
+// The part of a convex polygon with `normal . p <= offset` (Sutherland & Hodgman 1974).
 Polygon clipped(const Polygon& polygon, const Eigen::Vector2d& normal, double offset) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -75,7 +75,7 @@ double area(const Polygon& polygon) {
   return 0.5 * std::abs(twice);
 }
 
-// Of a box, the part that is solid or outside of the plan.
+// The area of the box that is solid or outside the plan.
 double solid_area(const GroundPlan& plan, const Box& box) {
   double solid = (box.max.x() - box.min.x()) * (box.max.y() - box.min.y());
   const Pose world_from_pixels = plan.world_from_plan();
@@ -131,13 +131,13 @@ TEST(GroundPlan, ARayEndsJustInsideTheFirstSolidPixel) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   RangeSensor sensor = in_plane(RangeSensor::spherical(72, 40, 6.28, 1.5, 0.0, 50.0));
   std::size_t rays = 0;
-  std::size_t corners = 0;  // ends of rays that are not within a solid pixel
+  std::size_t corners = 0;  // ends of rays that are not in a solid pixel
   for (int world = 0; world < 40; ++world) {
     const GroundPlan plan = random_plan(engine, 0.3);
     const TriangleScene scene(plan.walls());
     const VoxelFrame pixels{plan.pixel_m};
     const Pose pixels_from_world = plan.world_from_plan().inverse();
-    const auto depth_px = [&](const Eigen::Vector3d& world_m) {  // into what is solid
+    const auto depth_px = [&](const Eigen::Vector3d& world_m) {  // depth inside solid pixels
       const Eigen::Vector3d at = pixels_from_world * world_m;
       double nearest_m = 10.0;
       for_each_cell(plan.solid.box(), [&](const VoxelIndex& pixel) {

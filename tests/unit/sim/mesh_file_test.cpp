@@ -83,7 +83,7 @@ class PlyFile : public ::testing::TestWithParam<PlyKind> {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
   }
-  // What is said against a file, without its name; "" where it is read, and then its triangles are whole.
+  // The error message for a file, without its name; "" if it is read and its triangles are valid.
   [[nodiscard]] std::string complaint(const std::string& bytes, const char* name = "mesh.ply") const {
     const std::filesystem::path path = file(bytes, name);
     try {
@@ -135,17 +135,17 @@ TEST_P(PlyFile, NamesWhatIsWrongWithCountsAndIndices) {
   says(small_ply(kind, 4, "5\nproperty float x"), "no property 'x', or two");
 }
 
-// Wherever it is cut, in its header or its body, no part of it passes for the whole.
+// A file truncated anywhere in header or body is rejected.
 TEST_P(PlyFile, CutAnywhereIsAnError) {
   const std::string whole = small_ply(GetParam());
-  // The line break at the end is no loss, nor is a last number that still is one.
+  // The last line break may be missing, and a shortened last number may still be valid.
   const std::size_t end = whole.size() - (GetParam() == PlyKind::Ascii ? 1 : 0);
   for (std::size_t length = 0; length < end; ++length) {
     EXPECT_NE(complaint(whole.substr(0, length)), "") << length << " bytes of " << whole.size();
   }
 }
 
-// Any bytes changed: it is refused, or what is read is sound.
+// A file with any changed bytes is rejected or gives valid triangles.
 TEST_P(PlyFile, DamagedIsRefusedOrSound) {
   std::mt19937_64 engine(7);
   const auto below = [&](std::size_t count) { return static_cast<std::size_t>(engine() % count); };

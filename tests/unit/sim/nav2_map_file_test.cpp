@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-// Free, unknown by its grey, occupied; two rows from the top.
+// Free, unknown by its grey value, occupied; two rows, the top one first.
 const std::string kThreeByTwo = std::string("P5\n# CREATOR: map_saver 0.050 m/pix\n3 2\n255\n") + "\xFE\xCD" +
                                 std::string(1, '\0') + std::string(1, '\0') + "\xFE\xFE";
 
@@ -32,7 +32,7 @@ class Nav2MapFile : public ::testing::Test {
     return path;
   }
 
-  // What is wrong with a map of these two files; "" if nothing is.
+  // The error message for a map of these two files; "" if there is none.
   std::string refusal(const std::string& yaml, const std::string& image) {
     write("room.pgm", image);
     const std::filesystem::path path = write("room.yaml", yaml);
@@ -163,7 +163,7 @@ TEST_F(Nav2MapFile, SaysWhatIsWrongAndWhere) {
   }
 }
 
-// Cut anywhere, with bytes changed anywhere: a map or a complaint, and never anything else.
+// Files truncated or changed anywhere give a map or the documented error.
 TEST_F(Nav2MapFile, DamagedFilesAreReadOrRefused) {
   std::mt19937_64 engine(1);
   std::size_t refused = 0;

@@ -13,7 +13,7 @@ namespace {
 
 const Box kObject{{-0.3, -0.3, 0.44}, {0.3, 0.3, 0.9}};
 
-// Two boxes, one on the other, on the table, and points all over them.
+// Two boxes, one on the other, on the table, with points on their surfaces.
 struct Stack {
   Stack() {
     std::mt19937 engine(5);
@@ -23,7 +23,7 @@ struct Stack {
       for (int i = 0; i < 1500; ++i) {
         Eigen::Vector3d point =
             box.min + box.extent().cwiseProduct(Eigen::Vector3d(share(engine), share(engine), share(engine)));
-        const int side = i % 5;  // not the one it stands on
+        const int side = i % 5;  // not the bottom
         const Eigen::Index axis = side / 2;
         point[axis] = axis == 2 || side % 2 == 1 ? box.max[axis] : box.min[axis];
         const bool under_the_upper = axis == 2 && point.z() == 0.6 && point.x() > -0.05 && point.x() < 0.1;

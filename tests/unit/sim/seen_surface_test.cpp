@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-// Slow and obvious: whether the segment between two points meets a triangle, by solving for the place.
+// Slow reference: whether a segment intersects a triangle, by solving a linear system.
 bool meets(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   Eigen::Matrix3d system;
   system << from - to, triangle[1] - triangle[0], triangle[2] - triangle[0];
@@ -70,7 +70,7 @@ TEST(SeenSurface, SeesWhatTryingAllTrianglesSays) {
   EXPECT_GT(visible_pairs, 2'000U);
 }
 
-// Five sides of a box on the ground can be seen, the sixth by nobody; a wall hides all of it from one side.
+// Five sides of a box on the ground can be seen, the bottom cannot; a wall hides the box from one side.
 TEST(SeenSurface, TellsWhatCanBeSeenAtAll) {
   TriangleMesh mesh;
   const Box box{{-0.1, -0.1, 0.0}, {0.1, 0.1, 0.2}};
@@ -90,7 +90,7 @@ TEST(SeenSurface, TellsWhatCanBeSeenAtAll) {
   surface.add(pose_looking_along({1.0, 1.0, 1.0}, {-1.0, -1.0, -0.9}));
   EXPECT_NEAR(surface.share(), 0.5, 0.02) << "three sides of six";
   EXPECT_EQ(surface.observable_count(anyhow, {}), surface.seen_count());
-  // From high up a sensor that stays level has none of it in view.
+  // From high up, a horizontal sensor does not have the box in view.
   const FreeFlyer level({.radius_m = 0.0, .yaw_only = true});
   const std::vector<Eigen::Vector3d> high{{-0.5, -0.5, 3.0}};
   EXPECT_EQ(surface.observable_count(level, high), surface.seen_count());

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-// A box of cells of which some are blocked, and the space of a point that flies in it.
+// A box with some blocked cells, and the reachable space of a point robot in it.
 class BlockedBox {
  public:
   BlockedBox(const VoxelIndex& extent, double blocked, std::uint32_t seed) : map_({.resolution_m = 1.0}) {
@@ -49,7 +49,7 @@ TEST(ShortestVisit, InTheOpenWideStepsAreAtMostFivePercentLonger) {
   EXPECT_GT(longest, 1.04) << "so that the bound means something";
 }
 
-// All orders of the sets, and all members of each, over distances from every cell to every other.
+// Exhaustive search over all orders of the sets and all members, with all pairwise distances.
 double shortest_by_trying(const ReachableSpace& space, const std::vector<std::uint16_t>& member, std::size_t sets) {
   std::vector<std::vector<float>> distance;
   for (std::uint32_t cell = 0; cell < space.size(); ++cell) {
@@ -98,7 +98,7 @@ TEST(ShortestVisit, IsTheShortestOfAllOrdersAndPlaces) {
       continue;
     }
     ASSERT_NEAR(visit.length, shortest, 1e-4) << "seed " << seed;
-    // The way is one, and as long as it says.
+    // The path is connected and has the stated length.
     double length = 0.0;
     std::uint16_t visited = member[visit.cells.front()];
     for (std::size_t i = 1; i < visit.cells.size(); ++i) {

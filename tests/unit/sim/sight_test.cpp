@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-// Rooms with openings, and specks: boxes of walls and single cells, so that cells are hidden near and far.
+// Rooms with openings and single solid cells, so that cells are occluded at all distances.
 VoxelGrid<CellTruth> drawn_cells(std::mt19937_64& engine, const VoxelBox& box) {
   VoxelGrid<CellTruth> cells(box, CellTruth::Free);
   const auto below = [&](std::int32_t n) {
@@ -41,7 +41,7 @@ VoxelGrid<CellTruth> drawn_cells(std::mt19937_64& engine, const VoxelBox& box) {
   return cells;
 }
 
-// The definition asks every cell about every pose; cells behind solid ones cannot be seen and are asked as well.
+// By definition: tests every cell with every pose, including cells behind solid ones.
 TEST(SeenCells, AreThoseThatAnyOfThePosesSees) {
   std::mt19937_64 engine(5);
   std::size_t seen = 0;

@@ -107,7 +107,7 @@ TEST(SimulatedSensor, OnlyASensorThatKnowsReportsNoReturn) {
   EXPECT_TRUE(std::isnan(silent.points[0].x()));
 }
 
-// Far walls, noise and dropped returns: whatever becomes of a ray, the map counts it once.
+// With distant walls, noise and dropped returns, the map counts each ray once.
 TEST(SimulatedSensor, EveryRayIsCountedOnce) {
   std::mt19937_64 engine(12);
   std::uniform_real_distribution<double> metre(-1.5, 1.5);
@@ -191,7 +191,7 @@ TEST(SimulatedSensor, NoiseIsSeededAndAsLargeAsItSays) {
   EXPECT_THROW(SimulatedSensor(scene, sensor, {.dropped_share = 1.5}), std::invalid_argument);
 }
 
-// The plane of the wall ahead, in the sensor frame: how far, and how far turned about x and about y.
+// The plane of the wall ahead in the sensor frame: distance, and rotation about x and y.
 std::array<double, 3> wall_ahead(const Scan& scan) {
   const auto at = [&](std::size_t column, std::size_t row) {
     return Eigen::Vector3d(scan.points[row * scan.width + column].cast<double>());

@@ -35,7 +35,7 @@ World two_rooms() {
   return {"two rooms", surface_of_cells(solid, {0.2}, 0.01), {{0, 0, 0}, {4.0, 2.4, 2.4}}};
 }
 
-// Random triangles against an oracle: densely sampled points of the triangle, each in its cell.
+// Compares random triangles with densely sampled points, each in its cell.
 TEST(Truth, RasterisesEveryCellThatATrianglePasses) {
   std::mt19937 engine(8);
   std::uniform_real_distribution<float> metre(0.05F, 1.95F);
@@ -92,7 +92,7 @@ TEST(Truth, RefusesWhatItCannotRasterise) {
   EXPECT_THROW(Truth(world, 0.2, Box{}), std::invalid_argument);
 }
 
-/// Two rooms and what a flyer in them can see.
+/// Two rooms and what a flying robot can observe in them.
 class TruthOfTwoRooms : public testing::Test {
  protected:
   [[nodiscard]] std::vector<VoxelIndex> seen_by(int threads) const {
@@ -129,7 +129,7 @@ TEST_F(TruthOfTwoRooms, ObservableIsTheInsideAndItsWallsWhateverTheThreads) {
   EXPECT_GT(seen.size(), free + 700U);
 }
 
-// The measure must be attainable: a scan from every place of the lattice knows nearly every observable cell.
+// The measure can be reached: scans from all places of a lattice know nearly all observable cells.
 TEST_F(TruthOfTwoRooms, AnExhaustiveScanCoversNearlyEverythingObservable) {
   OccupancyMap map({.resolution_m = 0.2, .region = world.region});
   SimulatedSensor simulated(TriangleScene(world.mesh), coarse_panoramic());
@@ -139,7 +139,7 @@ TEST_F(TruthOfTwoRooms, AnExhaustiveScanCoversNearlyEverythingObservable) {
   EXPECT_GT(truth.coverage(map, seen), 0.99);
 }
 
-// Goes to and fro between two places, and says when it is done.
+// Moves to and fro between two places a given number of times.
 class Shuttle final : public ExplorationPlanner {
  public:
   Shuttle(Pose a, Pose b, int trips) : a_(a), b_(b), trips_(trips) {}
@@ -219,7 +219,7 @@ TEST(ExplorationRun, CountsCollisionsWithTheTrueWorldAndStopsAtTheBudget) {
   EXPECT_THROW(ExplorationRun(world, coarse_panoramic(), flyer, options), std::invalid_argument);
 }
 
-// Along a wall 0.35 m away: nearer than the planner would plan, further than the body reaches.
+// Along a wall at 0.35 m: within the planning margin, but out of contact.
 TEST(ExplorationRun, WhatPlanningKeepsOffAsAMarginIsNoCollision) {
   const World world = two_rooms();
   const auto flyer = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.25, .margin_m = 0.2});

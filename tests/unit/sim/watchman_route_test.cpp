@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kCellM = 0.2;
 
-// Rooms in a row, a door between each and the next, by turns at the one side and at the other.
+// Rooms in a row, with doors alternately on the left and the right.
 World row_of_rooms(int rooms) {
   VoxelGrid<std::uint8_t> solid({{0, 0, 0}, {7 * rooms + 1, 9, 6}}, 1);
   for (std::int32_t room = 0; room < rooms; ++room) {
@@ -72,7 +72,7 @@ TEST(WatchmanRoute, SeesEverythingWhateverTheThreads) {
   EXPECT_EQ(row.route({.threads = 3}).cells, route.cells);
 }
 
-// Ways made at random until everything was seen: none of them may be shorter.
+// Random routes that see everything are never shorter.
 TEST(WatchmanRoute, NoWayThatSeesEverythingIsShorter) {
   std::size_t ways = 0;
   for (int rooms = 2; rooms <= 3; ++rooms) {

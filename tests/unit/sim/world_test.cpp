@@ -45,7 +45,7 @@ TEST_F(MeshFile, ReadsTrianglesAndTurnsYUpIntoZUp) {
   EXPECT_TRUE(turned.bounds().max.isApprox(Eigen::Vector3d(0.1, 0, 0.2), 1e-6));
 }
 
-// A triangle that reaches 1 along x, 2 along y and 3 along z of its file.
+// A triangle that extends 1 along x, 2 along y and 3 along z in its file.
 std::string collada_triangle(const std::string& up_axis, const std::string& metres) {
   return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
          "<asset><unit meter=\"" +
@@ -71,7 +71,7 @@ std::string gltf_triangle() {
 
 TEST_F(MeshFile, KnowsItsAxisAndUpOverrules) {
   const Eigen::Vector3d as_it_is(1, 2, 3);
-  const Eigen::Vector3d turned(1, 3, 2);  // y up: the file's z is what is deep
+  const Eigen::Vector3d turned(1, 3, 2);  // y up: depth is the z of the file
   const auto extent = [](const std::filesystem::path& path, const MeshFileOptions& options) {
     return Eigen::Vector3d(read_mesh_file(path, options).bounds().extent());
   };
@@ -84,7 +84,7 @@ TEST_F(MeshFile, KnowsItsAxisAndUpOverrules) {
     EXPECT_TRUE(extent(path, {.up = MeshFileOptions::Up::Y}).isApprox(turned, 1e-6)) << path;
     EXPECT_TRUE(extent(path, {.up = MeshFileOptions::Up::Z}).isApprox(as_it_is, 1e-6)) << path;
   }
-  // Not mirrored, and with the unit of the file.
+  // Not mirrored, and in the unit of the file.
   EXPECT_TRUE(read_mesh_file(y_up).bounds().min.isApprox(Eigen::Vector3d(0, -3, 0), 1e-6));
   EXPECT_TRUE(read_mesh_file(z_up).bounds().max.isApprox(Eigen::Vector3d(1, 2, 3), 1e-6));
   const auto small = write("small.dae", collada_triangle("Z_UP", "0.01"));
@@ -140,8 +140,8 @@ TEST(World, SeedsMakeTheGeneratedWorlds) {
   }
 }
 
-// A closed world has no leak: a ray from an empty place, however it goes, meets a surface within the region, and
-// meets it inside a cell, not on a border.
+// A generated world is closed: every ray from an empty place hits a surface within the region, inside a cell and not
+// on its border.
 TEST(World, GeneratedWorldsAreClosedAndMeetRaysInsideTheirCells) {
   std::mt19937 engine(5);
   std::normal_distribution<double> normal;

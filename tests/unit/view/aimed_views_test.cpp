@@ -23,7 +23,7 @@ CellSet unknown_cells_of(const OccupancyMap& map) {
   return cells;
 }
 
-// The cell that a view comes to first, of those that are not free.
+// The first cell along the optical axis of a view that is not free.
 RayEnd looked_at(const OccupancyMap& map, const Pose& view, double furthest_m) {
   const Eigen::Vector3d from = view.translation();
   return first_not_free(map, map.frame(), from, from + furthest_m * optical_axis(view));
@@ -63,7 +63,7 @@ TEST(AimedViews, EachSeesAnUnknownCellAcrossAFace) {
   EXPECT_EQ(views, repeated);
 }
 
-// Views of the whole never look to the bottom of a shaft that is not upright; aimed ones do.
+// Views of the whole object never see the bottom of an inclined shaft; aimed views do.
 TEST(AimedViews, LookDownAShaft) {
   OccupancyMap map({.resolution_m = 0.1});
   map.set_log_odds(VoxelBox{{-20, -20, -20}, {20, 20, 20}}, -2.0);

@@ -27,7 +27,7 @@ CellSet holding(std::initializer_list<int> columns) {
   return set;
 }
 
-/// The fewest sets that hold all that any holds of `wanted`, by trying them all.
+/// The minimum number of sets that cover all coverable cells of `wanted`, by exhaustive search.
 std::size_t fewest(const std::vector<CellSet>& sets, const CellSet& wanted) {
   const auto held_by = [&](std::uint32_t chosen) {
     std::size_t held = 0;
@@ -95,7 +95,7 @@ TEST(CoverBound, KnowsWhatIsKnown) {
   const std::vector<CellSet> apart{holding({0}), holding({1, 2}), holding({3})};
   EXPECT_NEAR(fewest_views_bound(apart, all), 3.0, 0.02);
   EXPECT_LE(fewest_views_bound(apart, all), 3.0 + 1e-9);
-  // Five in a ring, each shared by two views: two and a half.
+  // Five cells in a ring, each in two views: two and a half.
   const std::vector<CellSet> ring{holding({0, 1}), holding({1, 2}), holding({2, 3}), holding({3, 4}),
                                   holding({4, 0})};
   EXPECT_NEAR(fewest_views_bound(ring, all), 2.5, 0.1);

@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-// An object that has been looked at a little, in a box of free cells with things in it.
+// A partly observed object in a box of free cells with other objects.
 OccupancyMap half_seen_object(std::mt19937& engine) {
   OccupancyMap map = test::hollow_map(engine, 0.1);
   std::uniform_real_distribution<double> log_odds(-2.0, 3.5);
@@ -55,7 +55,7 @@ struct Gains {
   double proximity_count = 0.0;
 };
 
-// The definitions, every ray cell by cell through the map itself.
+// The definitions, by walking each ray cell by cell through the map.
 Gains gains_by_definition(const OccupancyMap& map, const Pose& pose, const ViewRays& rays, const VoxelBox& object,
                           double d_max_m) {
   const ViewPlacer placer(pose, rays, map.frame());

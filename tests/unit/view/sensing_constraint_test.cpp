@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-// A ball of unknown cells, its skin occupied on one side, in free space.
+// A ball of unknown cells in free space; the surface is occupied on one side.
 OccupancyMap ball(double resolution_m, std::int32_t radius) {
   OccupancyMap map({.resolution_m = resolution_m});
   const std::int32_t reach = 3 * radius;

@@ -22,7 +22,7 @@ std::vector<VoxelIndex> cells_of(const std::vector<SightedCell>& seen) {
   return cells;
 }
 
-// Where nothing is seen through, it is what a view sees.
+// With opaque cells, the result is the first cell of each ray.
 TEST(UnknownSight, OpaqueItIsTheFirstCellOfEachRay) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> angle(-3.0, 3.0);
@@ -51,7 +51,7 @@ TEST(UnknownSight, OpaqueItIsTheFirstCellOfEachRay) {
   EXPECT_GT(compared, 500U);
 }
 
-// A corridor along x, one cell wide: free to x = 5, unknown from there to `end`, and a surface behind if asked for.
+// A corridor along x, one cell wide: free up to x = 5, unknown up to `end`, optionally with a wall behind it.
 struct Corridor {
   explicit Corridor(int end, bool wall) : map({.resolution_m = 0.1}) {
     for (int x = 0; x < end; ++x) {
@@ -72,7 +72,7 @@ struct Corridor {
   std::vector<VoxelIndex> wanted;
 };
 
-constexpr double kStep = 1e-4;  // chances are kept in steps
+constexpr double kStep = 1e-4;  // resolution of stored probabilities
 
 TEST(UnknownSight, FollowsItsFormula) {
   const Corridor corridor(12, true);

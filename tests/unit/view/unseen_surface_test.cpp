@@ -9,7 +9,7 @@ namespace {
 
 constexpr VoxelBox kWallBox{{-8, -8, -8}, {8, 8, 8}};
 
-// A wall one cell thick, across x, in a room that is known but for what `unknown` says.
+// A wall of one cell across x in a room in which all is known but the cells of `is_unknown`.
 template <class IsUnknown>
 OccupancyMap wall_map(const IsUnknown& unknown) {
   OccupancyMap map({.resolution_m = 0.05});
@@ -55,7 +55,7 @@ TEST(UnseenSurface, ExpectsTheBackOfASurfaceThroughWhatIsUnknown) {
   EXPECT_GT(behind.size(), 2 * in_front.size());
 }
 
-// Rays that pass the wall and meet nothing within range say that the cells on them are free.
+// Rays that pass the wall and return nothing mark their cells as free.
 TEST(UnseenSurface, TakesForFreeWhatRaysHavePassed) {
   const auto beside = [](const VoxelIndex& cell) { return cell.y > 5; };
   const OccupancyMap map = wall_map(beside);

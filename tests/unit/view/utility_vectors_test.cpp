@@ -75,7 +75,7 @@ TEST(UtilityVectors, AreThinnedEvenlyWhereTheyAreTooMany) {
   EXPECT_THROW((void)utility_vectors(scene.voids, scene.frontier_voids, frame, 0), std::invalid_argument);
 }
 
-// Against the cells that each line has, one by one.
+// Compares with the cells of each line, one by one.
 TEST(AccumulatedUtility, IsWhatTheLinesThroughACellAreWorth) {
   std::mt19937 engine(63);
   const FreeFlyer flyer({.radius_m = 0.1});

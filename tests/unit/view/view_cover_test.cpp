@@ -40,7 +40,7 @@ std::vector<std::size_t> numbers(std::size_t count) {
   return all;
 }
 
-// The fewest sets that cover what all do, by trying all selections.
+// The minimum number of sets that cover the union of all, by exhaustive search.
 std::size_t fewest(const std::vector<CellSet>& sets) {
   const CellSet all = union_of(sets, numbers(sets.size()));
   std::size_t best = sets.size();

@@ -68,7 +68,7 @@ TEST(DepthCamera, EveryPixelIsCountedOnceAndProjectsBackToItself) {
   EXPECT_GT(points, 10000U);
 }
 
-// ICL-NUIM's way to write a camera is that of an image upside down: the same world, the same rays.
+// ICL-NUIM stores a camera with negative fy, i.e. an image upside down: the world and the rays are the same.
 TEST(DepthCamera, NegativeFyIsTheImageUpsideDown) {
   DepthCamera camera = small_camera();
   camera.fy = -58.0;
@@ -107,7 +107,7 @@ TEST(DepthCamera, DropsWhatHangsBetweenAnEdgeAndItsBackgroundAndNothingOfPlanes)
   EXPECT_EQ(crumb.flying, 1U) << "a pixel without support";
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> tilt(-0.8, 0.8);
-  for (int run = 0; run < 50; ++run) {  // planes up to 30 degrees off the axis, by pixels of a degree
+  for (int run = 0; run < 50; ++run) {  // planes tilted by up to 30 degrees, with pixels of one degree
     const double a = tilt(engine);
     const double b = tilt(engine);
     const DepthReport plane = depth_scan(image_of(camera,
@@ -131,7 +131,7 @@ TEST(DepthCamera, WhatIsNotMeasuredFreesNothing) {
   EXPECT_EQ(report.not_finite, 32U * 48U);
   std::size_t known = 0;
   map.for_each_known([&](const VoxelIndex& cell, Occupancy) {
-    // The last measured ray leans 0.5 / 60 to the right; a cell it touches may reach one edge further.
+    // The last measured ray is inclined by 0.5 / 60 to the right; a cell that it touches may extend one edge further.
     const Eigen::Vector3d centre = map.frame().centre_of(cell);
     EXPECT_LT(centre.x(), centre.z() * 0.5 / 60.0 + 0.05);
     ++known;
@@ -238,7 +238,7 @@ TEST(DepthImage, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(said(good), "");
   std::size_t refused = 0;
   std::mt19937 engine(11);
-  for (int run = 0; run < 300; ++run) {  // cut off anywhere, or any byte changed
+  for (int run = 0; run < 300; ++run) {  // truncated anywhere, or with any byte changed
     std::string bytes = good;
     const std::size_t at = engine() % bytes.size();
     if (run % 2 == 0) {

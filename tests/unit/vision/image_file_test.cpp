@@ -42,7 +42,7 @@ TEST_F(ImageFile, IsReadInThreeFormats) {
   EXPECT_NE(complaint(encoded(".bmp")), "");
 }
 
-// A header that promises more pixels than anybody means is refused before there is room for them.
+// A header with an absurd number of pixels is rejected before memory is allocated.
 TEST_F(ImageFile, HasABoundedSize) {
   EXPECT_NE(complaint("P6 100000 100000 255\n").find("is an image of 100000 x 100000 pixels, must be 1 to 67108864"),
             std::string::npos);

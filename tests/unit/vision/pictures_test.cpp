@@ -39,7 +39,7 @@ FloorPlanContent walk() {
   return content;
 }
 
-// How many pixels have nearly this colour.
+// Number of pixels with approximately this colour.
 std::size_t count(const Picture& picture, int red, int green, int blue) {
   std::size_t found = 0;
   for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
@@ -140,7 +140,7 @@ TEST(FieldPicture, ShowsTheFrontierAndTheStreamline) {
 }
 
 TEST(LinePlot, ValuesOfCurvesThatEndAtTheSameHeightAreAllLegible) {
-  // Equal curves but for where they end: their ends lie apart, their values would not.
+  // Five equal curves: the labels of their last values must not overlap.
   const auto legible = [](double height) {
     LinePlot plot{.series = {}, .y_range = std::pair{0.0, 100.0}};
     for (int i = 0; i < 5; ++i) {

@@ -81,7 +81,7 @@ TEST(SevenScenes, LeavesOutWhatIsIncompleteAndNamesIt) {
   EXPECT_NE(opening("7scenes", folder / ".").find("camera-intrinsics.txt: has 3 numbers"), std::string::npos);
 }
 
-// A host counts the damaged image and goes on: the frames before and after it are as they were.
+// A damaged image is reported; the frames before and after it are not affected.
 TEST(SevenScenes, ADamagedImageInTheMiddleSpoilsNoOther) {
   const test::TemporaryFolder folder;
   for (const char* name : {"a", "b", "c", "d"}) {
@@ -98,7 +98,7 @@ TEST(SevenScenes, ADamagedImageInTheMiddleSpoilsNoOther) {
   const auto reading = [&](std::size_t frame) {
     return message_of<std::runtime_error>([&] { (void)recording.read(frame); });
   };
-  // The size is that of the first image that can be read, the odd one out of this recording.
+  // The size is that of the first readable image, which is the odd one of this recording.
   EXPECT_NE(reading(0).find("a.depth.png: is not a PNG"), std::string::npos);
   EXPECT_NE(reading(1).find("b.depth.png: is a PNG file that was cut off"), std::string::npos);
   EXPECT_EQ(reading(2), "");
@@ -181,7 +181,7 @@ TEST(Apc, SaysWhatIsWrong) {
   EXPECT_NE(opening("apc", folder / ".").find("cam.info.txt: line 5 is not a row of numbers"), std::string::npos);
 }
 
-// Median distance between what a frame measures and what another one does at the same place of its image.
+// Median difference between the depths of two frames at the same points, metres.
 double median_gap_m(const Recording& recording, std::size_t from, std::size_t to) {
   const DepthCamera& camera = recording.camera();
   const Scan scan = recording.read(from).scan.scan;
@@ -195,7 +195,7 @@ double median_gap_m(const Recording& recording, std::size_t from, std::size_t to
     if (p.allFinite() && p.z() > 0.0 && u >= 0.0 && v >= 0.0 && u < double(camera.width) &&
         v < double(camera.height)) {
       const double gap = std::abs(p.z() - double(target.at(std::size_t(u), std::size_t(v))));
-      if (gap < 0.1) {  // else: not measured, or hidden
+      if (gap < 0.1) {  // otherwise not measured or occluded
         gaps.push_back(gap);
       }
     }
@@ -216,7 +216,7 @@ TEST(RealRecordings, SevenScenesFramesAgreeWithTheirNeighbours) {
   EXPECT_EQ(picture.width, 640U);
 }
 
-// Pairs of random dots ten pixels apart; what is wrong with one of them spoils no other.
+// Pairs of random dots ten pixels apart; an invalid pair does not affect the others.
 TEST(KittiStereo, LeavesOutWhatIsIncompleteAndNamesIt) {
   const test::TemporaryFolder folder;
   fs::create_directories(folder / "image_0");
@@ -251,7 +251,7 @@ TEST(KittiStereo, LeavesOutWhatIsIncompleteAndNamesIt) {
   EXPECT_NE(opening("kitti-stereo", folder / ".").find("calib.txt: cannot be opened"), std::string::npos);
 }
 
-// Range scans of a plate, two of them turned: all lie where the list says.
+// Range scans of a plate, two of them rotated: all lie where the list says.
 class StanfordFolder : public testing::Test {
  protected:
   StanfordFolder() {
@@ -316,7 +316,8 @@ TEST_F(StanfordFolder, SaysWhatIsWrong) {
   EXPECT_NE(opening("stanford", folder_ / ".").find("there is no list *.conf"), std::string::npos);
 }
 
-// Both kinds of file, each by the camera whose pixels it is in; the wrong camera doubles the gap of the decoded ones.
+// Reads both file types, each with the camera of its pixels; the wrong camera doubles the median gap of decoded
+// frames.
 TEST(RealRecordings, ApcFramesAgreeWithTheirNeighbours) {
   VANTAGE_REAL_DATA(folder, "rgbd/apc_shelf_bin_15");
   const Recording decoded = Recording::open("apc", folder);
@@ -324,7 +325,7 @@ TEST(RealRecordings, ApcFramesAgreeWithTheirNeighbours) {
   EXPECT_NEAR(double(decoded.read(7).depth.measured()) / (640.0 * 480.0), 0.27, 0.1);
   EXPECT_LT(median_gap_m(decoded, 6, 7), 0.005);
 
-  const test::TemporaryFolder driver;  // as the driver left it, without the decoded images
+  const test::TemporaryFolder driver;  // raw output of the driver, without decoded images
   fs::copy(folder / "cam.info.txt", driver / "cam.info.txt");
   fs::copy(folder / "raw", driver / "raw");
   const Recording raw = Recording::open("apc", driver / ".");

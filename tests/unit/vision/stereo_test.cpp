@@ -23,7 +23,7 @@ using test::message_of;
 
 StereoRig rig() { return {.focal_px = 200.0, .cx = 100.0, .cy = 60.0, .baseline_m = 0.1}; }
 
-// A pair of pictures of random dots that lie `disparity(column)` apart; `plain` columns have none.
+// A pair of random-dot images with offset `disparity(column)`; `plain` columns have no texture.
 class DotPair {
  public:
   DotPair(const std::function<int(int)>& disparity, const std::function<bool(int)>& plain, int rows_down = 0) {
@@ -166,7 +166,7 @@ TEST(StereoRig, CalibrationsAreRead) {
   EXPECT_DOUBLE_EQ(middlebury.offset_px, 124.343);
   EXPECT_EQ(middlebury.width, 2964U);
 
-  // Two cameras without distortion side by side: rectification changes nothing.
+  // Two parallel cameras without distortion: rectification changes nothing.
   cv::FileStorage out(folder / "rig.yml", cv::FileStorage::WRITE);
   const cv::Mat k = (cv::Mat_<double>(3, 3) << 200, 0, 100, 0, 200, 60, 0, 0, 1);
   out << "M1" << k << "D1" << cv::Mat::zeros(1, 5, CV_64F) << "M2" << k << "D2" << cv::Mat::zeros(1, 5, CV_64F) << "R"
