@@ -42,42 +42,6 @@ double straight_time_s(double length, double first, double last, const MotionMod
   return (2.0 * peak - first - last) / a + cruise;
 }
 
-// A corner between two straight pieces. At a speed s the parabola from the one to the other takes
-// 2 s sin(turn / 2) / a, and begins and ends s^2 sin(turn / 2) / a from the corner.
-struct Corner {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  Eigen::Vector3d in = Eigen::Vector3d::Zero();
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  double sharpness = 0.0;  // sin(turn / 2) / a
-  double fastest = 0.0;
-
-  [[nodiscard]] double speed(std::size_t level) const {
-    return fastest * static_cast<double>(level) / static_cast<double>(kSpeeds - 1);
-  }
-  [[nodiscard]] std::size_t levels() const { return fastest > 0.0 ? kSpeeds : 1; }
-  [[nodiscard]] double reach_m(double speed) const { return speed * speed * sharpness; }
-  [[nodiscard]] double time_s(double speed) const { return 2.0 * speed * sharpness; }
-};
-
-// A corner, and what is the best from it on to the end for every speed at it.
-struct Stage {
-  Corner corner;
-  double length_out = 0.0;                  // to the next corner
-  std::array<double, kSpeeds> left_s{};     // from where its parabola begins to the end
-  std::array<std::size_t, kSpeeds> next{};  // level at the next corner
-};
-
-// How a robot gets from its state onto a straight line to a corner.
-struct Swing {
-  double lasts_s = 0.0;
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-  Eigen::Vector3d ends_at = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  double speed = 0.0;
-  double length = 0.0;    // from its end to the corner
-  std::size_t level = 0;  // of speed at the corner
-};
-
 }  // namespace
 
 // The least time over the speeds at all corners, by dynamic programming from the end.
@@ -132,6 +96,42 @@ class Trajectory::Search {
   }
 
  private:
+  // A corner between two straight pieces. At a speed s the parabola from the one to the other takes
+  // 2 s sin(turn / 2) / a, and begins and ends s^2 sin(turn / 2) / a from the corner.
+  struct Corner {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    Eigen::Vector3d in = Eigen::Vector3d::Zero();
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    double sharpness = 0.0;  // sin(turn / 2) / a
+    double fastest = 0.0;
+
+    [[nodiscard]] double speed(std::size_t level) const {
+      return fastest * static_cast<double>(level) / static_cast<double>(kSpeeds - 1);
+    }
+    [[nodiscard]] std::size_t levels() const { return fastest > 0.0 ? kSpeeds : 1; }
+    [[nodiscard]] double reach_m(double speed) const { return speed * speed * sharpness; }
+    [[nodiscard]] double time_s(double speed) const { return 2.0 * speed * sharpness; }
+  };
+
+  // A corner, and what is the best from it on to the end for every speed at it.
+  struct Stage {
+    Corner corner;
+    double length_out = 0.0;                  // to the next corner
+    std::array<double, kSpeeds> left_s{};     // from where its parabola begins to the end
+    std::array<std::size_t, kSpeeds> next{};  // level at the next corner
+  };
+
+  // How a robot gets from its state onto a straight line to a corner.
+  struct Swing {
+    double lasts_s = 0.0;
+    Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
+    Eigen::Vector3d ends_at = Eigen::Vector3d::Zero();
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    double speed = 0.0;
+    double length = 0.0;    // from its end to the corner
+    std::size_t level = 0;  // of speed at the corner
+  };
+
   // No speed at a corner from which it could not come to rest at the end, or which it could not have got up to.
   void reckon_speeds() {
     const double a = motion_.max_acceleration_m_s2;

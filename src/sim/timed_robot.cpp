@@ -59,6 +59,7 @@ bool TimedRobot::way_is_free(const OccupancyMap& map) const {
 
 bool TimedRobot::follow(const OccupancyMap& map, const std::vector<Pose>& path) {
   std::vector<Eigen::Vector3d> corners;
+  corners.reserve(path.size());
   for (const Pose& pose : path) {
     corners.emplace_back(pose.translation());
   }
@@ -79,8 +80,9 @@ bool TimedRobot::follow(const OccupancyMap& map, const std::vector<Pose>& path) 
 void TimedRobot::brake(const OccupancyMap& map) {
   constexpr double kLaterS = 0.05;
   const double now_s = elapsed_s();
-  for (double then_s = now_s; then_s < trajectory_.duration_s(); then_s += kLaterS) {
-    const Trajectory braked = trajectory_.braked(then_s, motion_);
+  const double left_s = std::max(0.0, trajectory_.duration_s() - now_s);
+  for (int later = 0; later * kLaterS < left_s; ++later) {
+    const Trajectory braked = trajectory_.braked(now_s + later * kLaterS, motion_);
     if (admits_points(map, braked.points_from(now_s))) {
       trajectory_ = braked;
       return;
