@@ -2,45 +2,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vantage/robot/trajectory.hpp>
+
+#include "robot/steady_motion.hpp"
 
 namespace vantage {
 namespace {
 
+using detail::chords_of;
+using detail::kNever;
+using detail::kSamePlaceM;
+using detail::moved;
+using detail::peak_speed;
+using detail::straight_time_s;
+
 constexpr std::size_t kSpeeds = 16;       // tried at a corner, from 0 to the fastest it admits
 constexpr std::size_t kCornersAhead = 4;  // that a robot on the move may swing to
 constexpr std::size_t kSwings = 8;        // places where a robot that brakes would stand, tried as a corner
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kChordM = 1e-4;  // how far a chord may leave a curve
-constexpr double kSamePlaceM = 1e-9;
-
-MotionState moved(const MotionState& from, const Eigen::Vector3d& acceleration, double seconds) {
-  return {from.position_m + seconds * from.velocity_m_s + 0.5 * seconds * seconds * acceleration,
-          from.velocity_m_s + seconds * acceleration};
-}
-
-// Into how many chords a piece of constant acceleration is to be cut: each is off by acceleration time^2 / 8.
-int chords_of(double acceleration, double seconds) {
-  return std::max(1, static_cast<int>(std::ceil(seconds * std::sqrt(acceleration / (8.0 * kChordM)))));
-}
-
-double peak_speed(double length, double first, double last, const MotionModel& motion) {
-  return std::min(motion.max_speed_m_s, std::sqrt(std::max(0.0, motion.max_acceleration_m_s2 * length +
-                                                                    0.5 * (first * first + last * last))));
-}
-
-double straight_time_s(double length, double first, double last, const MotionModel& motion) {
-  const double a = motion.max_acceleration_m_s2;
-  if (length < -kSamePlaceM || std::abs(first * first - last * last) > 2.0 * a * length + kSamePlaceM) {
-    return kNever;
-  }
-  const double peak = std::max({peak_speed(length, first, last, motion), first, last});
-  const double changes = (2.0 * peak * peak - first * first - last * last) / (2.0 * a);
-  const double cruise = peak > 0.0 ? std::max(0.0, length - changes) / peak : 0.0;
-  return (2.0 * peak - first - last) / a + cruise;
-}
 
 }  // namespace
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "robot/steady_motion.hpp"
+
 namespace vantage::detail {
 namespace {
 
-constexpr double kChordM = 1e-4;     // how far a step may leave the curve
 constexpr double kTurnStepS = 0.02;  // the longest for turning
 constexpr double kLooksThereRad = 1e-6;
 
