@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -86,6 +87,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& r
   options.look_around = request.look_around;
   options.max_views = request.max_views;
   options.scan_spacing_m = request.scan_spacing_m;
+  options.motion = motion_of(request);
   options.seed = request.seed;
   options.noise = noise_of(request);
   options.body_radius_m = request.robot_radius_m;
@@ -241,6 +243,20 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
       ->group("Robot");
 }
 
+void add_motion_options(CLI::App& command, ExploreRequest& request) {
+  const auto option = [&](const char* name, std::optional<double>& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->check(a_number())->group("Robot in time");
+  };
+  option("--max-speed", request.max_speed_m_s, "M/S", "The run is timed: how fast it moves");
+  option("--max-acceleration", request.max_acceleration_m_s2, "M/S2", "Speeding up, braking and in corners");
+  option("--max-yaw-rate", request.max_yaw_rate_deg_s, "DEG/S", "How fast it turns");
+  option("--max-yaw-acceleration", request.max_yaw_acceleration_deg_s2, "DEG/S2", "Unlimited unless given");
+  option("--scan-rate", request.scan_rate_hz, "HZ", "Scans a second, while it moves and turns");
+  option("--planning-latency", request.planning_latency_s, "S",
+         "From a scan until the plan made from it takes effect")
+      ->default_str("0.05");
+}
+
 }  // namespace
 
 void add_explore_command(CLI::App& app, int& exit_code) {
@@ -248,6 +264,7 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   const auto request = std::make_shared<ExploreRequest>();
   add_world_options(*command, *request);
   add_robot_options(*command, *request);
+  add_motion_options(*command, *request);
   command->add_option("--planner", request->planner, "By name (vantage list)")
       ->type_name("NAME")
       ->capture_default_str()
@@ -278,7 +295,13 @@ void add_explore_command(CLI::App& app, int& exit_code) {
       "  vantage explore --world house.dae --up y --region -9,-5,0.1,9,5,2.4 --resolution 0.1 --json - --quiet\n"
       "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written) or a file that cannot be\n"
       "written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143 interrupted.");
-  command->callback([request, &exit_code] { exit_code = explore(*request); });
+  command->callback([command, request, &exit_code] {
+    if (command->count("--max-views") == 0 && request->scan_rate_hz) {
+      constexpr double kHourS = 3600.0;
+      request->max_views = static_cast<std::size_t>(std::clamp(kHourS * *request->scan_rate_hz, 1.0, 1e7));
+    }
+    exit_code = explore(*request);
+  });
 }
 
 }  // namespace vantage::apps

@@ -2,6 +2,7 @@
 #include "apps/explore_request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vantage/report/sensor_file.hpp>
 
 #include "map/option_rule.hpp"
@@ -56,6 +58,7 @@ void check_numbers(const ExploreRequest& request) {
   require(request.scan_spacing_m, "--scan-spacing", 0.0, 1e6, "in [0, 1e6] metres");
   require(request.noise, "--noise", 0.0, 1000.0, "in [0, 1000]");
   (void)noise_of(request);
+  (void)motion_of(request);
   detail::require_option(request.max_views > 0, "--max-views", request.max_views, "> 0");
   detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
   if (!request.up.empty() && request.up != "y" && request.up != "z") {
@@ -194,6 +197,48 @@ std::optional<HeightBandOptions> band_of(const ExploreRequest& request) {
   }
   return HeightBandOptions{
       .min_height_m = n[0], .max_height_m = n[1], .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1])};
+}
+
+std::optional<MotionModel> motion_of(const ExploreRequest& request) {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  const std::array<std::pair<const char*, const std::optional<double>&>, 4> needed{{
+      {"--max-speed", request.max_speed_m_s},
+      {"--max-acceleration", request.max_acceleration_m_s2},
+      {"--max-yaw-rate", request.max_yaw_rate_deg_s},
+      {"--scan-rate", request.scan_rate_hz},
+  }};
+  const bool any = std::any_of(needed.begin(), needed.end(), [](const auto& option) { return option.second; }) ||
+                   request.max_yaw_acceleration_deg_s2 || request.planning_latency_s;
+  if (!any) {
+    return std::nullopt;
+  }
+  for (const auto& [flag, value] : needed) {
+    if (!value) {
+      throw std::invalid_argument(std::string(flag) +
+                                  " is missing: --max-speed, --max-acceleration, --max-yaw-rate and --scan-rate make "
+                                  "a run timed together, --max-yaw-acceleration and --planning-latency only beside "
+                                  "them");
+    }
+  }
+  MotionModel motion{.max_speed_m_s = *request.max_speed_m_s,
+                     .max_acceleration_m_s2 = *request.max_acceleration_m_s2,
+                     .max_yaw_rate_rad_s = *request.max_yaw_rate_deg_s * kRadians,
+                     .scan_rate_hz = *request.scan_rate_hz};
+  if (request.max_yaw_acceleration_deg_s2) {
+    motion.max_yaw_acceleration_rad_s2 = *request.max_yaw_acceleration_deg_s2 * kRadians;
+  }
+  motion.planning_latency_s = request.planning_latency_s.value_or(motion.planning_latency_s);
+  const auto require = [](double value, const char* option, double least, double most, const char* rule) {
+    detail::require_option(value >= least && value <= most, option, value, rule);
+  };
+  require(motion.max_speed_m_s, "--max-speed", 1e-3, 1e3, "in [0.001, 1000] metres per second");
+  require(motion.max_acceleration_m_s2, "--max-acceleration", 1e-3, 1e4, "in [0.001, 10000] metres per second^2");
+  require(*request.max_yaw_rate_deg_s, "--max-yaw-rate", 0.1, 36000.0, "in [0.1, 36000] degrees per second");
+  require(request.max_yaw_acceleration_deg_s2.value_or(1.0), "--max-yaw-acceleration", 0.1, 360000.0,
+          "in [0.1, 360000] degrees per second^2");
+  require(motion.scan_rate_hz, "--scan-rate", 0.01, 1000.0, "in [0.01, 1000] hertz");
+  require(motion.planning_latency_s, "--planning-latency", 0.0, 60.0, "in [0, 60] seconds");
+  return motion;
 }
 
 std::optional<Pose> start_of(const ExploreRequest& request) {

@@ -11,6 +11,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_recorder.hpp>
+#include <vantage/robot/motion_model.hpp>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/world.hpp>
 #include <vector>
@@ -30,6 +31,12 @@ struct ExploreRequest {
   std::string start;
   double robot_radius_m = 0.15;
   double scan_spacing_m = 0.5;
+  std::optional<double> max_speed_m_s;  // these four, or none: the run is not timed
+  std::optional<double> max_acceleration_m_s2;
+  std::optional<double> max_yaw_rate_deg_s;
+  std::optional<double> scan_rate_hz;
+  std::optional<double> max_yaw_acceleration_deg_s2;  // these two only beside them
+  std::optional<double> planning_latency_s;
   bool yaw_only = false;
   std::string band;
   bool look_around = false;
@@ -59,6 +66,8 @@ struct ExploreRequest {
 [[nodiscard]] std::optional<Box> region_of(const ExploreRequest& request);
 /// `--band`; none: the robot flies.
 [[nodiscard]] std::optional<HeightBandOptions> band_of(const ExploreRequest& request);
+/// `--max-speed` and its like; none: the run is not timed.
+[[nodiscard]] std::optional<MotionModel> motion_of(const ExploreRequest& request);
 [[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
 [[nodiscard]] RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command,
                                               const std::string& world, const RangeSensor& sensor);

@@ -127,6 +127,9 @@ void RunPrinter::summary(const RunRecord& record) {
   out_ << (terminal_ && !record.views.empty() ? "\n\n  " : "\n  ") << format("%-12s ", "outcome")
        << to_string(record.outcome) << ": " << record.reason << '\n'
        << format("  %-12s %zu, over a path of %.1f m\n", "views", record.views.size(), record.path_length_m());
+  if (record.duration_s) {
+    out_ << format("  %-12s %.1f s, turned %.0f degrees\n", "duration", *record.duration_s, record.turned_deg);
+  }
   if (record.coverage) {
     out_ << format("  %-12s %.2f %% of %zu observable cells\n", "coverage", 100.0 * *record.coverage,
                    record.observable_cells);

@@ -86,6 +86,7 @@ void put_view(ByteWriter& out, const ViewRecord& view) {
   put(out, view.coverage);
   put(out, view.surface_coverage);
   put(out, view.seen_coverage);
+  put(out, view.time_s);
   for (const double value : {view.path_length_m, view.insert_ms, view.plan_ms, view.utility}) {
     out.real(value);
   }
@@ -107,6 +108,7 @@ ViewRecord view_from(ByteReader& in) {
   view.coverage = optional_from(in);
   view.surface_coverage = optional_from(in);
   view.seen_coverage = optional_from(in);
+  view.time_s = optional_from(in);
   for (double* value : {&view.path_length_m, &view.insert_ms, &view.plan_ms, &view.utility}) {
     *value = in.real();
   }

@@ -10,7 +10,7 @@
 namespace vantage::detail {
 
 /// The first bytes of a record.
-inline constexpr std::string_view kRecordMagic = "vantage run record 2\n";
+inline constexpr std::string_view kRecordMagic = "vantage run record 3\n";
 
 /// Kind of a chunk.
 enum class ChunkKind : std::uint8_t { Head = 'H', Cycle = 'C', End = 'E' };

@@ -116,6 +116,8 @@ std::string end_json(const RunRecord& run) {
                  {"observable_cells", run.observable_cells},
                  {"surface_coverage", value_or_null(run.surface_coverage)},
                  {"seen_observable", value_or_null(run.seen_observable)},
+                 {"duration_s", value_or_null(run.duration_s)},
+                 {"turned_deg", run.turned_deg},
                  {"collisions", run.collisions},
                  {"integration_operations", run.integration_operations},
                  {"planning_operations", run.planning_operations},
@@ -135,6 +137,8 @@ void read_end(const std::string& text, RunRecord& run) {
   take(object, "observable_cells", run.observable_cells);
   take(object, "surface_coverage", run.surface_coverage);
   take(object, "seen_observable", run.seen_observable);
+  take(object, "duration_s", run.duration_s);
+  take(object, "turned_deg", run.turned_deg);
   take(object, "collisions", run.collisions);
   take(object, "integration_operations", run.integration_operations);
   take(object, "planning_operations", run.planning_operations);

@@ -15,7 +15,8 @@
 #include <vantage/view/candidate_views.hpp>
 
 #include "map/option_rule.hpp"
-#include "sim/surface_coverage.hpp"
+#include "sim/run_progress.hpp"
+#include "sim/timed_robot.hpp"
 
 namespace vantage {
 namespace {
@@ -34,6 +35,9 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   detail::require_option(options.threads > 0, "ExplorationRunOptions::threads", options.threads, "> 0");
   detail::require_option(std::isfinite(options.surface_gap_m) && options.surface_gap_m > 0.0,
                          "ExplorationRunOptions::surface_gap_m", options.surface_gap_m, "> 0");
+  if (options.motion) {
+    options.motion->validate();
+  }
   if (options.band && options.unknown_box) {
     throw std::invalid_argument("ExplorationRunOptions::unknown_box: there is none in the plane of a band");
   }
@@ -77,19 +81,6 @@ std::shared_ptr<const Platform> given(std::shared_ptr<const Platform> platform) 
 }
 
 }  // namespace
-
-struct ExplorationRun::Progress {
-  SimulatedSensor sensor;
-  Pose pose;
-  double body_radius_m = 0.0;
-  double path_length_m = 0.0;
-  double since_scan_m = 0.0;
-  std::vector<Eigen::Vector3d> passed;  // since the previous scan
-  std::vector<VoxelIndex> observable;
-  SurfaceCoverage surface;
-  SeenSurface seen;
-  RunRecord record;
-};
 
 ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
                                std::shared_ptr<const Platform> platform, const ExplorationRunOptions& options)
@@ -177,6 +168,7 @@ void ExplorationRun::scan(Progress& progress) {
   view.pose = progress.pose;
   view.passed = std::exchange(progress.passed, {});
   view.path_length_m = progress.path_length_m;
+  view.time_s = progress.time_s;
   if (options_.measure_coverage) {
     view.coverage = truth_.coverage(known(), progress.observable);
   }
@@ -194,7 +186,7 @@ void ExplorationRun::scan(Progress& progress) {
 }
 
 // Turns once on the spot. Views overlap by a fifth. The last view is reported with the plan that follows.
-void ExplorationRun::look_around(Progress& progress, const OnView& on_view) {
+void ExplorationRun::look_around(Progress& progress, detail::TimedRobot* robot, const OnView& on_view) {
   constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
   const auto turns = static_cast<std::size_t>(std::ceil(kFullTurnRad / (0.8 * sensor_.horizontal_angle_rad())));
   const Pose start = progress.pose;
@@ -204,14 +196,20 @@ void ExplorationRun::look_around(Progress& progress, const OnView& on_view) {
       on_view(progress.record.views.back(), known());
     }
     const double yaw_rad = kFullTurnRad * static_cast<double>(turn) / static_cast<double>(turns);
-    progress.pose = start;
-    progress.pose.linear() = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * start.linear();
-    scan(progress);
+    Pose next = start;
+    next.linear() = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * start.linear();
+    if (robot == nullptr) {
+      turn_to(progress, next);
+      scan(progress);
+    } else if (robot->follow(known(), {progress.pose, next})) {
+      fly_on(progress, *robot, on_view);
+    }
   }
 }
 
-void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner, Plan& plan) {
+void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner) {
   const Clock::time_point start = Clock::now();
+  Plan& plan = progress.plan;
   plan = planner.plan(known(), progress.pose);
   ViewRecord& view = progress.record.views.back();
   view.plan_ms = milliseconds_since(start);
@@ -243,6 +241,12 @@ bool ExplorationRun::collides(const Pose& from, const Pose& to, double radius_m)
   return false;
 }
 
+void ExplorationRun::turn_to(Progress& progress, const Pose& to) {
+  const Eigen::Quaterniond by(Eigen::Matrix3d(progress.pose.linear().transpose() * to.linear()));
+  progress.record.turned_deg += 2.0 * std::atan2(by.vec().norm(), std::abs(by.w())) * 180.0 / std::numbers::pi;
+  progress.pose = to;
+}
+
 void ExplorationRun::move(Progress& progress, const Pose& to) {
   const double length_m = (to.translation() - progress.pose.translation()).norm();
   if (length_m > 0.0) {
@@ -252,12 +256,13 @@ void ExplorationRun::move(Progress& progress, const Pose& to) {
   }
   progress.path_length_m += length_m;
   progress.since_scan_m += length_m;
-  progress.pose = to;
+  turn_to(progress, to);
 }
 
 // Follows the path to the goal, or until `check` is not Good, the budget is spent or somebody stops the run. The
 // last scan is reported with the plan that follows.
-void ExplorationRun::follow(Progress& progress, const Plan& plan, const OnView& on_view) {
+void ExplorationRun::follow(Progress& progress, const OnView& on_view) {
+  const Plan& plan = progress.plan;
   for (std::size_t next = 1; next < plan.path.size(); ++next) {
     const Pose from = progress.pose;
     const Pose& to = plan.path[next];
@@ -305,20 +310,44 @@ void ExplorationRun::measure_observable(Progress& progress, const Pose& start) c
       observable == 0 ? 1.0 : static_cast<double>(progress.seen.seen_count()) / static_cast<double>(observable);
 }
 
-// NOLINTNEXTLINE(readability-function-size): one cycle after the other
+// Plans, and tells of the latest scan. False where that ends the run.
+bool ExplorationRun::goes_on(Progress& progress, ExplorationPlanner& planner, const OnView& on_view) {
+  RunRecord& record = progress.record;
+  const bool planned = !stopped();
+  if (planned) {
+    plan(progress, planner);
+  }
+  if (on_view) {
+    on_view(record.views.back(), known());
+  }
+  const Plan& next = progress.plan;
+  if (!planned || (next.outcome == Outcome::Move && stopped())) {
+    record.outcome = RunOutcome::Interrupted;
+    record.reason = "interrupted after view " + std::to_string(record.views.size());
+    return false;
+  }
+  if (next.outcome != Outcome::Move || next.path.empty()) {
+    record.outcome = run_outcome_of(next.outcome);
+    record.reason = next.reason;
+    return false;
+  }
+  if (record.views.size() >= options_.max_views) {
+    record.outcome = RunOutcome::Budget;
+    record.reason = "the budget of " + std::to_string(options_.max_views) + " views is spent";
+    return false;
+  }
+  return true;
+}
+
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
   map_ = OccupancyMap(options_.map);
   if (options_.band) {
     band_.emplace(options_.map, *options_.band);
   }
-  Progress progress{.sensor = SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),
-                    .pose = start,
-                    .passed = {start.translation()},
-                    .observable = {},
-                    .surface = SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
-                    .seen = SeenSurface(scene_, options_.object_surface, sensor_),
-                    .record = {}};
+  Progress progress(start, SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),
+                    SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
+                    SeenSurface(scene_, options_.object_surface, sensor_));
   if (options_.measure_coverage) {
     progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads,
                                             options_.on_observable_share, options_.unknown_box);
@@ -340,35 +369,16 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
   for (const Box& box : options_.declared_clear) {
     map_.assume_free(box);
   }
-  scan(progress);
-  if (options_.look_around) {
-    look_around(progress, on_view);
-  }
-  for (;;) {
-    Plan next;
-    const bool planned = !stopped();
-    if (planned) {
-      plan(progress, planner, next);
+  if (options_.motion) {
+    fly(progress, planner, on_view);
+  } else {
+    scan(progress);
+    if (options_.look_around) {
+      look_around(progress, nullptr, on_view);
     }
-    if (on_view) {
-      on_view(record.views.back(), known());
+    while (goes_on(progress, planner, on_view)) {
+      follow(progress, on_view);
     }
-    if (!planned || (next.outcome == Outcome::Move && stopped())) {
-      record.outcome = RunOutcome::Interrupted;
-      record.reason = "interrupted after view " + std::to_string(record.views.size());
-      break;
-    }
-    if (next.outcome != Outcome::Move || next.path.empty()) {
-      record.outcome = run_outcome_of(next.outcome);
-      record.reason = next.reason;
-      break;
-    }
-    if (record.views.size() >= options_.max_views) {
-      record.outcome = RunOutcome::Budget;
-      record.reason = "the budget of " + std::to_string(options_.max_views) + " views is spent";
-      break;
-    }
-    follow(progress, next, on_view);
   }
   measure_observable(progress, start);
   record.peak_memory_mb = peak_memory_mb();

@@ -181,6 +181,26 @@ TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
   EXPECT_EQ(refused_, 10);
 }
 
+TEST_F(Program, TimesARun) {
+  const std::string motion = "--max-speed 2 --max-acceleration 3 --max-yaw-rate 90 --scan-rate 10 ";
+  const Ran ran =
+      run("explore --world table --sensor panoramic --resolution 0.2 --planner nearest-frontier --json - " + motion);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  ASSERT_TRUE(report["duration_s"].is_number());
+  EXPECT_LE(report["duration_s"], report["cycles"].back()["time_s"]);
+  EXPECT_GT(report["turned_deg"], 0.0);
+  EXPECT_NEAR(report["cycles"][3]["time_s"].get<double>(), 0.3, 1e-12);
+  EXPECT_NE(ran.err.find("duration"), std::string::npos) << ran.err;
+  const std::string table(kTable);
+  expect_refused(table + "--max-speed 2", "--max-acceleration is missing");
+  expect_refused(table + "--planning-latency 0.1", "--max-speed is missing");
+  expect_refused(table + motion + "--max-yaw-acceleration 0", "--max-yaw-acceleration");
+  expect_refused(table + motion + "--planning-latency -1", "--planning-latency");
+  expect_refused(table + "--max-acceleration 3 --max-yaw-rate 90 --scan-rate 15 --max-speed 0", "--max-speed");
+  EXPECT_EQ(refused_, 5);
+}
+
 TEST_F(Program, RefusesWhatItCannotDo) {
   for (const char* arguments : {"", "dance", "explore --world", "reconstruct", "list --all"}) {
     const Ran ran = run(arguments);

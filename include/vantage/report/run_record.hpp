@@ -57,6 +57,7 @@ struct ViewRecord {
   /// Share of the surface samples of an object that an image has shown (SeenSurface); none without an object.
   std::optional<double> seen_coverage;
   double path_length_m = 0.0;       ///< path of the sensor so far, metres
+  std::optional<double> time_s;     ///< seconds since the first scan; none if the run is not timed
   double insert_ms = 0.0;           ///< time to integrate the scan, milliseconds
   double plan_ms = 0.0;             ///< time of the plan, milliseconds; 0 if the previous plan was still followed
   double utility = 0.0;             ///< utility of the goal chosen after this scan, in the unit of the planner
@@ -97,6 +98,10 @@ struct RunRecord {
   std::optional<double> seen_coverage;      ///< at the end; see ViewRecord::seen_coverage
   /// Samples seen, as a share of those that any admitted pose could see; none without an object.
   std::optional<double> seen_observable;
+  /// Time of the last scan that taught something the planner waited for, seconds: it made known a cell that the plan
+  /// of then sought (any cell, if the plan sought none in particular). None if the run is not timed.
+  std::optional<double> duration_s;
+  double turned_deg = 0.0;                   ///< total turn of the sensor, degrees; only runs of ExplorationRun
   Leftover leftover;                         ///< frontier cells that no view was planned for at the end, by cause
   std::size_t collisions = 0;                ///< motions in which the body touched a true surface
   std::uint64_t integration_operations = 0;  ///< cells updated by all scans

@@ -12,6 +12,7 @@
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_record.hpp>
+#include <vantage/robot/motion_model.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vantage/sim/seen_surface.hpp>
 #include <vantage/sim/simulated_sensor.hpp>
@@ -19,6 +20,10 @@
 #include <vantage/sim/truth.hpp>
 #include <vantage/sim/world.hpp>
 #include <vector>
+
+namespace vantage::detail {
+class TimedRobot;
+}
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -37,6 +42,9 @@ struct ExplorationRunOptions {
   RayPolicy ray_policy = RayPolicy::EveryReturn;
   std::size_t max_views = 500;  ///< budget of scans, > 0
   double scan_spacing_m = 0.5;  ///< path between two scans on the way, metres, >= 0; 0: scans at goals only
+  /// Limits of a timed run, in which the robot moves, turns, scans and plans in time; then `scan_spacing_m` has no
+  /// effect. None: the robot is at each pose of its path at once.
+  std::optional<MotionModel> motion = std::nullopt;
   /// Whether the robot turns once on the spot, level, scanning all around, before the first plan. A sensor with a
   /// narrow field of view does not see past what lies beside the body.
   bool look_around = false;
@@ -68,7 +76,12 @@ struct ExplorationRunOptions {
 
 /// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal
 /// the sensor scans every `scan_spacing_m`. The run plans again when `check` says that the plan is no longer good.
-/// The same world, planner and options give the same record, except for times and memory.
+/// The same world, planner and options give the same record, except for computing times and memory.
+///
+/// A timed run (ExplorationRunOptions::motion) scans at a fixed rate. It asks for a plan from the pose of a scan,
+/// under the same conditions as an untimed run, follows the previous plan for the planning latency, and joins the new
+/// one without a stop if it can. The robot only sets out on a way that is known to be free up to where it comes to
+/// rest. If a scan closes that way, the robot brakes.
 class ExplorationRun {
  public:
   /// Called after every scan with its record and with the map that the planner plans in (`known`).
@@ -96,13 +109,20 @@ class ExplorationRun {
   void assume_start_free(const Pose& start);
   void know_surroundings();
   void scan(Progress& progress);
-  void look_around(Progress& progress, const OnView& on_view);
-  void plan(Progress& progress, ExplorationPlanner& planner, Plan& plan);
-  void follow(Progress& progress, const Plan& plan, const OnView& on_view);
+  // At once without a robot.
+  void look_around(Progress& progress, detail::TimedRobot* robot, const OnView& on_view);
+  void plan(Progress& progress, ExplorationPlanner& planner);
+  [[nodiscard]] bool goes_on(Progress& progress, ExplorationPlanner& planner, const OnView& on_view);
+  void follow(Progress& progress, const OnView& on_view);
+  void fly(Progress& progress, ExplorationPlanner& planner, const OnView& on_view);
+  void fly_on(Progress& progress, detail::TimedRobot& robot, const OnView& on_view);
+  void fly_until(Progress& progress, detail::TimedRobot& robot, double time_s);
+  void scan_in_time(Progress& progress, const detail::TimedRobot& robot);
   [[nodiscard]] bool stopped() const { return options_.stop && options_.stop(); }
   void measure_observable(Progress& progress, const Pose& start) const;
   [[nodiscard]] bool collides(const Pose& from, const Pose& to, double radius_m) const;
   void move(Progress& progress, const Pose& to);
+  static void turn_to(Progress& progress, const Pose& to);
 
   World world_;
   RangeSensor sensor_;

@@ -52,10 +52,17 @@ function groupOf(run) {
 
 function prepare(run, index) {
   let ms = 0;
-  run.seconds = run.report.cycles.map((cycle) => (ms += cycle.insert_ms + cycle.plan_ms) / 1000);
+  run.seconds = run.report.cycles.map((cycle) => {
+    ms += cycle.insert_ms + cycle.plan_ms;
+    return cycle.time_s ?? ms / 1000;  // the robot's time where the run was timed, else the computer's
+  });
   const groups = [...new Set(runs.map(groupOf))];
   run.colour = several ? kRunColours[groups.indexOf(groupOf(run)) % kRunColours.length] : kRunColours[0];
   run.index = index;
+}
+
+function isTimed(run) {
+  return run.report.cycles.some((cycle) => typeof cycle.time_s === "number");
 }
 
 function abscissaOf(run, i) {
@@ -69,6 +76,8 @@ function showNumbers() {
   const rows = [
     ["outcome", "outcome", report.outcome, report.outcome], ["views", "views", report.views, report.views],
     ["path_length_m", "path", report.path_length_m, `${report.path_length_m.toFixed(1)} m`],
+    ["duration_s", "duration", report.duration_s, `${(report.duration_s ?? 0).toFixed(1)} s`],
+    ["turned_deg", "turned", report.turned_deg, `${(report.turned_deg ?? 0).toFixed(0)} degrees`],
     ["coverage", "coverage", report.coverage, percent(report.coverage, 2)],
     ["seen_coverage", "seen", report.seen_coverage, percent(report.seen_coverage, 2)],
     ["seen_observable", "seen of what can be", report.seen_observable, percent(report.seen_observable, 2)],
@@ -163,7 +172,7 @@ function stagesOf(run, i) {
 
 function drawCurves() {
   const ends = runs.map((run) => abscissaOf(run, run.report.cycles.length - 1));
-  const label = { view: "views", metres: "path [m]", seconds: "computing [s]" }[state.abscissa];
+  const label = { view: "views", metres: "path [m]", seconds: isTimed(runs[0]) ? "time [s]" : "computing [s]" }[state.abscissa];
   const from = state.abscissa === "view" ? 1 : 0;
   const progress = runs.map((run) => run.report.cycles.map((_, i) => progressOf(run, i)));
   $("coverage-title").textContent = !measured() ? "Known volume"
@@ -262,9 +271,12 @@ function play(on) {
 }
 
 function frame(time) {
-  const pause = Math.max(60, 14000 / length);  // a whole run in about a quarter of a minute
+  const { seconds } = runs[0];
+  const pause = isTimed(runs[0]) && state.now < seconds.length
+    ? 1000 * (seconds[state.now] - seconds[state.now - 1])  // at true speed
+    : Math.max(60, 14000 / length);  // a whole run in about a quarter of a minute
   if (state.playing && time - state.since > pause) {
-    state.since = time;
+    state.since = isTimed(runs[0]) ? Math.max(state.since + pause, time - 1000) : time;
     seek(state.now + 1);
     if (state.now >= length) play(false);
   }

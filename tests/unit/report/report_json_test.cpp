@@ -49,13 +49,30 @@ RunRecord three_views() {
 
 TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
   const ordered_json report = ordered_json::parse(report_json(three_views()));
-  EXPECT_EQ(keys_of(report),
-            (std::vector<std::string>{
-                "vantage",          "command",       "world",           "planner",        "seed",
-                "threads",          "resolution_m",  "outcome",         "reason",         "views",
-                "path_length_m",    "seen_coverage", "seen_observable", "coverage",       "observable_cells",
-                "surface_coverage", "leftover",      "collisions",      "ray_operations", "time_ms",
-                "peak_memory_mb",   "cycles"}));
+  EXPECT_EQ(keys_of(report), (std::vector<std::string>{"vantage",
+                                                       "command",
+                                                       "world",
+                                                       "planner",
+                                                       "seed",
+                                                       "threads",
+                                                       "resolution_m",
+                                                       "outcome",
+                                                       "reason",
+                                                       "views",
+                                                       "path_length_m",
+                                                       "duration_s",
+                                                       "turned_deg",
+                                                       "seen_coverage",
+                                                       "seen_observable",
+                                                       "coverage",
+                                                       "observable_cells",
+                                                       "surface_coverage",
+                                                       "leftover",
+                                                       "collisions",
+                                                       "ray_operations",
+                                                       "time_ms",
+                                                       "peak_memory_mb",
+                                                       "cycles"}));
   EXPECT_EQ(keys_of(report["leftover"]),
             (std::vector<std::string>{"unreachable", "unobservable", "in_vain", "too_small"}));
   EXPECT_EQ(keys_of(report["ray_operations"]), (std::vector<std::string>{"integration", "planning"}));
@@ -63,8 +80,8 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
   EXPECT_EQ(keys_of(report["time_ms"]["plan"]), (std::vector<std::string>{"median", "max"}));
   ASSERT_EQ(report["cycles"].size(), 3U);
   EXPECT_EQ(keys_of(report["cycles"][0]),
-            (std::vector<std::string>{"view", "pose", "coverage", "seen_coverage", "path_length_m", "insert_ms",
-                                      "plan_ms", "utility", "frontier_cells", "void_cells", "outcome"}));
+            (std::vector<std::string>{"view", "pose", "coverage", "seen_coverage", "time_s", "path_length_m",
+                                      "insert_ms", "plan_ms", "utility", "frontier_cells", "void_cells", "outcome"}));
 }
 
 TEST(ReportJson, SaysWhatTheRecordSays) {
@@ -106,9 +123,23 @@ TEST(ReportJson, LeavesUnknownNullAndSurvivesAnEmptyRun) {
   const ordered_json report = ordered_json::parse(report_json(RunRecord{}));
   EXPECT_TRUE(report["coverage"].is_null());
   EXPECT_TRUE(report["observable_cells"].is_null());
+  EXPECT_TRUE(report["duration_s"].is_null());
+  EXPECT_EQ(report["turned_deg"], 0.0);
   EXPECT_TRUE(report["time_ms"]["plan"]["median"].is_null());
   EXPECT_EQ(report["views"], 0);
   EXPECT_TRUE(report["cycles"].empty());
+}
+
+TEST(ReportJson, TellsTheTimeOfATimedRun) {
+  RunRecord record = three_views();
+  record.duration_s = 1.5;
+  record.turned_deg = 90.0;
+  record.views[1].time_s = 0.25;
+  const ordered_json report = ordered_json::parse(report_json(record));
+  EXPECT_EQ(report["duration_s"], 1.5);
+  EXPECT_EQ(report["turned_deg"], 90.0);
+  EXPECT_TRUE(report["cycles"][0]["time_s"].is_null());
+  EXPECT_EQ(report["cycles"][1]["time_s"], 0.25);
 }
 
 TEST(ReportJson, NeverThrowsForTheBytesOfAFileName) {

@@ -71,6 +71,7 @@ class Rehearsal {
     view_.path_length_m += (view_.passed[1] - view_.passed[0]).norm();
     view_.pose = scan.world_from_sensor;
     view_.coverage = 0.1 * static_cast<double>(view_.view);
+    view_.time_s = view_.view > 1 ? std::optional(0.25 * static_cast<double>(view_.view)) : std::nullopt;
     if (view_.view % 2 == 1) {
       plan_ = some_plan(engine_);
     }
@@ -107,7 +108,8 @@ std::size_t cycles_that_agree(RunRecordReader& reader, unsigned seed) {
     const bool agrees = states_of(map) == states_of(rehearsal.map()) && cycle->view.view == rehearsal.view().view &&
                         cycle->view.pose.isApprox(rehearsal.view().pose, 1e-12) &&
                         cycle->view.path_length_m == rehearsal.view().path_length_m &&
-                        cycle->view.coverage == rehearsal.view().coverage && cycle->view.passed.size() == 2 &&
+                        cycle->view.coverage == rehearsal.view().coverage &&
+                        cycle->view.time_s == rehearsal.view().time_s && cycle->view.passed.size() == 2 &&
                         cycle->planned == planned &&
                         (!planned || (cycle->reason == "to see more" && cycle->view.utility == 17.5 &&
                                       cycle->view.frontier_cells == 321 && cycle->candidates.size() == 3 &&

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vantage/compiler.hpp>
+#include <vantage/robot/motion_model.hpp>
+
+namespace VANTAGE_EXPORT vantage {
+
+/// An orientation that turns towards others within a MotionModel's limits, the shorter way round, whatever the
+/// position does meanwhile.
+class Turning {
+ public:
+  /// At rest.
+  explicit Turning(const Eigen::Matrix3d& orientation) : orientation_(Eigen::Quaterniond(orientation)) {}
+
+  /// Turns towards `target` for `step_s` seconds, > 0; the turn brakes in time to come to rest there. Neither the
+  /// rate nor its change within a step ever exceeds its limit. Without a limit of its acceleration the time of a turn
+  /// is MotionModel::turn_time_s to within a step, with one to within four.
+  void advance(const Eigen::Matrix3d& target, double step_s, const MotionModel& motion);
+
+  /// world_from_sensor.
+  [[nodiscard]] Eigen::Matrix3d orientation() const { return Eigen::Quaterniond(orientation_).toRotationMatrix(); }
+  /// Between the orientation now and another, radians.
+  [[nodiscard]] double angle_to_rad(const Eigen::Matrix3d& other) const;
+  /// Turning now, as a vector about which to turn in the world, radians per second.
+  [[nodiscard]] const Eigen::Vector3d& rate_rad_s() const { return rate_rad_s_; }
+
+ private:
+  Eigen::Quaternion<double, Eigen::DontAlign> orientation_;
+  Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace vantage
