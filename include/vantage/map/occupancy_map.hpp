@@ -125,8 +125,7 @@ class OccupancyMap {
   /// Log-odds of a cell; nullopt if it is unknown.
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const;
   /// Log-odds of a coarse cell; its edge is 2^level finest cells, and `coarse` is its index in that unit. nullopt if
-  /// all cells inside are unknown, also beyond kFurthestVoxel. Throws std::invalid_argument if `level` is not in
-  /// [0, 16].
+  /// all cells inside are unknown. Throws std::invalid_argument if `level` is not in [0, 16].
   [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
   /// State of a coarse cell: unknown if all cells inside are unknown, else by its log-odds. Errors as log_odds.
   [[nodiscard]] Occupancy at(const VoxelIndex& coarse, int level, CoarseningPolicy policy) const;
