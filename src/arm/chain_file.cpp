@@ -108,7 +108,11 @@ class UrdfReader {
     if (parts->ranges.empty()) {
       refuse("has no joint that moves between link '" + base + "' and link '" + sensor + "'");
     }
-    KinematicChain::finish(*parts);
+    try {
+      KinematicChain::finish(*parts);
+    } catch (const std::invalid_argument& error) {  // its values come from the file
+      refuse(error.what());
+    }
     return KinematicChain(parts);
   }
 
