@@ -108,11 +108,7 @@ class UrdfReader {
     if (parts->ranges.empty()) {
       refuse("has no joint that moves between link '" + base + "' and link '" + sensor + "'");
     }
-    try {
-      KinematicChain::finish(*parts);
-    } catch (const std::invalid_argument& error) {  // its values come from the file
-      refuse(error.what());
-    }
+    KinematicChain::finish(*parts);
     return KinematicChain(parts);
   }
 
