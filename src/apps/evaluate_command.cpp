@@ -13,9 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vantage/evaluation/object_peers.hpp>
 #include <vantage/evaluation/test_objects.hpp>
-#include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/sim/mesh_file.hpp>
@@ -23,6 +21,7 @@
 
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/object_run.hpp"
 #include "apps/report_commands.hpp"
 #include "apps/shared_options.hpp"
 
@@ -90,39 +89,25 @@ TrialJson result_of(const Trial& trial, const ExploreRequest& shared, std::size_
   const TriangleMesh object = object_of(trial.object);
   const RangeSensor sensor = sensor_named(trial.sensor, shared);
   const ObjectScene scene = object_scene(object, sensor, {.name = trial.object, .resolution_m = trial.resolution_m});
+  ExploreRequest request = shared;
+  request.planner = trial.planner;
+  request.resolution_m = trial.resolution_m;
+  request.seed = trial.start;
+  request.max_views = spread > 0 ? spread : shared.max_views;
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = shared.robot_radius_m});
-  ExplorationRunOptions options;
-  options.map.resolution_m = trial.resolution_m;
-  options.max_views = spread > 0 ? spread : shared.max_views;
-  options.scan_spacing_m = 0.0;
-  options.seed = trial.start;
-  options.noise = noise_of(shared);
+  ExplorationRunOptions options = object_run_options(request, scene, object);
   options.measure_coverage = false;
-  options.unknown_box = scene.box;
-  options.object_surface = sample_surface(object);
   ExplorationRun run(scene.world, sensor, platform, options);
-  const auto names = object_peer_names();
-  Pose start = draw_first_view(scene, run.truth(), *platform, trial.start);
-  std::unique_ptr<ExplorationPlanner> planner;
-  if (std::find(names.begin(), names.end(), trial.planner) != names.end()) {
-    const SeenSurface surface(TriangleScene(scene.world.mesh), options.object_surface, sensor);
-    auto peer = make_object_peer(trial.planner, {.platform = platform,
-                                                 .scene = &scene,
-                                                 .truth = &run.truth(),
-                                                 .surface = &surface,
-                                                 .views = options.max_views,
-                                                 .seed = trial.start});
-    start = peer->first_view().value_or(start);
-    planner = std::move(peer);
-  } else {
-    PlannerSettings settings = planner_settings(scene);
-    for (const auto& [name, value] : settings_of(shared)) {
-      settings.insert_or_assign(name, value);
-    }
-    planner = make_planner(trial.planner, {.sensor = sensor, .platform = platform, .seed = trial.start}, settings);
+  PlannerSettings settings = planner_settings(scene);
+  for (const auto& [name, value] : settings_of(shared)) {
+    settings.insert_or_assign(name, value);
   }
+  const ObjectRunPlanner made =
+      object_run_planner(request, {.sensor = sensor, .platform = platform, .seed = trial.start}, scene, run,
+                         options.object_surface, settings);
+  const Pose start = made.first_view.value_or(draw_first_view(scene, run.truth(), *platform, trial.start));
   const auto began = std::chrono::steady_clock::now();
-  const RunRecord record = run.run(*planner, start);
+  const RunRecord record = run.run(*made.planner, start);
   TrialJson result{
       {"key", trial.key()},
       {"object", trial.object},

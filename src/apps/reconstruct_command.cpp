@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
-#include <vantage/evaluation/object_peers.hpp>
-#include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/sim/mesh_file.hpp>
@@ -17,6 +14,7 @@
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
 #include "apps/mesh_doubts.hpp"
+#include "apps/object_run.hpp"
 #include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
@@ -128,11 +126,6 @@ PlannerSettings settings_for(const ReconstructRequest& request, const ObjectScen
   return settings;
 }
 
-bool is_peer(const std::string& planner) {
-  const auto names = object_peer_names();
-  return std::find(names.begin(), names.end(), planner) != names.end();
-}
-
 // NOLINTNEXTLINE(readability-function-size): a run from its options to its files
 int reconstruct(const ReconstructRequest& request) {
   Interruption interruption;
@@ -160,17 +153,10 @@ int reconstruct(const ReconstructRequest& request) {
   const auto platform = std::make_shared<const FreeFlyer>(
       FreeFlyerOptions{.radius_m = shared.robot_radius_m, .yaw_only = shared.yaw_only});
 
-  ExplorationRunOptions options;
-  options.map.resolution_m = shared.resolution_m;
-  options.max_views = shared.max_views;
-  options.scan_spacing_m = 0.0;
-  options.seed = shared.seed;
-  options.noise = noise_of(shared);
+  ExplorationRunOptions options = object_run_options(shared, scene, object);
   options.body_radius_m = shared.robot_radius_m;
   options.threads = shared.threads;
   options.stop = [&interruption] { return interruption.asked(); };
-  options.unknown_box = scene.box;
-  options.object_surface = sample_surface(object);
   if (request.reference.empty()) {
     for (const SurfaceSample& sample : options.object_surface) {
       options.surface_samples.push_back(sample.point);
@@ -182,29 +168,17 @@ int reconstruct(const ReconstructRequest& request) {
                           : request.reference.empty() ? shared.resolution_m
                                                       : options.surface_gap_m;
   ExplorationRun run(scene.world, sensor, platform, options);
-  std::optional<Pose> start = start_of(shared);
-  std::unique_ptr<ExplorationPlanner> planner;
-  if (is_peer(shared.planner)) {
-    const SeenSurface surface(TriangleScene(scene.world.mesh), options.object_surface, sensor);
-    auto peer = make_object_peer(shared.planner, {.platform = platform,
-                                                  .scene = &scene,
-                                                  .truth = &run.truth(),
-                                                  .surface = &surface,
-                                                  .views = shared.max_views,
-                                                  .seed = shared.seed});
-    start = start ? start : peer->first_view();
-    planner = std::move(peer);
-  } else {
-    planner = make_planner(shared.planner,
-                           {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads},
-                           settings_for(request, scene));
-  }
+  const ObjectRunPlanner made = object_run_planner(
+      shared, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads}, scene, run,
+      options.object_surface, settings_for(request, scene));
+  const std::optional<Pose> typed = start_of(shared);
+  std::optional<Pose> start = typed ? typed : made.first_view;
   start = start ? start : draw_first_view(scene, run.truth(), *platform, shared.seed);
 
   ProgressStream told(shared);
   std::ostream& progress = told.stream();
   RunPrinter printer(progress, told.is_terminal());
-  RunRecording recording(*planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
+  RunRecording recording(*made.planner, shared.out, recorder_setup(shared, "reconstruct", request.object, sensor));
   RunRecord record = run.run(recording, *start, [&](const ViewRecord& view, const OccupancyMap& map) {
     if (view.view == 1) {
       interruption.hold();

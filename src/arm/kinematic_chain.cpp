@@ -59,6 +59,10 @@ void KinematicChain::finish(Parts& parts) {
     }
     detail::require_option(std::isfinite(capsule.radius_m) && capsule.radius_m > 0.0, "Capsule::radius_m",
                            capsule.radius_m, "> 0");
+    for (int axis = 0; axis < 3; ++axis) {
+      detail::require_option(std::isfinite(capsule.from_m[axis]), "Capsule::from_m", capsule.from_m[axis], "finite");
+      detail::require_option(std::isfinite(capsule.to_m[axis]), "Capsule::to_m", capsule.to_m[axis], "finite");
+    }
     const double out_m = std::max(capsule.from_m.norm(), capsule.to_m.norm()) + capsule.radius_m;
     parts.reach_m = std::max(parts.reach_m, furthest_m[capsule.link] + out_m);
   }

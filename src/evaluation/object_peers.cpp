@@ -47,15 +47,23 @@ std::vector<Pose> spiral_views(const ObjectPeerSetup& setup, std::size_t count, 
   return views;
 }
 
+// As many views of a list as are wanted, evenly spread over it.
+std::vector<Pose> spread_over(const std::vector<Pose>& views, std::size_t wanted) {
+  std::vector<Pose> taken;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    taken.push_back(views[(2 * i + 1) * views.size() / (2 * wanted)]);
+  }
+  return taken;
+}
+
 std::vector<Pose> evenly_spaced(const ObjectPeerSetup& setup) {
   Dice dice(setup.seed);
   const double turned_rad = 2.0 * std::numbers::pi * dice.share();
   constexpr std::size_t kMost = 100;  // at most this many times as many views are tried as are wanted
   for (std::size_t count = setup.views; count <= kMost * setup.views; ++count) {
-    std::vector<Pose> views = admitted_views(setup, spiral_views(setup, count, turned_rad));
-    if (views.size() >= setup.views) {
-      views.resize(setup.views);
-      return views;
+    const std::vector<Pose> admitted = admitted_views(setup, spiral_views(setup, count, turned_rad));
+    if (admitted.size() >= setup.views) {
+      return spread_over(admitted, setup.views);
     }
   }
   throw std::invalid_argument("evenly-spaced: the robot's body fits nowhere on the shell of views");

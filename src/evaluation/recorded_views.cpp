@@ -9,6 +9,8 @@
 #include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/frontier/void_cells.hpp>
 
+#include "frontier/hull_row.hpp"
+
 namespace vantage {
 namespace {
 
@@ -80,18 +82,22 @@ class CellNumbers {
   std::size_t count_ = 0;
 };
 
-// All cells inside the hull of the occupied ones: the void cells of a map that knows only its corners, and these
-// corners.
-std::vector<VoxelIndex> cells_in_hull(const OccupancyMap& map) {
-  OccupancyMap corners(map.options());
+// Calls `visit(VoxelIndex)` for all cells inside the hull of the occupied ones, known or not.
+template <class Visit>
+void for_each_cell_in_hull(const OccupancyMap& map, const Visit& visit) {
   const ConvexHull hull = occupied_hull(map);
-  for (const Eigen::Vector3d& corner : hull.corners()) {
-    const Eigen::Vector3i at = corner.array().round().cast<int>();
-    corners.set(VoxelIndex{at.x(), at.y(), at.z()}, Occupancy::Occupied);
+  if (hull.empty()) {
+    return;
   }
-  std::vector<VoxelIndex> cells = void_cells(corners);
-  corners.for_each_known([&](const VoxelIndex& cell, Occupancy) { cells.push_back(cell); });
-  return cells;
+  const VoxelBox box = map.bounds();
+  for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
+    for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
+      const auto [first, last] = detail::row_in_hull(hull, box, y, z);
+      for (std::int32_t x = first; x < last; ++x) {
+        visit(VoxelIndex{x, y, z});
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -138,10 +144,10 @@ RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions&
   const CellNumbers numbers(box);
   box_cells_ = numbers.count();
   std::vector<bool> in_hull(box_cells_, false);
-  for (const VoxelIndex& cell : cells_in_hull(of_all)) {
+  for_each_cell_in_hull(of_all, [&](const VoxelIndex& cell) {
     in_hull[numbers.of(cell)] = true;
     ++void_cells_;
-  }
+  });
   for (const Cells& of_view : cells) {
     known_.push_back(numbers.of(of_view.known));
     hit_.push_back(numbers.of(of_view.hit));

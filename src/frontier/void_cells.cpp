@@ -1,41 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/frontier/void_tiles.hpp>
 
+#include "frontier/hull_row.hpp"
 #include "frontier/lattice_point.hpp"
-#include "frontier/on_facet.hpp"
 #include "geometry/box_overlap.hpp"
-#include "geometry/plane_distance.hpp"
 
 namespace vantage {
 namespace {
-
-// The cells [first, last) of the row (., y, z) inside the hull. The row is clipped with the plane of every facet.
-std::pair<std::int32_t, std::int32_t> row_span(const ConvexHull& hull, const VoxelBox& box, std::int32_t y,
-                                               std::int32_t z) {
-  double lo = box.lo.x;
-  double hi = box.hi.x - 1;
-  for (const ConvexHull::Plane& plane : hull.planes()) {
-    const double slope = plane.normal.x();
-    const double rest =
-        detail::distance_from(plane, {0.0, static_cast<double>(y), static_cast<double>(z)}) - detail::kOnFacet;
-    if (std::abs(slope) < 1e-12) {
-      if (rest > 0.0) {
-        return {box.lo.x, box.lo.x};
-      }
-    } else if (slope > 0.0) {
-      hi = std::min(hi, std::floor(-rest / slope));
-    } else {
-      lo = std::max(lo, std::ceil(-rest / slope));
-    }
-  }
-  return lo <= hi ? std::pair(static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi) + 1)
-                  : std::pair(box.lo.x, box.lo.x);
-}
 
 VoxelBox box_around(const ConvexHull& hull, const OccupancyMap& map) {
   VoxelBox box = map.bounds();
@@ -87,7 +62,7 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
     for (std::int32_t z = std::max(tile_z * kTile, box.lo.z); z < std::min((tile_z + 1) * kTile, box.hi.z); ++z) {
       for (const auto& [tile_y, xs] : ys) {
         for (std::int32_t y = std::max(tile_y * kTile, box.lo.y); y < std::min((tile_y + 1) * kTile, box.hi.y); ++y) {
-          const auto [first, last] = row_span(hull, box, y, z);
+          const auto [first, last] = detail::row_in_hull(hull, box, y, z);
           for (const std::int32_t tile_x : xs) {
             visit_row(std::max(tile_x * kTile, first), std::min((tile_x + 1) * kTile, last), y, z);
           }

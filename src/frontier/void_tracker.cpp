@@ -10,13 +10,25 @@
 #include "frontier/hull_change.hpp"
 
 namespace vantage {
+namespace {
+
+// Whether all cells that can become known lie in one plane, so that the hull is always empty.
+bool is_one_layer(const OccupancyMap& map) {
+  if (!map.region()) {
+    return false;
+  }
+  const VoxelIndex extent = map.region()->extent();
+  return std::min({extent.x, extent.y, extent.z}) <= 1;
+}
+
+}  // namespace
 
 VoidTracker::VoidTracker(const OccupancyMap& map) : map_(&map) { update(); }
 
 bool VoidTracker::update() {
   std::vector<VoxelIndex> touched = map_->changed_since(revision_);
   revision_ = map_->revision();
-  if (touched.empty()) {
+  if (touched.empty() || is_one_layer(*map_)) {
     return false;
   }
   if (hull_.empty()) {

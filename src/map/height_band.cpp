@@ -18,6 +18,7 @@ void check(const HeightBandOptions& options) {
                          options.sensor_height_m, "finite");
   detail::require_option(options.free_share > 0.0 && options.free_share <= 1.0, "HeightBandOptions::free_share",
                          options.free_share, "in (0, 1]");
+  detail::require_length(options.step_height_m, "HeightBandOptions::step_height_m");
 }
 
 // The options of the projected map: a copy of those of the map, with a region of one layer.
@@ -50,7 +51,7 @@ HeightBand::HeightBand(const OccupancyMapOptions& of_map, const HeightBandOption
   lowest_floor_ = lowest_;
   if (options.floor != FloorRule::Ignored) {
     const double deepest_m = options.min_height_m - options.step_height_m;
-    while (frame.corner_of({0, 0, lowest_floor_}).z() > deepest_m) {
+    while (frame.corner_of({0, 0, lowest_floor_}).z() > deepest_m && lowest_floor_ > -kFurthestVoxel) {
       --lowest_floor_;
     }
   }

@@ -49,6 +49,15 @@ double choose_step(const OccupancyMapOptions& options) {
   return largest / 127.0;
 }
 
+// Whether a coarse cell of this edge contains cells that can be addressed. If so, its corners fit into 32 bits.
+bool holds_addresses(const VoxelIndex& coarse, std::int32_t edge) {
+  const auto near = [edge](std::int32_t i) {
+    const std::int64_t first = std::int64_t{i} * edge;
+    return first <= kFurthestVoxel && first + edge > -kFurthestVoxel;
+  };
+  return near(coarse.x) && near(coarse.y) && near(coarse.z);
+}
+
 }  // namespace
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options) : options_(options), frame_{options.resolution_m} {
@@ -89,6 +98,9 @@ std::optional<double> OccupancyMap::log_odds(const VoxelIndex& coarse, int level
     throw std::invalid_argument("level is " + std::to_string(level) + ", must be in [0, 16]");
   }
   const std::int32_t edge = 1 << level;
+  if (!holds_addresses(coarse, edge)) {
+    return std::nullopt;
+  }
   const VoxelIndex first{coarse.x * edge, coarse.y * edge, coarse.z * edge};
   const VoxelBox cells{first, first + VoxelIndex{edge, edge, edge}};
   std::size_t known = 0;

@@ -145,6 +145,14 @@ json plan_json(const RecordedCycle& cycle) {
           {"stages", {cycle.survey_ms, cycle.choose_ms, cycle.path_ms}}};
 }
 
+// The highest cell of a rectangle of faces that look along `direction`.
+VoxelIndex last_cell(const TimedQuad& quad, std::size_t direction) {
+  const std::int32_t u = quad.width - 1;
+  const std::int32_t v = quad.height - 1;
+  const std::size_t axis = direction / 2;
+  return quad.cell + (axis == 0 ? VoxelIndex{0, u, v} : axis == 1 ? VoxelIndex{u, 0, v} : VoxelIndex{u, v, 0});
+}
+
 // Box of all cells that are shown: the known ones, and voids and samples of the field outside them.
 VoxelBox extent_of(const Replay& replay) {
   VoxelBox extent = replay.bounds;
@@ -153,9 +161,10 @@ VoxelBox extent_of(const Replay& replay) {
     extent.hi = {std::max(extent.hi.x, cell.x + 1), std::max(extent.hi.y, cell.y + 1),
                  std::max(extent.hi.z, cell.z + 1)};
   };
-  for (const auto& direction : replay.voids) {
-    for (const TimedQuad& quad : direction) {
+  for (std::size_t direction = 0; direction < replay.voids.size(); ++direction) {
+    for (const TimedQuad& quad : replay.voids[direction]) {
       hold(quad.cell);
+      hold(last_cell(quad, direction));
     }
   }
   for (const RecordedCycle& cycle : replay.cycles) {

@@ -54,8 +54,9 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   return options;
 }
 
-Truth truth_of(const World& world, const ExplorationRunOptions& options) {
-  Truth truth(world, options.map.resolution_m, *options.map.region);
+Truth truth_of(const World& world, const RangeSensor& sensor, const ExplorationRunOptions& options) {
+  const double around_m = sensor.reports_no_return ? Truth::kAroundM : std::max(Truth::kAroundM, sensor.max_range_m);
+  Truth truth(world, options.map.resolution_m, *options.map.region, around_m);
   return options.band ? truth.in_band(*options.band) : truth;
 }
 
@@ -89,7 +90,7 @@ ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
       platform_(given(std::move(platform))),
       options_(checked(options, world)),
       scene_(world.mesh),
-      truth_(truth_of(world, options_)),
+      truth_(truth_of(world, sensor, options_)),
       map_(options_.map) {
   (void)SimulatedSensor(scene_, sensor, options_.noise);  // validates sensor and noise
 }

@@ -17,10 +17,7 @@ namespace {
 
 constexpr double kGrazedShare = 0.02;
 constexpr double kLatticeM = 0.4;
-// Surfaces are kept this far around the region. No preset sensor has a longer range, so nothing further away ends
-// a ray through the region.
-constexpr double kBeyondM =
-    25.0;  // further than any preset ranges: surfaces beyond cannot end a ray through the region
+constexpr double kMostCells = 4294967296.0;  // one byte each
 
 OccupancyMapOptions map_options(double resolution_m, const Box& region) {
   detail::require_option(std::isfinite(resolution_m) && resolution_m > 0.0, "Truth: resolution_m", resolution_m,
@@ -28,12 +25,21 @@ OccupancyMapOptions map_options(double resolution_m, const Box& region) {
   return {.resolution_m = resolution_m, .region = region};
 }
 
-VoxelBox covering(const VoxelFrame& frame, const VoxelBox& region, const Box& mesh) {
-  const Box inner = frame.box_of(region);
-  Box outer{inner.min.cwiseMin(mesh.min), inner.max.cwiseMax(mesh.max)};
-  outer.min = outer.min.cwiseMax(inner.min - Eigen::Vector3d::Constant(kBeyondM));
-  outer.max = outer.max.cwiseMin(inner.max + Eigen::Vector3d::Constant(kBeyondM));
+// The region and the part of the mesh at most `around_m` from it.
+VoxelBox covering(const VoxelFrame& frame, const Box& region, const Box& mesh, double around_m) {
+  Box outer{region.min.cwiseMin(mesh.min), region.max.cwiseMax(mesh.max)};
+  outer.min = outer.min.cwiseMax(region.min - Eigen::Vector3d::Constant(around_m));
+  outer.max = outer.max.cwiseMin(region.max + Eigen::Vector3d::Constant(around_m));
+  const double count = (outer.extent() / frame.size_m).array().ceil().prod();
+  detail::require_option(count <= kMostCells, "Truth: count of cells", count,
+                         "at most 4294967296; take a smaller region, larger cells or a shorter range");
   return {frame.cell_of(outer.min) - VoxelIndex{1, 1, 1}, frame.cell_of(outer.max) + VoxelIndex{2, 2, 2}};
+}
+
+// Whether surfaces of the mesh lie further than `around_m` from the region.
+bool reaches_beyond(const Box& mesh, const Box& region, double around_m) {
+  return (mesh.min.array() < region.min.array() - around_m).any() ||
+         (mesh.max.array() > region.max.array() + around_m).any();
 }
 
 // Cells of a world that is a plane, in the layer of the region.
@@ -80,7 +86,9 @@ std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitte
 
 }  // namespace
 
-Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(map_options(resolution_m, region)) {
+Truth::Truth(const World& world, double resolution_m, const Box& region, double around_m)
+    : map_(map_options(resolution_m, region)) {
+  detail::require_option(around_m >= 0.0 && around_m <= 1e4, "Truth: around_m", around_m, "in [0, 10000]");
   region_ = *map_.region();
   if (region_.empty()) {
     std::ostringstream message;
@@ -91,7 +99,11 @@ Truth::Truth(const World& world, double resolution_m, const Box& region) : map_(
     throw std::invalid_argument("Truth: the world is a plane, and the region not one layer of cells");
   }
   const VoxelFrame& frame = map_.frame();
-  const VoxelBox covered = covering(frame, region_, world.mesh.bounds());
+  const Box inner = frame.box_of(region_);
+  const VoxelBox covered = covering(frame, inner, world.mesh.bounds(), around_m);
+  if (reaches_beyond(world.mesh.bounds(), inner, around_m)) {
+    longest_range_m_ = around_m;
+  }
   if (world.plan) {
     cells_ = cells_of_plan(*world.plan, frame, covered, region_);
   } else {
@@ -119,7 +131,7 @@ Truth Truth::in_band(const HeightBandOptions& options) const {
       cells[column] = CellTruth::Occupied;  // a drop
     }
   });
-  return {band.plane(), std::move(cells)};
+  return {band.plane(), std::move(cells), longest_range_m_};
 }
 
 std::optional<Pose> Truth::draw_start(const Platform& platform, std::uint64_t seed) const {
@@ -153,6 +165,10 @@ std::vector<VoxelIndex> Truth::observable(const Platform& platform, const RangeS
                                           int threads, const std::function<void(double)>& on_share,
                                           const std::optional<Box>& within) const {
   sensor.validate();
+  if (!sensor.reports_no_return) {
+    detail::require_option(sensor.max_range_m <= longest_range_m_, "RangeSensor::max_range_m", sensor.max_range_m,
+                           "at most Truth's around_m, because a ray may end on a surface further away");
+  }
   const std::vector<VoxelIndex> poses = lattice(platform, start);
   const Sight sight(cells_, map_.frame(), sensor, platform.can_tilt());
   VoxelBox cells = region_;

@@ -57,6 +57,7 @@ void validate(const AimedViewOptions& options) {
 
 std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought, const AimedViewOptions& options,
                               std::uint64_t seed) {
+  validate(options);
   return options.count == 0 ? std::vector<Pose>() : aimed_views(caster, visible_faces(caster, sought), options, seed);
 }
 

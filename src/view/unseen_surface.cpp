@@ -45,14 +45,18 @@ double draw_of(const VoxelIndex& cell) {
   return static_cast<double>((h ^ h >> 31U) >> 11U) * 0x1.0p-53;
 }
 
+// Returns the box if its faces can be numbered.
+const VoxelBox& with_numbered_faces(const VoxelBox& object) {
+  if (object.size() > std::numeric_limits<UnseenSurface::Face>::max() / 6) {
+    throw std::length_error("UnseenSurface: the box of the object has too many cells; coarser ones will do");
+  }
+  return object;
+}
+
 }  // namespace
 
 UnseenSurface::UnseenSurface(const OccupancyMap& map, const VoxelBox& object)
-    : frame_(map.frame()), caster_(map), looked_(object, 0) {
-  if (object.size() > std::numeric_limits<Face>::max() / 6) {
-    throw std::length_error("UnseenSurface: the box of the object has too many cells; coarser ones will do");
-  }
-}
+    : frame_(map.frame()), looked_(with_numbered_faces(object), 0), caster_(map) {}
 
 void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays) {
   caster_.update();

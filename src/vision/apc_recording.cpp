@@ -96,7 +96,7 @@ Recording open_apc(RecordingReader reader) {
   }
   // The unit is 0.1 mm. The driver writes raw values rotated by three bits.
   reader.read_depth_png_as({.units_per_m = 10000.0, .rotated_bits = decoded ? 0 : 3});
-  return reader.finish(camera_of(info, blocks, decoded));
+  return reader.finish(camera_of(info, blocks, decoded), info);
 }
 
 }  // namespace vantage

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // KITTI odometry sequences (Geiger et al. 2012): rectified stereo pairs from a car, with poses from laser and GPS.
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,22 @@ std::vector<std::optional<Pose>> poses_in(const std::filesystem::path& file) {
   return poses;
 }
 
+// The images of a folder by name without ending: the order of the poses. A name with both endings counts once.
+std::map<std::string, std::filesystem::path> images_in(const std::filesystem::path& folder, RecordingReader& reader) {
+  std::map<std::string, std::filesystem::path> images;
+  for (const char* ending : {".png", ".jpg"}) {
+    for (const std::filesystem::path& file : files_ending(folder, ending)) {
+      const std::string name = name_without(file, ending);
+      const auto [known, is_new] = images.try_emplace(name, file);
+      if (!is_new) {
+        reader.skip(file.filename().string(),
+                    "there is also " + known->second.filename().string() + ", which is read");
+      }
+    }
+  }
+  return images;
+}
+
 }  // namespace
 
 Recording open_kitti_stereo(RecordingReader reader) {
@@ -40,29 +57,25 @@ Recording open_kitti_stereo(RecordingReader reader) {
   const auto poses = poses_in(reader.folder() / "poses.txt");
   const auto matcher = std::make_shared<const StereoMatcher>(read_kitti_calibration(reader.folder() / "calib.txt"));
   std::size_t row = 0;
-  for (const char* ending : {".png", ".jpg"}) {
-    for (const std::filesystem::path& file : files_ending(left, ending)) {
-      const std::string name = name_without(file, ending);
-      const std::size_t number = row++;
-      if (number >= poses.size()) {
-        reader.skip(name, "poses.txt ends after " + std::to_string(poses.size()) + " poses");
-      } else if (!poses[number]) {
-        reader.skip(name,
-                    "row " + std::to_string(number + 1) + " of poses.txt is not a rigid transform of 12 numbers");
-      } else if (!std::filesystem::exists(right / file.filename())) {
-        reader.skip(name, "there is no " + (right / file.filename()).string());
-      } else {
-        reader.add({.name = name,
-                    .world_from_posed = detail::upright_from_camera_axes() * *poses[number],
-                    .depth = file,
-                    .right = right / file.filename(),
-                    .colour = file});
-      }
+  for (const auto& [name, file] : images_in(left, reader)) {
+    const std::size_t number = row++;
+    if (number >= poses.size()) {
+      reader.skip(name, "poses.txt ends after " + std::to_string(poses.size()) + " poses");
+    } else if (!poses[number]) {
+      reader.skip(name, "row " + std::to_string(number + 1) + " of poses.txt is not a rigid transform of 12 numbers");
+    } else if (!std::filesystem::exists(right / file.filename())) {
+      reader.skip(name, "there is no " + (right / file.filename()).string());
+    } else {
+      reader.add({.name = name,
+                  .world_from_posed = detail::upright_from_camera_axes() * *poses[number],
+                  .depth = file,
+                  .right = right / file.filename(),
+                  .colour = file});
     }
   }
   reader.read_depth_by(
       [matcher](const RecordedFrame& frame) { return matcher->match(frame.depth, frame.right).depth; });
-  return reader.finish(matcher->camera(reader.options().cell_m));
+  return reader.finish(matcher->camera(reader.options().cell_m), reader.folder() / "calib.txt");
 }
 
 }  // namespace vantage

@@ -26,6 +26,22 @@ void check(const RecordingOptions& options) {
                          "RecordingOptions::max_stamp_gap_s", options.max_stamp_gap_s, "> 0");
   detail::require_option(std::isfinite(options.cell_m) && options.cell_m > 0.0, "RecordingOptions::cell_m",
                          options.cell_m, "> 0");
+  if (options.max_range_m) {
+    detail::require_option(std::isfinite(*options.max_range_m) && *options.max_range_m > 0.0,
+                           "RecordingOptions::max_range_m", *options.max_range_m, "> 0");
+  }
+  if (options.min_range_m) {
+    detail::require_option(std::isfinite(*options.min_range_m) && *options.min_range_m >= 0.0,
+                           "RecordingOptions::min_range_m", *options.min_range_m, ">= 0");
+  }
+  if (options.intrinsics) {
+    const auto& [fx, fy, cx, cy] = *options.intrinsics;
+    const char* const name = "RecordingOptions::intrinsics";
+    detail::require_option(std::isfinite(fx) && fx > 0.0, name, fx, "> 0 (fx)");
+    detail::require_option(std::isfinite(fy) && fy != 0.0, name, fy, "finite and not 0 (fy)");
+    detail::require_option(std::isfinite(cx), name, cx, "finite (cx)");
+    detail::require_option(std::isfinite(cy), name, cy, "finite (cy)");
+  }
 }
 
 }  // namespace
@@ -84,7 +100,35 @@ void RecordingReader::read_depth_png_as(DepthEncoding encoding) {
       [encoding = std::move(encoding)](const RecordedFrame& frame) { return read_depth_png(frame.depth, encoding); });
 }
 
-Recording RecordingReader::finish(DepthCamera camera, bool sized) {
+// Takes the size of the first image that can be read: the first file may be damaged.
+void RecordingReader::set_size(DepthCamera& camera) const {
+  std::string unread;
+  for (const RecordedFrame& frame : recording_.frames_) {
+    try {
+      const DepthImage first = read_depth_(frame);
+      camera.width = first.width;
+      camera.height = first.height;
+      return;
+    } catch (const std::runtime_error& error) {
+      unread = unread.empty() ? error.what() : unread;
+    }
+  }
+  throw std::runtime_error(folder_.string() + ": none of its images can be read; the first: " + unread);
+}
+
+void RecordingReader::set_ranges(DepthCamera& camera) const {
+  camera.max_range_m = options_.max_range_m.value_or(camera.max_range_m);
+  camera.min_range_m = options_.min_range_m.value_or(camera.min_range_m);
+  if (options_.min_range_m) {
+    detail::require_option(camera.min_range_m < camera.trusted_range_m(), "RecordingOptions::min_range_m",
+                           camera.min_range_m, "< the trusted range, " + std::to_string(camera.trusted_range_m()));
+  } else if (options_.max_range_m) {
+    detail::require_option(camera.max_range_m > camera.min_range_m, "RecordingOptions::max_range_m",
+                           camera.max_range_m, "> the smallest range, " + std::to_string(camera.min_range_m));
+  }
+}
+
+Recording RecordingReader::finish(DepthCamera camera, const std::filesystem::path& file, bool sized) {
   if (recording_.frames_.empty()) {
     const std::string why = recording_.skipped_.empty()
                                 ? std::string()
@@ -92,19 +136,8 @@ Recording RecordingReader::finish(DepthCamera camera, bool sized) {
                                       recording_.skipped_.front().reason;
     throw std::runtime_error(folder_.string() + ": there is no frame to read in it" + why);
   }
-  std::string unread;  // the first file may be damaged, so the next ones are tried too
-  for (std::size_t i = 0; i < recording_.frames_.size() && !sized; ++i) {
-    try {
-      const DepthImage first = read_depth_(recording_.frames_[i]);
-      camera.width = first.width;
-      camera.height = first.height;
-      sized = true;
-    } catch (const std::runtime_error& error) {
-      unread = unread.empty() ? error.what() : unread;
-    }
-  }
   if (!sized) {
-    throw std::runtime_error(folder_.string() + ": none of its images can be read; the first: " + unread);
+    set_size(camera);
   }
   if (options_.intrinsics) {
     const auto& [fx, fy, cx, cy] = *options_.intrinsics;
@@ -113,9 +146,12 @@ Recording RecordingReader::finish(DepthCamera camera, bool sized) {
     camera.cx = cx;
     camera.cy = cy;
   }
-  camera.max_range_m = options_.max_range_m.value_or(camera.max_range_m);
-  camera.min_range_m = options_.min_range_m.value_or(camera.min_range_m);
-  camera.validate();
+  try {
+    camera.validate();
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
+  set_ranges(camera);
   recording_.camera_ = camera;
   return std::move(recording_);
 }

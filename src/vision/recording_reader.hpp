@@ -31,10 +31,14 @@ class RecordingReader {
   /// Frames are depth images in PNG files.
   void read_depth_png_as(DepthEncoding encoding);
   /// Completes the recording. Unless `sized` is true, the size of the camera is taken from the first readable image.
-  /// Options override the values of `camera`.
-  [[nodiscard]] Recording finish(DepthCamera camera, bool sized = false);
+  /// Options override the values of `camera`, which come from `file`. Throws std::runtime_error, with `file`, if the
+  /// camera is invalid, and std::invalid_argument, which names the option, if an option makes it invalid.
+  [[nodiscard]] Recording finish(DepthCamera camera, const std::filesystem::path& file, bool sized = false);
 
  private:
+  void set_size(DepthCamera& camera) const;
+  void set_ranges(DepthCamera& camera) const;
+
   std::filesystem::path folder_;
   RecordingOptions options_;
   Recording recording_;

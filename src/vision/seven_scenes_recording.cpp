@@ -35,9 +35,9 @@ std::optional<Pose> pose_in(const std::filesystem::path& file) {
   return rows.size() == 16 ? detail::pose_of_rows(rows) : std::nullopt;
 }
 
-DepthCamera camera_in(const std::filesystem::path& folder) {
+// The camera of a file, or the usual one if there is no such file.
+DepthCamera camera_in(const std::filesystem::path& file) {
   DepthCamera camera{.fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
-  const std::filesystem::path file = folder / "camera-intrinsics.txt";
   if (std::filesystem::exists(file)) {
     const std::vector<double> rows = rows_in(file);
     if (rows.size() != 9) {
@@ -85,8 +85,8 @@ Recording open_seven_scenes(RecordingReader reader) {
     }
   }
   reader.read_depth_png_as({.units_per_m = 1000.0});
-  const DepthCamera camera = camera_in(reader.folder());
-  return reader.finish(camera);
+  const std::filesystem::path intrinsics = reader.folder() / "camera-intrinsics.txt";
+  return reader.finish(camera_in(intrinsics), intrinsics);
 }
 
 }  // namespace vantage

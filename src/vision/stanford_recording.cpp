@@ -188,7 +188,7 @@ Recording open_stanford(RecordingReader reader) {
                         .cy = middle,
                         .min_range_m = 0.1,
                         .max_range_m = 0.9},
-                       true);
+                       lists.front(), true);
 }
 
 }  // namespace vantage

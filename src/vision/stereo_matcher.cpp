@@ -94,14 +94,19 @@ std::string size_of(const cv::Mat& image) {
   return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " pixels";
 }
 
+// A side of a rig's images is 0 if it is not known.
+bool may_be(int pixels, std::size_t of_rig) { return of_rig == 0 || static_cast<std::size_t>(pixels) == of_rig; }
+
+std::string side_of(std::size_t of_rig) { return of_rig == 0 ? "any" : std::to_string(of_rig); }
+
 void check_pair(const StereoRig& rig, const cv::Mat& left, const cv::Mat& right,
                 const std::filesystem::path& left_file, const std::filesystem::path& right_file) {
   if (left.size() != right.size()) {
     throw std::runtime_error(right_file.string() + ": is " + size_of(right) + ", the left image is " + size_of(left));
   }
-  if (rig.width > 0 && (left.cols != static_cast<int>(rig.width) || left.rows != static_cast<int>(rig.height))) {
+  if (!may_be(left.cols, rig.width) || !may_be(left.rows, rig.height)) {
     throw std::runtime_error(left_file.string() + ": is " + size_of(left) + ", the calibration is for " +
-                             std::to_string(rig.width) + " x " + std::to_string(rig.height));
+                             side_of(rig.width) + " x " + side_of(rig.height));
   }
   constexpr double kMostApart = 1.5;
   if (!rig.rectification) {

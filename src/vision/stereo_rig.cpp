@@ -168,7 +168,11 @@ StereoRig read_opencv_calibration(const std::filesystem::path& intrinsics, const
     refuse(extrinsics, "R and T are not a rigid transform");
   }
   rectification.right_from_left = *pose;
-  return checked(detail::rig_after(rectification, width, height), extrinsics);
+  try {
+    return checked(detail::rig_after(rectification, width, height), extrinsics);
+  } catch (const cv::Exception& error) {
+    refuse(intrinsics, "OpenCV cannot rectify this pair with R and T of " + extrinsics.string() + ": " + error.err);
+  }
 }
 
 }  // namespace vantage

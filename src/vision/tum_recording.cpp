@@ -106,7 +106,8 @@ Recording open_tum(RecordingReader reader) {
   }
   reader.read_depth_png_as({.units_per_m = 5000.0});
   // The intrinsics that the benchmark recommends for its registered depth images.
-  return reader.finish({.fx = 525.0, .fy = 525.0, .cx = 319.5, .cy = 239.5, .min_range_m = 0.4, .max_range_m = 4.0});
+  return reader.finish({.fx = 525.0, .fy = 525.0, .cx = 319.5, .cy = 239.5, .min_range_m = 0.4, .max_range_m = 4.0},
+                       folder);
 }
 
 }  // namespace vantage

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <random>
-#include <string_view>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/scan.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
+
+#include "contract/cell_drawing.hpp"
 
 namespace vantage::testing {
 
@@ -30,16 +28,9 @@ enum class Furniture { Rooms, Pillars, Boxes };
   constexpr std::int32_t kZ = 8;
   CellWorld world;
   world.solid = VoxelGrid<std::uint8_t>({{0, 0, 0}, {kX, kY, kZ}}, 0);
-  std::mt19937 engine(seed);
-  const auto draw = [&](std::int32_t lo, std::int32_t hi) {
-    return lo + static_cast<std::int32_t>(engine() % static_cast<std::uint32_t>(hi - lo + 1));
-  };
+  WholeNumbers draw(seed);
   const auto fill = [&](const VoxelIndex& lo, const VoxelIndex& hi, std::uint8_t value) {
-    for_each_cell({lo, hi}, [&](const VoxelIndex& cell) {
-      if (world.solid.contains(cell)) {
-        world.solid[cell] = value;
-      }
-    });
+    fill_cells(world.solid, {lo, hi}, value);
   };
   if (furniture == Furniture::Rooms) {
     const std::int32_t wall = draw(7, 10);
@@ -56,11 +47,7 @@ enum class Furniture { Rooms, Pillars, Boxes };
       fill(lo, lo + size, 1);
     }
   }
-  for_each_cell(world.solid.box(), [&](const VoxelIndex& c) {
-    if (c.x == 0 || c.y == 0 || c.z == 0 || c.x == kX - 1 || c.y == kY - 1 || c.z == kZ - 1) {
-      world.solid[c] = 1;
-    }
-  });
+  close_border(world.solid);
   fill({1, 1, 1}, {4, 4, 4}, 0);
   return world;
 }
@@ -78,21 +65,7 @@ enum class Furniture { Rooms, Pillars, Boxes };
       if (!world.is_solid(cell)) {
         continue;
       }
-      // The point where the ray enters the cell, moved slightly inwards.
-      const Box box = world.frame.box_of(cell);
-      double entry = 0.0;
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        if (std::abs(ray[axis]) > 1e-12) {
-          entry = std::max(entry, std::min((box.min[axis] - origin[axis]) / ray[axis],
-                                           (box.max[axis] - origin[axis]) / ray[axis]));
-        }
-      }
-      const double range_m = entry + 1e-4;
-      if (range_m >= sensor.min_range_m && range_m <= sensor.max_range_m) {
-        scan.points.emplace_back(direction * static_cast<float>(range_m));
-      } else if (range_m > sensor.max_range_m && sensor.reports_no_return) {
-        scan.no_return.push_back(direction);
-      }
+      add_ray(scan, sensor, direction, range_into(world.frame.box_of(cell), origin, ray));
       break;
     }
   }

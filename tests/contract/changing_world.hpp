@@ -2,15 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/scan.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
+
+#include "contract/cell_drawing.hpp"
 
 namespace vantage::testing {
 
@@ -87,28 +86,15 @@ struct ChangingWorld {
   world.frame = VoxelFrame{cell_m};
   world.solid = VoxelGrid<std::uint8_t>({{0, 0, 0}, {kX, kY, top}}, 0);
   world.sheets = VoxelGrid<std::uint8_t>(world.solid.box(), 0);
-  std::mt19937 engine(seed);
-  const auto draw = [&](std::int32_t lo, std::int32_t hi) {
-    return lo + static_cast<std::int32_t>(engine() % static_cast<std::uint32_t>(hi - lo + 1));
-  };
-  const auto fill = [&](const VoxelBox& box, std::uint8_t value) {
-    for_each_cell(box, [&](const VoxelIndex& cell) {
-      if (world.solid.contains(cell)) {
-        world.solid[cell] = value;
-      }
-    });
-  };
+  WholeNumbers draw(seed);
+  const auto fill = [&](const VoxelBox& box, std::uint8_t value) { fill_cells(world.solid, box, value); };
   const bool thin = building == Building::Sheets;
   const auto wall = [&](const VoxelBox& box, std::uint8_t axis, bool stands) {
     if (!thin) {
       fill(box, stands ? 1 : 0);
       return;
     }
-    for_each_cell(box, [&](const VoxelIndex& cell) {
-      if (world.sheets.contains(cell)) {
-        world.sheets[cell] = static_cast<std::uint8_t>(stands ? 1U << axis : 0U);
-      }
-    });
+    fill_cells(world.sheets, box, static_cast<std::uint8_t>(stands ? 1U << axis : 0U));
   };
   const std::int32_t head = flat ? 1 : 6;
   const std::int32_t across = draw(7, 10);
@@ -131,11 +117,7 @@ struct ChangingWorld {
       fill({lo, lo + VoxelIndex{1, 1, draw(1, 2)}}, 1);
     }
   }
-  for_each_cell(world.solid.box(), [&](const VoxelIndex& c) {
-    if (c.x == 0 || c.y == 0 || c.x == kX - 1 || c.y == kY - 1 || (!flat && (c.z == 0 || c.z == top - 1))) {
-      world.solid[c] = 1;
-    }
-  });
+  close_border(world.solid);
   if (building == Building::Doors) {
     world.door = doorway;
   }
@@ -163,20 +145,7 @@ struct ChangingWorld {
       if (!blocked) {
         continue;
       }
-      const Box box = world.frame.box_of(cell);
-      double entry_m = 0.0;
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        if (std::abs(ray[axis]) > 1e-12) {
-          entry_m = std::max(entry_m, std::min((box.min[axis] - origin[axis]) / ray[axis],
-                                               (box.max[axis] - origin[axis]) / ray[axis]));
-        }
-      }
-      const double range_m = entry_m + 1e-4;
-      if (range_m >= sensor.min_range_m && range_m <= sensor.max_range_m) {
-        scan.points.emplace_back(direction * static_cast<float>(range_m));
-      } else if (range_m > sensor.max_range_m && sensor.reports_no_return) {
-        scan.no_return.push_back(direction);
-      }
+      add_ray(scan, sensor, direction, range_into(world.frame.box_of(cell), origin, ray));
       break;
     }
   }

@@ -5,21 +5,10 @@
 
 #include "fuzz_target.hpp"
 #include "report/cycle_codec.hpp"
+#include "support/full_cycle.hpp"
 
 std::vector<std::string> vantage::fuzz::seeds() {
-  RecordedCycle cycle;
-  cycle.view.view = 1;
-  cycle.view.coverage = 0.5;
-  cycle.view.passed = {{0, 0, 0}, {1, 2, 3}};
-  cycle.planned = true;
-  cycle.reason = "there is more to see";
-  cycle.path = {Pose::Identity(), Pose::Identity()};
-  cycle.candidates.emplace_back();
-  cycle.field = {{{1, 2, 3}, {0, 0, 1}, 0.5F}};
-  BrickState brick{.brick = {1, 2, 3}};
-  brick.known = {0xFFFF, 7};
-  brick.occupied = {0xF0, 1};
-  cycle.changes = {brick, {.brick = {2, 2, 3}}};
+  RecordedCycle cycle = test::full_cycle();
   detail::BrickStates states;
   std::vector<std::string> all{detail::encode(cycle, states)};
   cycle.planned = false;

@@ -21,7 +21,9 @@ namespace VANTAGE_EXPORT vantage {
 /// After each update it holds exactly the result of `void_cells`, whatever the history of the map. The hull grows by
 /// new occupied cells outside it. If a corner of the hull is no longer occupied, the hull shrinks to the remaining
 /// corners and grows again from there. A cell is tested again only if it lies beyond a plane that bounds only one of
-/// the old and the new hull. The map must outlive the tracker. (Dornhege & Kleiner 2011, IV-B.)
+/// the old and the new hull. While all occupied cells lie in one plane, there is no hull to grow, and each update
+/// looks at the whole map; a map whose region is one layer of cells has no void cells and costs nothing. The map must
+/// outlive the tracker. (Dornhege & Kleiner 2011, IV-B.)
 class VoidTracker {
  public:
   /// Computes the void cells of the map as it is now.

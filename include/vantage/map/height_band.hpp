@@ -33,8 +33,8 @@ struct HeightBandOptions {
   /// What the robot requires of the floor. A horizontal sensor does not see the floor beside it. FloorRule::Seen
   /// therefore needs a call of HeightBand::assume_floor for the start position.
   FloorRule floor = FloorRule::NoDrop;
-  /// The deepest step that the robot can drive down, >= 0. The floor is searched in the cells below the band whose
-  /// upper face lies above `min_height_m - step_height_m`.
+  /// The deepest step that the robot can drive down, in [0, 1000]. The floor is searched in the cells below the band
+  /// whose upper face lies above `min_height_m - step_height_m`.
   double step_height_m = 0.25;
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vantage/compiler.hpp>
@@ -29,10 +30,15 @@ enum class CellTruth : std::uint8_t {
 /// A world as cells of one resolution in one region: what a perfect map of it says.
 class Truth {
  public:
+  /// Default distance around the region, metres. No preset sensor has a longer range.
+  static constexpr double kAroundM = 25.0;
+
   /// Rasterises the world exactly (separating axes of each triangle and cell; solid pixels and cells if the world
-  /// is a plane). `resolution_m` > 0. Throws std::invalid_argument for a resolution that is not positive, an empty
-  /// region, and a region that is not one layer of cells if the world is a plane.
-  Truth(const World& world, double resolution_m, const Box& region);
+  /// is a plane). `resolution_m` > 0. Surfaces further than `around_m` (in [0, 10000]) from the region are left out:
+  /// choose at least the range of a sensor that does not report rays without return. Throws std::invalid_argument for
+  /// a resolution that is not positive, an empty region, a region that is not one layer of cells if the world is a
+  /// plane, and more than 2^32 cells.
+  Truth(const World& world, double resolution_m, const Box& region, double around_m = kAroundM);
 
   /// The ground truth of the plane of a band of heights (HeightBand): a column is occupied if a cell of the band
   /// is or if it is a drop (FloorRule), else grazed if a cell is, else free. Throws as HeightBand.
@@ -59,7 +65,9 @@ class Truth {
   ///
   /// The orientation is free; if the platform cannot tilt, the level sensor turned towards the cell must have it
   /// in its field of view. With `within`, only cells that touch that box. In raster order; the same for any number
-  /// of threads. `on_share` is called now and then with the share of cells done, from one thread at a time.
+  /// of threads. `on_share` is called now and then with the share of cells done, from one thread at a time. Throws
+  /// std::invalid_argument if the sensor is invalid, or if it does not report rays without return and some may end on
+  /// a surface further than `around_m` from the region.
   [[nodiscard]] std::vector<VoxelIndex> observable(const Platform& platform, const RangeSensor& sensor,
                                                    const Pose& start, int threads = 1,
                                                    const std::function<void(double share)>& on_share = {},
@@ -72,12 +80,14 @@ class Truth {
   [[nodiscard]] std::vector<VoxelIndex> lattice(const Platform& platform, const Pose& start) const;
 
  private:
-  Truth(const OccupancyMap& map, VoxelGrid<CellTruth> cells)
-      : map_(map), region_(*map.region()), cells_(std::move(cells)) {}
+  Truth(const OccupancyMap& map, VoxelGrid<CellTruth> cells, double longest_range_m)
+      : map_(map), region_(*map.region()), cells_(std::move(cells)), longest_range_m_(longest_range_m) {}
 
   OccupancyMap map_;
   VoxelBox region_;
   VoxelGrid<CellTruth> cells_;  // the region and, around it, what a ray may end on
+  // A ray of at most this length from the region can only end on surfaces in `cells_`.
+  double longest_range_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace vantage

@@ -57,8 +57,8 @@ class UnseenSurface {
   void suppose(const OccupancyMap& map);
 
   VoxelFrame frame_;
-  RayCaster caster_;
   VoxelGrid<std::uint8_t> looked_;  // bits 0-5: face observed; bit 6: cell treated as free
+  RayCaster caster_;
 };
 
 }  // namespace vantage

@@ -72,8 +72,9 @@ struct RecordedReading {
 /// so that +z is up.
 class Recording {
  public:
-  /// Throws std::runtime_error, with the folder or file and the reason, if it cannot be read or has no usable frame.
-  /// Throws std::invalid_argument for an unknown format (and lists the formats) or an invalid option.
+  /// Throws std::runtime_error, with the folder or file and the reason, if it cannot be read, has no usable frame or
+  /// describes no valid camera. Throws std::invalid_argument for an unknown format (and lists the formats) or an
+  /// invalid option, which it names.
   [[nodiscard]] static Recording open(std::string_view format, const std::filesystem::path& folder,
                                       const RecordingOptions& options = {});
   /// The names of the supported formats.

@@ -265,6 +265,13 @@ TEST(KinematicChain, SaysWhatIsWrongWithAFile) {
   const std::vector<DhRow> rows{{.a_m = 0.5, .range = {-1.0, 1.0}}};
   EXPECT_EQ(complaint([&] { (void)KinematicChain::from_dh(rows, Pose::Identity(), {{.link = 3, .radius_m = 0.1}}); }),
             "Capsule::link is 3, must be < 3");
+  const auto with = [&](const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m) {
+    return complaint([&] { (void)KinematicChain::from_dh(rows, Pose::Identity(), {{1, from_m, to_m, 0.1}}); });
+  };
+  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
+  EXPECT_EQ(with(here, here), "");
+  EXPECT_EQ(with({0.0, std::nan(""), 0.0}, here), "Capsule::from_m is nan, must be finite");
+  EXPECT_EQ(with(here, {0.0, 0.0, INFINITY}), "Capsule::to_m is inf, must be finite");
 }
 
 // A URDF with one moving joint, followed by `links` links with fixed joints.

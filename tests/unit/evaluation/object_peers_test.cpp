@@ -2,14 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vantage/evaluation/object_peers.hpp>
 #include <vantage/evaluation/test_objects.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/sim/exploration_run.hpp>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -93,6 +96,55 @@ TEST(ObjectPeers, PlanTheSameTwiceAndDrawFromTheSeed) {
           .goal.pose.isApprox(make_object_peer("random-views", in_view.setup(1))->plan(map, start).goal.pose));
   EXPECT_THROW((void)make_object_peer("psychic", in_view.setup()), std::invalid_argument);
   EXPECT_THROW((void)make_object_peer("evenly-spaced", {}), std::invalid_argument);
+}
+
+// A flyer that is admitted only at the heights that a spiral of twelve views takes on the shell.
+class AtTwelveHeights final : public Platform {
+ public:
+  AtTwelveHeights(const Eigen::Vector3d& middle, double radius_m) : middle_(middle), radius_m_(radius_m) {}
+  [[nodiscard]] bool admits(const OccupancyMap&, const Pose& pose) const override {
+    const double row = 6.0 * (1.0 - (pose.translation() - middle_).z() / radius_m_) - 0.5;
+    return std::abs(row - std::round(row)) < 0.02;
+  }
+  [[nodiscard]] bool admits_cell(const OccupancyMap&, const VoxelIndex&) const override { return true; }
+  [[nodiscard]] bool admits_motion(const OccupancyMap&, const Pose&, const Pose&) const override { return true; }
+  [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override {
+    return pose_looking_along(position_m, direction);
+  }
+  [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override {
+    return (to.translation() - from.translation()).norm();
+  }
+  [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap&, const Pose& from,
+                                                      const Pose& to) const override {
+    return std::vector<Pose>{from, to};
+  }
+  [[nodiscard]] Box body_box(const Pose& pose) const override { return {pose.translation(), pose.translation()}; }
+  [[nodiscard]] bool can_tilt() const override { return true; }
+
+ private:
+  Eigen::Vector3d middle_;
+  double radius_m_;
+};
+
+TEST(ObjectPeers, EvenlySpacedViewsReachFromTheTopToTheBottomOfWhatIsAdmitted) {
+  ObjectInView in_view(generated_object("crate", 5));
+  ObjectPeerSetup setup = in_view.setup();
+  const Eigen::Vector3d middle = in_view.scene.box.centre();
+  const double radius_m = in_view.scene.radii_m.front();
+  setup.platform = std::make_shared<const AtTwelveHeights>(middle, radius_m);
+  const auto peer = make_object_peer("evenly-spaced", setup);
+  OccupancyMap map({.resolution_m = 0.04});
+  Pose at = peer->first_view().value();
+  std::vector<double> heights{(at.translation() - middle).z() / radius_m};
+  for (Plan plan = peer->plan(map, at); plan.outcome == Outcome::Move; plan = peer->plan(map, at)) {
+    at = plan.goal.pose;
+    heights.push_back((at.translation() - middle).z() / radius_m);
+    map.confirm();
+  }
+  ASSERT_EQ(heights.size(), 6U);
+  for (std::size_t i = 0; i < heights.size(); ++i) {  // every other one of the twelve
+    EXPECT_NEAR(heights[i], 1.0 - (4.0 * double(i) + 3.0) / 12.0, 1e-9);
+  }
 }
 
 TEST(TestObjects, StandOnTheGroundAndVaryWithTheSeed) {

@@ -94,6 +94,20 @@ TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
   EXPECT_GT(hulls_shrunk, 10U);
 }
 
+// A plane has no volume, whatever becomes known in it.
+TEST(VoidTracker, AMapOfOneLayerNeverHasAHull) {
+  OccupancyMap map({.resolution_m = 0.1, .region = Box{{-2.0, -2.0, 0.0}, {2.0, 2.0, 0.1}}});
+  VoidTracker tracker(map);
+  std::mt19937 engine(5);
+  std::uniform_int_distribution<std::int32_t> at(-20, 19);
+  for (int i = 0; i < 60; ++i) {
+    map.set({at(engine), at(engine), 0}, i % 3 == 0 ? Occupancy::Free : Occupancy::Occupied);
+    EXPECT_FALSE(tracker.update()) << "there is nothing to change";
+    ASSERT_TRUE(tracker.hull().empty());
+    ASSERT_EQ(tracker.cell_count(), void_cells(map).size());
+  }
+}
+
 // Points, lines and planes of occupied cells have no volume until a cell is added beside them, and again after it is
 // removed.
 TEST(VoidTracker, KeepsUpWithCloudsWithoutVolume) {

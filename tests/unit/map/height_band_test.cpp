@@ -207,6 +207,10 @@ TEST(HeightBand, NamesTheOptionAtFault) {
       "HeightBandOptions::max_height_m is 0.54, must be such that the centre of a cell lies between the heights");
   EXPECT_EQ(message({.free_share = 0.0}), "HeightBandOptions::free_share is 0, must be in (0, 1]");
   EXPECT_NE(message({.sensor_height_m = std::nan("")}).find("sensor_height_m"), std::string::npos);
+  EXPECT_EQ(message({.step_height_m = -0.1}), "HeightBandOptions::step_height_m is -0.1, must be in [0, 1000]");
+  EXPECT_EQ(message({.step_height_m = std::nan("")}),
+            "HeightBandOptions::step_height_m is nan, must be in [0, 1000]");
+  EXPECT_EQ(message({.step_height_m = INFINITY}), "HeightBandOptions::step_height_m is inf, must be in [0, 1000]");
   const Box storey{{0.0, 0.0, 0.0}, {3.0, 3.0, 2.0}};
   EXPECT_EQ(message({.min_height_m = 2.5, .max_height_m = 3.0, .sensor_height_m = 1.0}, storey),
             "HeightBandOptions::min_height_m is 2.5, must be below the top of the map's region");

@@ -306,6 +306,30 @@ TEST(OccupancyMap, CoarserCellsSpeakForTheKnownCellsInThem) {
   EXPECT_GT(compared, 300U);
 }
 
+// The cells of these coarse cells have no address in 32 bits, or just have one.
+TEST(OccupancyMap, CoarseCellsBeyondTheAddressesAreUnknown) {
+  OccupancyMap map({.resolution_m = 0.1});
+  map.set({0, 0, 0}, Occupancy::Occupied);
+  map.set({-kFurthestVoxel, kFurthestVoxel, 0}, Occupancy::Free);
+  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  std::size_t compared = 0;
+  for (int level = 0; level <= 16; ++level) {
+    const std::int32_t beyond = 1 << (30 - level);  // the first coarse cell beyond the addresses
+    EXPECT_EQ(map.at({0, 0, 0}, level, CoarseningPolicy::Max), Occupancy::Occupied);
+    EXPECT_EQ(map.at({-beyond + (level == 0 ? 1 : 0), beyond - 1, 0}, level, CoarseningPolicy::Max), Occupancy::Free);
+    for (const std::int32_t far : {beyond, 2 * (beyond / 2) + 1, -beyond - 1, beyond + (beyond - 1), kLeast}) {
+      for (const VoxelIndex& coarse : {VoxelIndex{far, 0, 0}, VoxelIndex{0, far, 0}, VoxelIndex{0, 0, far}}) {
+        EXPECT_FALSE(map.log_odds(coarse, level, CoarseningPolicy::Mean)) << level << ' ' << far;
+        ++compared;
+      }
+    }
+    if (level >= 2) {  // four times as far, where a product of 32 bits is 0 again
+      EXPECT_FALSE(map.log_odds({4 * beyond, 0, 0}, level, CoarseningPolicy::Mean)) << level;
+    }
+  }
+  EXPECT_EQ(compared, 255U);
+}
+
 TEST(OccupancyMap, AssumeFreeLeavesWhatWasMeasured) {
   OccupancyMap map({.resolution_m = 0.1});
   map.set({1, 1, 1}, Occupancy::Occupied);

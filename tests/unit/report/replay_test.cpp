@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/report/run_recorder.hpp>
 
+#include "report/replay_json.hpp"
 #include "support/random_maps.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -116,6 +118,29 @@ TEST(Replay, ShowsAtEveryMomentWhatTheMapWasThen) {
   EXPECT_EQ(moments, 36U);
   EXPECT_GT(faces, 5000U);
   EXPECT_LT(rectangles, faces / 2) << "faces beside one another are drawn as one";
+}
+
+TEST(Replay, TheBoxShownHoldsTheRectanglesOfVoidsWhole) {
+  for (std::size_t direction = 0; direction < 6; ++direction) {
+    detail::Replay replay;
+    replay.bounds = {{0, 0, 0}, {4, 4, 4}};
+    replay.voids[direction] = {{.cell = {1, 2, 3}, .width = 10, .height = 20}};
+    VoxelIndex hi{4, 4, 4};  // of every cell of the rectangle
+    const std::size_t axis = direction / 2;
+    for (std::int32_t u = 0; u < 10; ++u) {
+      for (std::int32_t v = 0; v < 20; ++v) {
+        const VoxelIndex cell = VoxelIndex{1, 2, 3} + VoxelIndex{axis == 0 ? 0 : u,
+                                                                 axis == 0   ? u
+                                                                 : axis == 1 ? 0
+                                                                             : v,
+                                                                 axis == 2 ? 0 : v};
+        hi = {std::max(hi.x, cell.x + 1), std::max(hi.y, cell.y + 1), std::max(hi.z, cell.z + 1)};
+      }
+    }
+    const nlohmann::json json = detail::replay_json(replay);
+    EXPECT_EQ(json.at("lo"), nlohmann::json({0, 0, 0}));
+    EXPECT_EQ(json.at("hi"), nlohmann::json({hi.x, hi.y, hi.z})) << direction;
+  }
 }
 
 }  // namespace

@@ -139,6 +139,30 @@ TEST_F(TruthOfTwoRooms, AnExhaustiveScanCoversNearlyEverythingObservable) {
   EXPECT_GT(truth.coverage(map, seen), 0.99);
 }
 
+// A wall 60 m away tells a sensor of long range, which does not report rays without return, what lies before it.
+TEST(Truth, KeepsTheSurfacesThatTheSensorsRangeReaches) {
+  World world{"far wall", {}, {{0, 0, 0}, {2, 2, 2}}};
+  world.mesh.add_quad({60, -10, -10}, {60, 14, -10}, {60, 14, 14}, {60, -10, 14});
+  const auto flyer = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.25});
+  RangeSensor sensor = RangeSensor::pinhole(64, 64, 1.0, 1.0, 0.0, 100.0);
+  sensor.reports_no_return = false;
+  ExplorationRunOptions options;
+  options.map.resolution_m = 0.2;
+  const ExplorationRun run(world, sensor, flyer, options);
+  const Pose start = run.truth().draw_start(*flyer, 1).value();
+  const std::size_t poses = run.truth().lattice(*flyer, start).size();
+  EXPECT_GT(run.truth().observable(*flyer, sensor, start).size(), 3 * poses);
+  const Truth near(world, 0.2, world.region);
+  EXPECT_THROW((void)near.observable(*flyer, sensor, start), std::invalid_argument);
+  sensor.max_range_m = 25.0;
+  EXPECT_LT(near.observable(*flyer, sensor, start).size(), poses + 1) << "the cells of the poses";
+  sensor.max_range_m = 100.0;
+  sensor.reports_no_return = true;
+  EXPECT_EQ(near.observable(*flyer, sensor, start).size(), 1000U) << "the whole region";
+  EXPECT_THROW(Truth(world, 0.2, world.region, -1.0), std::invalid_argument);
+  EXPECT_THROW(Truth(world, 1e-4, world.region), std::invalid_argument) << "too many cells";
+}
+
 // Moves to and fro between two places a given number of times.
 class Shuttle final : public ExplorationPlanner {
  public:

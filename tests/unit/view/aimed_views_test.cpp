@@ -96,6 +96,9 @@ TEST(AimedViews, NamesWhatIsWrong) {
   EXPECT_EQ(complaint({}), "");
   EXPECT_EQ(complaint({.min_distance_m = 0.0}), "AimedViewOptions::min_distance_m is 0, must be > 0");
   EXPECT_EQ(complaint({.min_distance_m = 2.0}), "AimedViewOptions::max_distance_m is 1.5, must be >= min_distance_m");
+  const OccupancyMap map;
+  EXPECT_THROW((void)aimed_views(RayCaster(map), CellSet(), {.count = 0, .min_distance_m = 0.0}, 1),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <vantage/view/unseen_surface.hpp>
 
 namespace vantage {
@@ -66,6 +67,13 @@ TEST(UnseenSurface, TakesForFreeWhatRaysHavePassed) {
   }
   EXPECT_EQ(surface.caster().at({0, 7, 0}), Occupancy::Free);
   EXPECT_EQ(map.at({0, 7, 0}), Occupancy::Unknown);
+}
+
+// The faces of so many cells have no numbers; it is said before memory is asked for.
+TEST(UnseenSurface, RefusesABoxOfTooManyCells) {
+  const OccupancyMap map({.resolution_m = 0.05});
+  constexpr std::int32_t kHalf = 1 << 18;
+  EXPECT_THROW(UnseenSurface(map, {{-kHalf, -kHalf, -kHalf}, {kHalf, kHalf, kHalf}}), std::length_error);
 }
 
 }  // namespace

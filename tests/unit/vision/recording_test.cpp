@@ -79,6 +79,11 @@ TEST(SevenScenes, LeavesOutWhatIsIncompleteAndNamesIt) {
   write_text(folder / "frame-000005.pose.txt", kHere);
   write_text(folder / "camera-intrinsics.txt", "1 2 3");
   EXPECT_NE(opening("7scenes", folder / ".").find("camera-intrinsics.txt: has 3 numbers"), std::string::npos);
+  write_text(folder / "camera-intrinsics.txt", "0 0 320\n0 585 240\n0 0 1\n");
+  EXPECT_NE(opening("7scenes", folder / ".").find("camera-intrinsics.txt: DepthCamera::fx is 0, must be"),
+            std::string::npos);
+  const Recording mended = Recording::open("7scenes", folder / ".", {.intrinsics = {{500.0, 500.0, 3.5, 2.5}}});
+  EXPECT_EQ(mended.camera().fx, 500.0) << "options override what the file says";
 }
 
 // A damaged image is reported; the frames before and after it are not affected.
@@ -146,6 +151,21 @@ TEST_F(TumFolder, TakesTheIntrinsicsOfIclNuim) {
   EXPECT_GT(scan.points.front().y(), 0.0F) << "the first row is the uppermost, and y points up";
   EXPECT_GT(recording.sensor().fy, 0.0);
   EXPECT_EQ(recording.sensor().max_range_m, 3.0);
+}
+
+TEST_F(TumFolder, NamesTheOptionAtFault) {
+  const auto said = [&](const RecordingOptions& options) {
+    return message_of<std::invalid_argument>([&] { (void)Recording::open("tum", folder_ / ".", options); });
+  };
+  EXPECT_EQ(said({}), "");
+  EXPECT_EQ(said({.max_range_m = -1.0}), "RecordingOptions::max_range_m is -1, must be > 0");
+  EXPECT_EQ(said({.min_range_m = std::nan("")}), "RecordingOptions::min_range_m is nan, must be >= 0");
+  EXPECT_EQ(said({.max_range_m = 0.25}),
+            "RecordingOptions::max_range_m is 0.25, must be > the smallest range, 0.400000");
+  EXPECT_EQ(said({.min_range_m = 4.0}), "RecordingOptions::min_range_m is 4, must be < the trusted range, 4.000000");
+  EXPECT_EQ(said({.intrinsics = {{0.0, 480.0, 3.5, 2.5}}}), "RecordingOptions::intrinsics is 0, must be > 0 (fx)");
+  EXPECT_EQ(said({.intrinsics = {{480.0, 0.0, 3.5, 2.5}}}),
+            "RecordingOptions::intrinsics is 0, must be finite and not 0 (fy)");
 }
 
 TEST_F(TumFolder, SaysWhatIsWrong) {
@@ -249,6 +269,32 @@ TEST(KittiStereo, LeavesOutWhatIsIncompleteAndNamesIt) {
   EXPECT_NEAR(double(recording.read(0).depth.at(120, 60)), 200.0 * 0.1 / 10.0, 0.05);
   fs::remove(folder / "calib.txt");
   EXPECT_NE(opening("kitti-stereo", folder / ".").find("calib.txt: cannot be opened"), std::string::npos);
+}
+
+// The rows of poses.txt follow the names of the images, whatever their endings.
+TEST(KittiStereo, ImagesOfBothKindsShareOneOrder) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "image_0");
+  fs::create_directories(folder / "image_1");
+  const cv::Mat grey(60, 100, CV_8UC1, cv::Scalar(9));
+  for (const char* name : {"000000.jpg", "000001.png", "000001.jpg", "000002.jpg", "000003.png"}) {
+    cv::imwrite(folder / (std::string("image_0/") + name), grey);
+    cv::imwrite(folder / (std::string("image_1/") + name), grey);
+  }
+  write_text(folder / "calib.txt", "P0: 200 0 10 0 0 200 6 0 0 0 1 0\nP1: 200 0 10 -20 0 200 6 0 0 0 1 0\n");
+  std::string poses;
+  for (int i = 0; i < 4; ++i) {
+    poses += "1 0 0 " + std::to_string(i) + " 0 1 0 0 0 0 1 0\n";
+  }
+  write_text(folder / "poses.txt", poses);
+  const Recording recording = Recording::open("kitti-stereo", folder / ".");
+  ASSERT_EQ(recording.frames().size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(recording.frames()[i].name, "00000" + std::to_string(i));
+    EXPECT_NEAR(recording.pose(i).translation().norm(), double(i), 1e-9) << "the pose of row " << i;
+  }
+  ASSERT_EQ(recording.skipped().size(), 1U);
+  EXPECT_TRUE(names(recording, 0, "000001.jpg", "there is also 000001.png"));
 }
 
 // Range scans of a plate, two of them rotated: all lie where the list says.

@@ -117,6 +117,13 @@ TEST(StereoMatcher, RefusesAPairThatDoesNotFit) {
   sized.height = 480;
   EXPECT_NE(said(pair.left(), pair.right(), StereoMatcher(sized)).find("the calibration is for 640 x 480"),
             std::string::npos);
+  sized = rig();
+  sized.width = 200;  // and a height that is not known
+  EXPECT_EQ(said(pair.left(), pair.right(), StereoMatcher(sized, {.disparities_px = 32})), "");
+  sized.width = 0;
+  sized.height = 480;
+  EXPECT_NE(said(pair.left(), pair.right(), StereoMatcher(sized)).find("the calibration is for any x 480"),
+            std::string::npos);
   const DotPair crooked(ten, never, 5);
   EXPECT_NE(said(crooked.left(), crooked.right(), matcher).find("is not rectified: what it shows lies 5 rows off"),
             std::string::npos);
@@ -201,6 +208,19 @@ TEST(StereoRig, BadCalibrationsAreRefusedByName) {
   EXPECT_NE(said("width=9\nheight=9\n", middlebury).find("there is no 'focal_px'"), std::string::npos);
   EXPECT_NE(said("%YAML:1.0\n---\nM1: 3\n", opencv).find("calib.txt: "), std::string::npos);
   EXPECT_NE(said("{[:", opencv).find("calib.txt: "), std::string::npos);
+  const auto matrix = [](const char* name, int rows, int columns, const char* numbers) {
+    return std::string(name) + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
+           "\n   cols: " + std::to_string(columns) + "\n   dt: d\n   data: [ " + numbers + " ]\n";
+  };
+  const char* const k = "200, 0, 100, 0, 200, 60, 0, 0, 1";
+  const std::string pair = "%YAML:1.0\n---\n" + matrix("M1", 3, 3, k) + matrix("M2", 3, 3, k) +
+                           matrix("R", 3, 3, "1, 0, 0, 0, 1, 0, 0, 0, 1") + matrix("T", 3, 1, "-0.1, 0, 0");
+  const auto with = [&](int columns, const char* numbers) {
+    return said(pair + matrix("D1", 1, columns, numbers) + matrix("D2", 1, columns, numbers), opencv);
+  };
+  EXPECT_EQ(with(5, "0, 0, 0, 0, 0"), "");
+  EXPECT_NE(with(6, "0, 0, 0, 0, 0, 0").find("calib.txt: OpenCV cannot rectify this pair"), std::string::npos)
+      << "there is no lens with six numbers";
   EXPECT_NE(message_of<std::runtime_error>([&] { (void)read_kitti_calibration(folder / "no.txt"); }).find("no.txt"),
             std::string::npos);
 }
