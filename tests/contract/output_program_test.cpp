@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 constexpr const char* kShortRun =
     "explore --world table --sensor kinect --resolution 0.2 --planner nearest-frontier --max-views 2 ";
 constexpr const char* kLongRun =
-    "explore --world office --size 30,30 --sensor kinect --planner nearest-frontier --resolution 0.2 --max-views "
-    "100000 ";
+    "explore --world office --size 30,30 --sensor kinect --planner nearest-frontier --resolution 0.2 --no-coverage "
+    "--max-views 100000 ";
 
 class ProgramOutput : public testing::Test {
  protected:
