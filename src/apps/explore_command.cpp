@@ -272,9 +272,8 @@ void add_explore_command(CLI::App& app, int& exit_code) {
   command->add_flag("--wear", request->wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
       ->group("Run");
   command
-      ->add_flag(
-          "--bound", request->bound,
-          "At the end, find the shortest route with full knowledge of the world; slow")
+      ->add_flag("--bound", request->bound,
+                 "At the end, find the shortest route with full knowledge of the world; slow")
       ->group("Run");
   command
       ->add_flag("--no-coverage", request->no_coverage,
