@@ -283,9 +283,8 @@ void add_search_command(CLI::App& app, int& exit_code) {
                  "At the end, count the void cells that thousands of poses of the arm could still see; slow")
       ->group("Run");
   command
-      ->add_option(
-          "--bound", request->bound,
-          "At the end, bound the views needed with full knowledge, over so many poses; slow")
+      ->add_option("--bound", request->bound,
+                   "At the end, bound the views needed with full knowledge, over so many poses; slow")
       ->type_name("POSES")
       ->check(a_whole_number(1'000'000))
       ->group("Run");
