@@ -19,6 +19,10 @@ Eigen::Quaterniond turned_by(const Eigen::Quaterniond& from, const Eigen::Vector
 
 }  // namespace
 
+Turning::Turning(const Eigen::Matrix3d& orientation) : orientation_(Eigen::Quaterniond(orientation)) {}
+
+Eigen::Matrix3d Turning::orientation() const { return Eigen::Quaterniond(orientation_).toRotationMatrix(); }
+
 double Turning::angle_to_rad(const Eigen::Matrix3d& other) const {
   return turn_between(Eigen::Quaterniond(orientation_), Eigen::Quaterniond(other)).norm();
 }

@@ -12,7 +12,7 @@ namespace VANTAGE_EXPORT vantage {
 class Turning {
  public:
   /// At rest.
-  explicit Turning(const Eigen::Matrix3d& orientation) : orientation_(Eigen::Quaterniond(orientation)) {}
+  explicit Turning(const Eigen::Matrix3d& orientation);
 
   /// Turns towards `target` for `step_s` seconds, > 0; the turn brakes in time to come to rest there. Neither the
   /// rate nor its change within a step ever exceeds its limit. Without a limit of its acceleration the time of a turn
@@ -20,7 +20,7 @@ class Turning {
   void advance(const Eigen::Matrix3d& target, double step_s, const MotionModel& motion);
 
   /// world_from_sensor.
-  [[nodiscard]] Eigen::Matrix3d orientation() const { return Eigen::Quaterniond(orientation_).toRotationMatrix(); }
+  [[nodiscard]] Eigen::Matrix3d orientation() const;
   /// Between the orientation now and another, radians.
   [[nodiscard]] double angle_to_rad(const Eigen::Matrix3d& other) const;
   /// Turning now, as a vector about which to turn in the world, radians per second.
