@@ -4,8 +4,12 @@ set(consumer_source "${CMAKE_CURRENT_LIST_DIR}")
 set(consumer_build "${PROJECT_BINARY_DIR}/consumer")
 set(consumer_prefix "${consumer_build}/prefix")
 
+# Headers that an earlier build installed are gone.
+add_test(NAME package.empty_prefix COMMAND "${CMAKE_COMMAND}" -E rm -rf "${consumer_prefix}")
+set_tests_properties(package.empty_prefix PROPERTIES FIXTURES_SETUP installed_package LABELS package)
 add_test(NAME package.install COMMAND "${CMAKE_COMMAND}" --install "${PROJECT_BINARY_DIR}" --prefix "${consumer_prefix}")
-set_tests_properties(package.install PROPERTIES FIXTURES_SETUP installed_package LABELS package)
+set_tests_properties(package.install PROPERTIES DEPENDS package.empty_prefix FIXTURES_SETUP installed_package
+                                                LABELS package)
 
 # vantage_consumer_test(<name> <option>...): configures, builds and runs the consumer. The options must come before
 # --test-command, which takes all arguments that follow.
