@@ -59,9 +59,9 @@ void ExplorationRun::fly(Progress& progress, ExplorationPlanner& planner, const 
   if (options_.look_around) {
     look_around(progress, &robot, on_view);
   }
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  bool follows = false;          // the latest plan ...
-  double follows_at_s = kNever;  // ... or will from then on
+  constexpr double kNoPlanDue = std::numeric_limits<double>::infinity();
+  bool follows = false;              // the latest plan ...
+  double follows_at_s = kNoPlanDue;  // ... or will from then on
   for (;;) {
     const bool free = robot.way_is_free(known());
     if (!free) {
@@ -70,7 +70,7 @@ void ExplorationRun::fly(Progress& progress, ExplorationPlanner& planner, const 
     const bool goes_well = follows && free && !robot.has_arrived() &&
                            check(progress.plan, known(), *platform_, progress.pose) != PlanCheck::NothingLeft;
     const bool ends = stopped() || progress.record.views.size() >= options_.max_views;
-    if (ends || (follows_at_s == kNever && !goes_well)) {
+    if (ends || (follows_at_s == kNoPlanDue && !goes_well)) {
       if (!goes_on(progress, planner, on_view)) {
         return;
       }
@@ -86,7 +86,7 @@ void ExplorationRun::fly(Progress& progress, ExplorationPlanner& planner, const 
       if (!follows) {  // it plans again where it comes to rest, at the latest
         robot.brake(known());
       }
-      follows_at_s = kNever;
+      follows_at_s = kNoPlanDue;
     }
     fly_until(progress, robot, next_s);
     scan_in_time(progress, robot);
