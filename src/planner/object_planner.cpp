@@ -119,9 +119,10 @@ std::vector<std::size_t> ObjectPlanner::order_of(const std::vector<Candidate>& t
 }
 
 // The first worthwhile candidate to which there is a way and whose place does not rest.
-bool ObjectPlanner::take_first(const OccupancyMap& map, const Pose& current, const std::vector<Candidate>& worthwhile,
-                               Plan& plan) const {
-  for (const Candidate& candidate : worthwhile) {
+bool ObjectPlanner::take_first(const OccupancyMap& map, const Pose& current, const std::vector<Candidate>& all,
+                               const std::vector<std::size_t>& worthwhile, Plan& plan) const {
+  for (const std::size_t i : worthwhile) {
+    const Candidate& candidate = all[i];
     if (tried_.rests(map.frame().cell_of(candidate.pose.translation()))) {
       continue;
     }
@@ -148,7 +149,7 @@ Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pose) {
   plan.statistics.evaluate_ms = stopwatch.lap_ms();
 
   const double least = std::max(1.0, options_.min_new_share * static_cast<double>(surface_->looked_at()));
-  std::vector<Candidate> worthwhile;
+  std::vector<std::size_t> worthwhile;
   std::size_t best = 0;
   for (const std::size_t i : order_of(all)) {
     const std::size_t faces = all[i].faces.size();
@@ -157,12 +158,12 @@ Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pose) {
       plan.candidates.push_back({all[i].pose, static_cast<double>(faces)});
     }
     if (static_cast<double>(faces) >= least) {
-      worthwhile.push_back(all[i]);
+      worthwhile.push_back(i);
     }
   }
   plan.statistics.choose_ms = stopwatch.lap_ms();
-  if (take_first(map, current, worthwhile, plan) ||
-      (tried_.try_resting_again() && take_first(map, current, worthwhile, plan))) {
+  if (take_first(map, current, all, worthwhile, plan) ||
+      (tried_.try_resting_again() && take_first(map, current, all, worthwhile, plan))) {
     tried_.expect(map, plan.goal.pose, way_of(plan.path), {});
   } else if (all.empty()) {
     plan.reason =

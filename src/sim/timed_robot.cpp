@@ -46,12 +46,7 @@ Trajectory::Admits TimedRobot::admits(const OccupancyMap& map) const {
 }
 
 bool TimedRobot::admits_points(const OccupancyMap& map, const std::vector<Eigen::Vector3d>& points) const {
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (!platform_->admits_motion(map, pose_at(points[i - 1]), pose_at(points[i]))) {
-      return false;
-    }
-  }
-  return true;
+  return std::adjacent_find(points.begin(), points.end(), std::not_fn(admits(map))) == points.end();
 }
 
 bool TimedRobot::way_is_free(const OccupancyMap& map) const {
