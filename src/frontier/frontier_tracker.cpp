@@ -8,7 +8,7 @@
 #include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
-#include "frontier/brick_plane.hpp"
+#include "map/brick_plane.hpp"
 
 namespace vantage {
 namespace {

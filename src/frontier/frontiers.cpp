@@ -3,7 +3,7 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
-#include "frontier/brick_plane.hpp"
+#include "map/brick_plane.hpp"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
-#include "frontier/brick_plane.hpp"
+#include "map/brick_plane.hpp"
 #include "frontier/hull_change.hpp"
 
 namespace vantage {

@@ -22,8 +22,24 @@ class BrickTree {
       const VoxelIndex node{child.x >> 2, child.y >> 2, child.z >> 2};
       std::uint64_t& children = level.place(node);
       const bool is_new = children == 0;
-      children |= std::uint64_t{1} << ((child.x & 3) | (child.y & 3) << 2 | (child.z & 3) << 4);
+      children |= bit_of(child);
       if (!is_new) {
+        return;
+      }
+      child = node;
+    }
+  }
+  /// Removes a brick.
+  void erase(const VoxelIndex& brick) {
+    VoxelIndex child = brick;
+    for (VoxelTable<std::uint64_t>& level : levels_) {
+      const VoxelIndex node{child.x >> 2, child.y >> 2, child.z >> 2};
+      std::uint64_t* const children = level.find(node);
+      if (children == nullptr) {
+        return;
+      }
+      *children &= ~bit_of(child);
+      if (*children != 0) {
         return;
       }
       child = node;
@@ -63,6 +79,10 @@ class BrickTree {
   }
 
  private:
+  // The bit of a child in the mask of its parent.
+  static std::uint64_t bit_of(const VoxelIndex& child) {
+    return std::uint64_t{1} << ((child.x & 3) | (child.y & 3) << 2 | (child.z & 3) << 4);
+  }
   static VoxelBox parents(const VoxelBox& box) {
     const auto up = [](std::int32_t i) { return i >> 2; };
     return {{up(box.lo.x), up(box.lo.y), up(box.lo.z)},

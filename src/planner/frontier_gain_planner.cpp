@@ -15,6 +15,7 @@ FrontierGainPlanner::FrontierGainPlanner(const PlannerSetup& setup, const Fronti
 
 std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
   const FrontierSurvey& survey = situation().survey();
+  const ReachableSpace& reachable = situation().reachable();
   const Platform& platform = situation().platform();
   Dice dice(situation().setup().seed, situation().map().revision());
   std::optional<TargetView> best;
@@ -36,8 +37,8 @@ std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
     consider(view_of_target(situation(), target, plan.statistics.ray_operations));
   };
   const auto anywhere = [&] {
-    const VoxelIndex& cell = survey.reachable.cells()[dice.below(survey.reachable.size())];
-    const Pose pose = platform.facing(survey.reachable.position_in(cell), dice.direction());
+    const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
+    const Pose pose = platform.facing(reachable.position_in(cell), dice.direction());
     consider(targets_seen_from(situation(), pose, plan.statistics.ray_operations));
   };
 
@@ -52,7 +53,7 @@ std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
     best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
   }
   std::vector<VoxelIndex> way =
-      GridPaths(survey.reachable).to(situation().map().frame().cell_of(best->view.pose.translation()));
+      GridPaths(reachable).to(situation().map().frame().cell_of(best->view.pose.translation()));
   return ChosenView{std::move(*best), std::move(way)};
 }
 

@@ -48,7 +48,10 @@ class ViewpointSearch {
     if (!can_be_seen(unknown)) {
       return std::nullopt;
     }
-    for (const VoxelIndex& cell : reachable_.cells()) {
+    if (places_.empty()) {
+      places_ = reachable_.cells();
+    }
+    for (const VoxelIndex& cell : places_) {
       if (pairs == 0) {
         return std::nullopt;
       }
@@ -120,6 +123,7 @@ class ViewpointSearch {
   const ReachableSpace& reachable_;
   const TriedViews& tried_;
   detail::SightMemory& memory_;
+  std::vector<VoxelIndex> places_;  // all reachable cells, listed when they are first needed
   std::uint64_t operations_ = 0;
 };
 
@@ -172,26 +176,28 @@ FrontierSurveyor::FrontierSurveyor(FrontierSurveyor&&) noexcept = default;
 FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&) noexcept = default;
 FrontierSurveyor::~FrontierSurveyor() = default;
 
-FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried) {
-  return survey(map, current, tried, frontier_cells(map));
-}
-
 FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                         std::vector<VoxelIndex> frontier) {
-  admitted_.follow(map, *platform_);
-  return survey(map, ReachableSpace(map, *platform_, current, admitted_), tried, std::move(frontier));
+  reachable_.follow(map, *platform_, current);
+  return find_targets(map, tried, std::move(frontier));
 }
 
-FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,
-                                        std::vector<VoxelIndex> frontier) {
-  FrontierSurvey survey{.reachable = std::move(reachable)};
+FrontierSurvey FrontierSurveyor::survey_from(const std::vector<VoxelIndex>& places, const OccupancyMap& map,
+                                             const TriedViews& tried, std::vector<VoxelIndex> frontier) {
+  reachable_ = ReachableSpace(map.frame(), places);
+  return find_targets(map, tried, std::move(frontier));
+}
+
+FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const TriedViews& tried,
+                                              std::vector<VoxelIndex> frontier) {
+  memory_->follow(map, reachable_, furthest_m(map, sensor_), options_.sight_directions);
+  FrontierSurvey survey;
   survey.frontier_cells = frontier.size();
-  if (frontier.empty() || !survey.reachable.start()) {
+  if (frontier.empty() || !reachable_.start()) {
     survey.leftover.unreachable = frontier.size();
     return survey;
   }
-  memory_->follow(map, survey.reachable, furthest_m(map, sensor_), options_.sight_directions);
-  ViewpointSearch search(map.frame(), *platform_, sensor_, survey.reachable, tried, *memory_);
+  ViewpointSearch search(map.frame(), *platform_, sensor_, reachable_, tried, *memory_);
   const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
     for (const VoxelIndex& step : kFaceNeighbours) {
       const VoxelIndex unknown = cell + step;
@@ -220,14 +226,14 @@ FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, ReachableSpace 
     survey.targets = surfaces_first(map, std::move(survey.targets));
   }
   survey.ray_operations = search.operations();
-  count_hidden(map, *platform_, survey.reachable, tried, hidden, survey.leftover);
+  count_hidden(map, *platform_, reachable_, tried, hidden, survey.leftover);
   return survey;
 }
 
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                                 const Pose& current, const FrontierSurveyOptions& options, const TriedViews& tried) {
   const std::shared_ptr<const Platform> borrowed(std::shared_ptr<void>(), &platform);
-  return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried);
+  return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried, frontier_cells(map));
 }
 
 // Starts at the target, because most blocked lines are blocked near it.

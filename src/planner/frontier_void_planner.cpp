@@ -139,17 +139,14 @@ void FrontierVoidPlanner::extract() {
 // Algorithm 1, over the reachable cells.
 void FrontierVoidPlanner::accumulate(PlanStatistics& statistics) {
   const OccupancyMap& map = situation().map();
-  const FrontierSurvey& survey = situation().survey();
   const std::vector<UtilityVector> vectors =
       utility_vectors(search_.voids, search_.frontier_voids, map.frame(), options_.most_vectors);
   const AccumulatedUtility utility = accumulate_utility(
-      map, survey.reachable, vectors, situation().sensor().min_range_m, situation().sensor().max_range_m);
+      map, situation().reachable(), vectors, situation().sensor().min_range_m, situation().sensor().max_range_m);
   statistics.ray_operations += utility.operations;
-  for (std::size_t i = 0; i < utility.cells.size(); ++i) {
-    if (utility.cells[i] > 0) {
-      search_.places.push_back(survey.reachable.cells()[i]);
-      search_.utility.push_back(utility.cells[i]);
-    }
+  for (const auto& [cell, value] : utility.cells) {
+    search_.places.push_back(cell);
+    search_.utility.push_back(value);
   }
 }
 

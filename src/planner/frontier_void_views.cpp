@@ -167,7 +167,7 @@ std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) co
                  [](const FrontierTarget* target) { return target->viewpoint; });
   std::vector<const FrontierTarget*> near;
   for (const VoxelIndex& viewpoint :
-       GridPaths(survey.reachable).nearest_within(viewpoints, kNearM, map.resolution_m())) {
+       GridPaths(situation().reachable()).nearest_within(viewpoints, kNearM, map.resolution_m())) {
     near.push_back(*std::find_if(targets.begin(), targets.end(),
                                  [&](const FrontierTarget* target) { return target->viewpoint == viewpoint; }));
   }

@@ -95,7 +95,7 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   const FrontierSurvey& survey = situation().survey();
   const HarmonicStrategy& strategy = options_.strategy;
   std::uint64_t& operations = plan.statistics.ray_operations;
-  std::vector<VoxelIndex> way{*survey.reachable.start()};
+  std::vector<VoxelIndex> way{*situation().reachable().start()};
   if (std::optional<TargetView> look = look_again(operations)) {
     return ChosenView{std::move(*look), std::move(way)};
   }
@@ -103,12 +103,12 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   if (!wanted) {  // otherwise the sensor looks from where it is
     const std::vector<VoxelIndex> drawing = sinks();
     if (strategy.shortest_way && drawing.size() == 1) {  // descent would end there from everywhere
-      way = GridPaths(survey.reachable).to(drawing.front());
+      way = GridPaths(situation().reachable()).to(drawing.front());
     } else {
       solve(drawing, plan.statistics);
       way = way_down();
       if (strategy.shortest_way) {
-        way = GridPaths(survey.reachable).to(way.back());
+        way = GridPaths(situation().reachable()).to(way.back());
       }
     }
     wanted = strategy.look_early ? first_look(way, operations) : target_seen_from(survey, way.back());
@@ -123,7 +123,7 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
       return chosen;
     }
   }
-  chosen.way = GridPaths(survey.reachable).to(wanted->viewpoint);
+  chosen.way = GridPaths(situation().reachable()).to(wanted->viewpoint);
   return chosen;
 }
 

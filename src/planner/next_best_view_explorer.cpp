@@ -20,17 +20,18 @@ NextBestViewExplorer::NextBestViewExplorer(const PlannerSetup& setup, const Next
 std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   const OccupancyMap& map = situation().map();
   const FrontierSurvey& survey = situation().survey();
+  const ReachableSpace& reachable = situation().reachable();
   const Platform& platform = situation().platform();
   Dice dice(situation().setup().seed, map.revision());
   std::vector<Pose> drawn;
   for (std::size_t i = 0; i < options_.hypotheses; ++i) {
     if (i % 2 == 0) {
       const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
-      const Eigen::Vector3d from = survey.reachable.position_in(target.viewpoint);
+      const Eigen::Vector3d from = reachable.position_in(target.viewpoint);
       drawn.push_back(platform.facing(from, map.frame().centre_of(target.unknown) - from));
     } else {
-      const VoxelIndex& cell = survey.reachable.cells()[dice.below(survey.reachable.size())];
-      drawn.push_back(platform.facing(survey.reachable.position_in(cell), dice.direction()));
+      const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
+      drawn.push_back(platform.facing(reachable.position_in(cell), dice.direction()));
     }
   }
   UtilityFactors factors;
@@ -59,7 +60,7 @@ std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   if (best.unknown.empty()) {
     best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
   }
-  std::vector<VoxelIndex> way = GridPaths(survey.reachable).to(map.frame().cell_of(best.view.pose.translation()));
+  std::vector<VoxelIndex> way = GridPaths(reachable).to(map.frame().cell_of(best.view.pose.translation()));
   return ChosenView{std::move(best), std::move(way)};
 }
 

@@ -51,18 +51,19 @@ void SightMemory::follow_clear(const OccupancyMap& map) {
 }
 
 void SightMemory::follow_places(const ReachableSpace& reachable) {
-  for (const VoxelIndex& brick : reached_) {
-    if (!reachable.reaches(brick)) {
-      set(brick, {}, &Block::reachable);
+  if (reachable.started_anew()) {
+    for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
+      for (Block& block : blocks_.values(number)) {
+        block.changed = std::exchange(block.reachable, 0) != 0 ? survey_ : block.changed;
+      }
     }
+    places_.clear();
   }
-  reached_.clear();
-  places_.clear();
-  reachable.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) {
+  for (const VoxelIndex& brick : reachable.changed()) {
+    const BrickPlane& cells = *reachable.find(brick);
     set(brick, cells, &Block::reachable);
-    reached_.push_back(brick);
-    places_.insert(brick);
-  });
+    cells == BrickPlane{} ? places_.erase(brick) : places_.insert(brick);
+  }
 }
 
 // Sets the eight blocks of one brick of the map.

@@ -33,7 +33,8 @@ namespace vantage::detail {
 /// bounding box.
 class SightMemory {
  public:
-  /// Updates the clear and the reachable cells. Searches use `direction_count` rays of length `furthest_m`, metres;
+  /// Updates the clear and the reachable cells. `reachable` must be the same object in every call, and must have
+  /// followed `map` once since the last call. Searches use `direction_count` rays of length `furthest_m`, metres;
   /// if one of these or the cell size changes, all answers are dropped.
   void follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
               std::size_t direction_count);
@@ -86,10 +87,9 @@ class SightMemory {
   std::optional<SightTree> tree_;
   KnownMap map_;  // of the last follow
   OccupancyMap::Revision followed_ = 0;
-  BrickGrid<Block> blocks_;          // indexed by block address as if it were a cell
-  std::vector<VoxelIndex> reached_;  // bricks of the map with reachable cells in the last survey
-  BrickTree places_;                 // bricks with reachable cells
-  VoxelIndex last_brick_;            // brick of blocks of the last is_clear
+  BrickGrid<Block> blocks_;  // indexed by block address as if it were a cell
+  BrickTree places_;         // bricks with reachable cells
+  VoxelIndex last_brick_;    // brick of blocks of the last is_clear
   std::uint32_t last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;

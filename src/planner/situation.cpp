@@ -90,7 +90,7 @@ Plan Situation::open_plan() const {
   plan.leftover = survey_.leftover;
   plan.statistics.frontier_cells = survey_.frontier_cells;
   plan.statistics.observable_cells = survey_.targets.size();
-  plan.statistics.reachable_cells = survey_.reachable.size();
+  plan.statistics.reachable_cells = reachable().size();
   plan.statistics.ray_operations = survey_.ray_operations;
   plan.statistics.survey_ms = sync_ms_;
   return plan;
@@ -106,7 +106,7 @@ std::optional<Plan> Situation::end() {
     return plan;
   }
   if (survey_.frontier_cells > 0) {
-    if (!survey_.reachable.start()) {
+    if (!reachable().start()) {
       plan.reason =
           "the platform does not admit the place where it is, and there is no free place beside it: move it into "
           "known "
@@ -146,7 +146,11 @@ std::optional<Plan> Situation::end() {
 bool Situation::hardly_moves() const {
   const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
   const double little_m = std::max(body_m, sensor().min_range_m) + map_->resolution_m();
-  return std::all_of(reachable().cells().begin(), reachable().cells().end(), [&](const VoxelIndex& cell) {
+  if (static_cast<double>(reachable().size()) > std::pow(2.0 * little_m / map_->resolution_m() + 2.0, 3)) {
+    return false;
+  }
+  const std::vector<VoxelIndex> cells = reachable().cells();
+  return std::all_of(cells.begin(), cells.end(), [&](const VoxelIndex& cell) {
     return (reachable().position_in(cell) - current_.translation()).norm() <= little_m;
   });
 }
@@ -184,7 +188,7 @@ std::optional<Plan> Situation::turn_on_the_spot() const {
 // A viewpoint of a frontier cell in admitted cells that are not connected to the current place.
 std::optional<VoxelIndex> Situation::place_cut_off() const {
   std::vector<VoxelIndex> beyond;
-  surveyor_.admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
+  reachable().admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
       for_each_offset(admitted[word], word, [&](std::size_t offset) {
         const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
@@ -199,8 +203,7 @@ std::optional<VoxelIndex> Situation::place_cut_off() const {
     return std::nullopt;
   }
   FrontierSurveyor surveyor(setup_.platform, setup_.sensor, options_);
-  const FrontierSurvey survey =
-      surveyor.survey(*map_, ReachableSpace(map_->frame(), beyond), tried_, frontier_->cells());
+  const FrontierSurvey survey = surveyor.survey_from(beyond, *map_, tried_, frontier_->cells());
   return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
 }
 

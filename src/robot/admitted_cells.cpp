@@ -53,11 +53,13 @@ class StaleBoxes {
 }  // namespace
 
 void AdmittedCells::follow(const OccupancyMap& map, const Platform& platform) {
-  if (!map_.is(map) || platform_ != &platform) {
+  changed_.clear();
+  started_anew_ = !map_.is(map) || platform_ != &platform;
+  if (started_anew_) {
     *this = AdmittedCells();
-    map_ = KnownMap(map);
-    platform_ = &platform;
   }
+  map_ = KnownMap();  // starts anew if the platform throws
+
   // If the body is larger than a tile, or its size is unknown, all cells are tested again.
   const std::int32_t reach = map.frame().cells_up_to(platform.reach_m()) / Brick::kSide + 1;
   const bool from_anywhere = reach > kTileBricks;
@@ -79,6 +81,8 @@ void AdmittedCells::follow(const OccupancyMap& map, const Platform& platform) {
   for (const VoxelBox& bricks : stale.boxes()) {
     ask(map, platform, bricks);
   }
+  map_ = KnownMap(map);
+  platform_ = &platform;
   followed_ = map.revision();
 }
 
@@ -100,7 +104,9 @@ void AdmittedCells::ask(const OccupancyMap& map, const Platform& platform, const
         }
       }
     }
-    (void)cells_.assign(address, plane);
+    if (cells_.assign(address, plane)) {
+      changed_.push_back(address);
+    }
   });
 }
 

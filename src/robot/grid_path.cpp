@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <queue>
+#include <vantage/map/brick_grid.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 namespace vantage {
@@ -16,8 +17,45 @@ std::size_t axes_of(const VoxelIndex& step) {
   return static_cast<std::size_t>((step.x != 0) + (step.y != 0) + (step.z != 0));
 }
 
-// The numbers of a cell and its 26 neighbours, x varies fastest.
-using Around = std::array<std::uint32_t, 27>;
+constexpr std::uint32_t kOutside = 0xFFFFFFFFU;  // not reachable
+constexpr std::uint32_t kUnmet = kOutside - 1;   // reachable, not met by the search
+
+// Numbers the cells in the order in which a search meets them. The cost follows the bricks that it enters.
+class MetCells {
+ public:
+  explicit MetCells(const ReachableSpace& space) : space_(space) {}
+
+  // The number of a cell, to write to.
+  std::uint32_t& operator()(const VoxelIndex& cell) {
+    const VoxelIndex brick = Brick::of_cell(cell);
+    if (values_ == nullptr || brick != brick_) {
+      BrickDirectory::Number number = numbers_.number_of(brick);
+      if (number == BrickDirectory::kNone) {
+        number = numbers_.store(brick);
+        enter(brick, numbers_.values(number));
+      }
+      brick_ = brick;
+      values_ = &numbers_.values(number);
+    }
+    return (*values_)[Brick::offset_of(cell)];
+  }
+
+ private:
+  void enter(const VoxelIndex& brick, BrickGrid<std::uint32_t>::Values& values) const {
+    const BrickPlane* const reached = space_.find(brick);
+    for (std::size_t word = 0; word < Brick::kWords && reached != nullptr; ++word) {
+      for_each_offset((*reached)[word], word, [&](std::size_t offset) { values[offset] = kUnmet; });
+    }
+  }
+
+  const ReachableSpace& space_;
+  BrickGrid<std::uint32_t> numbers_{kOutside};
+  VoxelIndex brick_;
+  BrickGrid<std::uint32_t>::Values* values_ = nullptr;
+};
+
+// Whether each of a cell and its 26 neighbours is reachable, x varies fastest.
+using Around = std::array<bool, 27>;
 
 constexpr std::size_t place_of(const VoxelIndex& step) {
   return static_cast<std::size_t>(step.x + 1) + 3 * static_cast<std::size_t>(step.y + 1) +
@@ -27,7 +65,7 @@ constexpr std::size_t place_of(const VoxelIndex& step) {
 bool cuts_no_corner(const Around& around, const VoxelIndex& step) {
   for (int part = 1; part < 8; ++part) {
     const VoxelIndex beside{(part & 1) != 0 ? step.x : 0, (part & 2) != 0 ? step.y : 0, (part & 4) != 0 ? step.z : 0};
-    if (around[place_of(beside)] == ReachableSpace::kOutside) {
+    if (!around[place_of(beside)]) {
       return false;
     }
   }
@@ -43,53 +81,72 @@ std::uint32_t bound(const VoxelIndex& from, const VoxelIndex& to) {
   return kStepCost[3] * d[0] + kStepCost[2] * (d[1] - d[0]) + kStepCost[1] * (d[2] - d[1]);
 }
 
-std::vector<VoxelIndex> way_back(const ReachableSpace& space, const std::vector<std::uint32_t>& before,
-                                 std::uint32_t from) {
-  std::vector<VoxelIndex> way;
-  for (std::uint32_t at = from; at != ReachableSpace::kOutside; at = before[at]) {
-    way.push_back(space.cells()[at]);
-  }
-  std::reverse(way.begin(), way.end());
-  return way;
-}
-
-// Best-first search from the start of the space until `is_goal(number, cost)`. `heuristic` must not overestimate.
+// Best-first search from the start of the space until `is_goal(cell, cost)`. `heuristic` must not overestimate.
 template <class IsGoal, class Heuristic>
 std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, Heuristic&& heuristic) {
-  std::vector<std::uint32_t> cost(space.size(), 0xFFFFFFFFU);
-  std::vector<std::uint32_t> before(space.size(), ReachableSpace::kOutside);
-  using Entry = std::pair<std::uint32_t, std::uint32_t>;  // cost + heuristic, cell number
+  struct Met {
+    VoxelIndex cell;
+    std::uint32_t cost;
+    std::uint32_t before;  // number of the cell before it
+  };
+  std::vector<Met> met;                                   // by number
+  using Entry = std::pair<std::uint32_t, std::uint32_t>;  // cost + heuristic, number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  auto number_of = space.numbers();
+  MetCells number_of(space);
+  if (!space.start()) {
+    return {};
+  }
+  number_of(*space.start()) = 0;
+  met.push_back({*space.start(), 0, kOutside});
+  open.emplace(heuristic(*space.start()), 0U);
+  std::array<std::uint32_t*, 27> numbers{};
   Around around{};
-  cost[0] = 0;
-  open.emplace(heuristic(space.cells()[0]), 0U);
   while (!open.empty()) {
     const auto [estimate, number] = open.top();
     open.pop();
-    const VoxelIndex cell = space.cells()[number];
-    if (estimate != cost[number] + heuristic(cell)) {
+    const auto [cell, cost, before] = met[number];
+    if (estimate != cost + heuristic(cell)) {
       continue;
     }
-    if (is_goal(number, cost[number])) {
-      return way_back(space, before, number);
-    }
-    around[place_of({0, 0, 0})] = number;
-    for (const VoxelIndex& step : kAllNeighbours) {
-      around[place_of(step)] = number_of(cell + step);
-    }
-    for (const VoxelIndex& step : kAllNeighbours) {
-      const std::uint32_t next = around[place_of(step)];
-      const std::uint32_t reached = cost[number] + kStepCost[axes_of(step)];
-      if (next != ReachableSpace::kOutside && reached < cost[next] &&
-          (axes_of(step) == 1 || cuts_no_corner(around, step))) {
-        cost[next] = reached;
-        before[next] = number;
-        open.emplace(reached + heuristic(cell + step), next);
+    if (is_goal(cell, cost)) {
+      std::vector<VoxelIndex> way;
+      for (std::uint32_t at = number; at != kOutside; at = met[at].before) {
+        way.push_back(met[at].cell);
       }
+      std::reverse(way.begin(), way.end());
+      return way;
+    }
+    for (const VoxelIndex& step : kAllNeighbours) {
+      numbers[place_of(step)] = &number_of(cell + step);
+      around[place_of(step)] = *numbers[place_of(step)] != kOutside;
+    }
+    for (const VoxelIndex& step : kAllNeighbours) {
+      const std::size_t place = place_of(step);
+      const std::uint32_t reached = cost + kStepCost[axes_of(step)];
+      if (!around[place] || (axes_of(step) > 1 && !cuts_no_corner(around, step))) {
+        continue;
+      }
+      std::uint32_t& next = *numbers[place];
+      if (next == kUnmet) {
+        next = static_cast<std::uint32_t>(met.size());
+        met.push_back({cell + step, reached, number});
+      } else if (reached < met[next].cost) {
+        met[next].cost = reached;
+        met[next].before = number;
+      } else {
+        continue;
+      }
+      open.emplace(reached + heuristic(cell + step), next);
     }
   }
   return {};
+}
+
+// The goals as a set.
+BrickSet marked(std::span<const VoxelIndex> goals) {
+  BrickSet set;
+  std::for_each(goals.begin(), goals.end(), [&](const VoxelIndex& goal) { set.insert(goal); });
+  return set;
 }
 
 // Removes corners: from each kept pose, a straight admitted motion leads to a corner far ahead, found by doubling and
@@ -122,45 +179,28 @@ std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platform, co
 
 }  // namespace
 
-std::vector<bool> GridPaths::marked(std::span<const VoxelIndex> goals) const {
-  std::vector<bool> is_goal(space_.size(), false);
-  for (const VoxelIndex& goal : goals) {
-    const std::uint32_t number = space_.number_of(goal);
-    if (number != ReachableSpace::kOutside) {
-      is_goal[number] = true;
-    }
-  }
-  return is_goal;
-}
-
 std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals) const {
-  if (space_.size() == 0) {
-    return {};
-  }
-  const std::vector<bool> is_goal = marked(goals);
+  const BrickSet wanted = marked(goals);
   return search(
-      space_, [&](std::uint32_t number, std::uint32_t) { return is_goal[number]; },
+      space_, [&](const VoxelIndex& cell, std::uint32_t) { return wanted.contains(cell); },
       [](const VoxelIndex&) { return 0U; });
 }
 
 std::vector<VoxelIndex> GridPaths::nearest_within(std::span<const VoxelIndex> goals, double detour_m,
                                                   double cell_m) const {
   std::vector<VoxelIndex> near;
-  if (space_.size() == 0) {
-    return near;
-  }
-  const std::vector<bool> is_goal = marked(goals);
+  const BrickSet wanted = marked(goals);
   const double detour = std::min(1000.0 * detour_m / cell_m, 4e9);
   double furthest = 5e9;
   (void)search(
       space_,
-      [&](std::uint32_t number, std::uint32_t cost) {
+      [&](const VoxelIndex& cell, std::uint32_t cost) {
         if (cost > furthest) {
           return true;
         }
-        if (is_goal[number]) {
+        if (wanted.contains(cell)) {
           furthest = near.empty() ? cost + detour : furthest;
-          near.push_back(space_.cells()[number]);
+          near.push_back(cell);
         }
         return false;
       },
@@ -169,12 +209,11 @@ std::vector<VoxelIndex> GridPaths::nearest_within(std::span<const VoxelIndex> go
 }
 
 std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) const {
-  const std::uint32_t wanted = space_.number_of(goal);
-  if (wanted == ReachableSpace::kOutside) {
+  if (!space_.contains(goal)) {
     return {};
   }
   return search(
-      space_, [&](std::uint32_t number, std::uint32_t) { return number == wanted; },
+      space_, [&](const VoxelIndex& cell, std::uint32_t) { return cell == goal; },
       [&](const VoxelIndex& cell) { return bound(cell, goal); });
 }
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <utility>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/robot/reachable_space.hpp>
+
+#include "map/brick_plane.hpp"
+#include "robot/connected_cells.hpp"
 
 namespace vantage {
 namespace {
@@ -37,111 +42,114 @@ std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const Platfo
   return std::nullopt;
 }
 
-// For each offset in a brick and each face: the offset of the neighbour, and whether it lies in the next brick.
-struct FaceStep {
-  std::uint16_t offset;
-  bool leaves;
-};
-using FaceSteps = std::array<std::array<FaceStep, kFaceNeighbours.size()>, Brick::kCells>;
-
-consteval FaceSteps face_steps() {
-  FaceSteps steps{};
-  for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
-    for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
-      const VoxelIndex cell = Brick::cell_at(offset) + kFaceNeighbours[face];
-      steps[offset][face] = {static_cast<std::uint16_t>(Brick::offset_of(cell)),
-                             Brick::of_cell(cell) != VoxelIndex{0, 0, 0}};
-    }
-  }
-  return steps;
-}
-constexpr FaceSteps kFaceSteps = face_steps();
-
 }  // namespace
 
+ReachableSpace::ReachableSpace() = default;
+ReachableSpace::ReachableSpace(ReachableSpace&&) noexcept = default;
+ReachableSpace& ReachableSpace::operator=(ReachableSpace&&) noexcept = default;
+ReachableSpace::~ReachableSpace() = default;
+
 ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current) {
-  AdmittedCells admitted;
-  admitted.follow(map, platform);
-  *this = ReachableSpace(map, platform, current, admitted);
+  follow(map, platform, current);
 }
 
-ReachableSpace::ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current,
-                               const AdmittedCells& admitted)
-    : frame_(map.frame()) {
-  if (map.frame().addressable(current.translation())) {
-    start_ = nearest_admitted(map, platform, current, admitted);
+ReachableSpace::ReachableSpace(const VoxelFrame& frame, const std::vector<VoxelIndex>& cells)
+    : frame_(frame), start_(cells.front()) {
+  for (const VoxelIndex& cell : cells) {
+    cells_.insert(cell);
+    changed_.push_back(Brick::of_cell(cell));
   }
-  if (start_) {
-    flood(admitted);
-  } else if (platform.admits(map, current)) {
-    stands_at_m_ = current.translation();
-    take(map.frame().cell_of(current.translation()));
+  count();
+}
+
+void ReachableSpace::follow(const OccupancyMap& map, const Platform& platform, const Pose& current) {
+  // The platform is asked first: if it throws, the next call still knows what has changed.
+  admitted_.follow(map, platform);
+  if (admitted_.started_anew() || connected_ == nullptr) {
+    connected_ = std::make_unique<detail::ConnectedCells>();
+    is_another_ = true;
+  }
+  connected_->update(admitted_.cells(), admitted_.changed());
+  const bool addressable = map.frame().addressable(current.translation());
+  const auto start = addressable ? nearest_admitted(map, platform, current, admitted_) : std::nullopt;
+  const bool stands = !start && platform.admits(map, current);
+
+  changed_.clear();
+  started_anew_ = std::exchange(is_another_, false);
+  if (started_anew_) {
+    cells_ = BrickSet();
+    bricks_.clear();
+  } else if (stands_at_m_) {
+    assign(Brick::of_cell(*start_), BrickPlane{});
+  }
+  frame_ = map.frame();
+  start_ = stands ? frame_.cell_of(current.translation()) : start;
+  stands_at_m_ = stands ? std::optional<Eigen::Vector3d>(current.translation()) : std::nullopt;
+  connected_->connect(start, [&](const VoxelIndex& brick, const BrickPlane& cells) { assign(brick, cells); });
+  if (stands) {
+    cells_.insert(*start_);
+    changed_.push_back(Brick::of_cell(*start_));
+  }
+  count();
+}
+
+void ReachableSpace::assign(const VoxelIndex& brick, const BrickPlane& cells) {
+  if (cells_.assign(brick, cells)) {
+    changed_.push_back(brick);
   }
 }
 
-// Breadth-first search over the faces of cells; neighbours in the order of kFaceNeighbours.
-// NOLINTNEXTLINE(readability-function-size): one loop and its table
-void ReachableSpace::flood(const AdmittedCells& admitted) {
-  constexpr std::uint32_t kUnmet = 0xFFFFFFFFU;  // neighbour brick that was not looked up yet
-  constexpr std::uint32_t kNone = kUnmet - 1;    // neighbour brick without an admitted cell
-  struct Flooded {
-    BrickPlane left;  // admitted, not yet reached
-    std::array<std::uint32_t, kFaceNeighbours.size()> beside{};
-  };
-  std::vector<Flooded> bricks;  // by number
-  const auto meet = [&](const VoxelIndex& address) {
-    const BrickPlane* cells = admitted.cells().find(address);
-    if (cells == nullptr || *cells == BrickPlane{}) {
-      return kNone;
-    }
-    const std::uint32_t number = number_.store(address);
-    if (number == bricks.size()) {
-      bricks.push_back({*cells, {}});
-      bricks.back().beside.fill(kUnmet);
-    }
-    return number;
-  };
-  std::vector<std::uint32_t> places;  // of the reached cells: 512 times the number of the brick plus the offset
-  const auto reach = [&](std::uint32_t brick, std::size_t offset) {
-    number_.values(brick)[offset] = static_cast<std::uint32_t>(cells_.size());
-    cells_.push_back(Brick::first_cell(number_.address(brick)) + Brick::cell_at(offset));
-    places.push_back(static_cast<std::uint32_t>(brick * Brick::kCells + offset));
-  };
-  const auto reach_if_left = [&](std::uint32_t brick, std::size_t offset) {
-    std::uint64_t& word = bricks[brick].left[offset >> 6U];
-    const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
-    if ((word & bit) != 0) {
-      word &= ~bit;
-      reach(brick, offset);
-    }
-  };
-  reach_if_left(meet(Brick::of_cell(*start_)), Brick::offset_of(*start_));
-  for (std::size_t next = 0; next < places.size(); ++next) {
-    const auto brick = static_cast<std::uint32_t>(places[next] / Brick::kCells);
-    const std::size_t offset = places[next] % Brick::kCells;
-    for (std::size_t face = 0; face < kFaceNeighbours.size(); ++face) {
-      const FaceStep step = kFaceSteps[offset][face];
-      std::uint32_t other = brick;
-      if (step.leaves) {
-        other = bricks[brick].beside[face];
-        if (other == kUnmet) {
-          other = meet(number_.address(brick) + kFaceNeighbours[face]);
-          bricks[brick].beside[face] = other;
-        }
-      }
-      if (other != kNone) {
-        reach_if_left(other, step.offset);
-      }
+// Merges the changed bricks into the list of bricks.
+void ReachableSpace::count() {
+  std::sort(changed_.begin(), changed_.end(), RasterOrder{});
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  if (changed_.empty() && !started_anew_) {
+    return;
+  }
+  std::vector<Stored> merged;
+  merged.reserve(bricks_.size() + changed_.size());
+  auto old = bricks_.cbegin();
+  const auto keep_up_to = [&](auto end) { merged.insert(merged.end(), old, end); };
+  for (const VoxelIndex& address : changed_) {
+    const auto place = std::find_if(old, bricks_.cend(),
+                                    [&](const Stored& brick) { return !RasterOrder{}(brick.address, address); });
+    keep_up_to(place);
+    old = place != bricks_.cend() && place->address == address ? place + 1 : place;
+    if (const std::size_t cells = detail::size_of(*cells_.find(address)); cells > 0) {
+      merged.push_back({address, cells, 0});
     }
   }
-  planes_.reserve(bricks.size());
-  for (std::size_t number = 0; number < bricks.size(); ++number) {
-    BrickPlane reached = *admitted.cells().find(number_.address(number));
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      reached[word] &= ~bricks[number].left[word];
-    }
-    planes_.push_back(reached);
+  keep_up_to(bricks_.cend());
+  bricks_ = std::move(merged);
+  size_ = 0;
+  for (Stored& brick : bricks_) {
+    brick.first = std::exchange(size_, size_ + brick.count);
   }
+}
+
+std::vector<VoxelIndex> ReachableSpace::cells() const {
+  std::vector<VoxelIndex> all;
+  all.reserve(size_);
+  for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) { detail::append(cells, brick, all); });
+  return all;
+}
+
+VoxelIndex ReachableSpace::cell(std::size_t position) const {
+  const auto after = std::upper_bound(bricks_.begin(), bricks_.end(), position,
+                                      [](std::size_t wanted, const Stored& brick) { return wanted < brick.first; });
+  const Stored& brick = *(after - 1);
+  const BrickPlane& cells = *cells_.find(brick.address);
+  std::size_t left = position - brick.first;
+  std::size_t word = 0;
+  while (left >= static_cast<std::size_t>(std::popcount(cells[word]))) {
+    left -= static_cast<std::size_t>(std::popcount(cells[word++]));
+  }
+  std::uint64_t bits = cells[word];
+  for (; left > 0; --left) {
+    bits &= bits - 1;
+  }
+  return Brick::first_cell(brick.address) +
+         Brick::cell_at(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 bool ReachableSpace::any_in(const VoxelBox& cells) const {
@@ -160,41 +168,21 @@ bool ReachableSpace::any_in(const VoxelBox& cells) const {
   const VoxelBox bricks{Brick::of_cell(cells.lo),
                         Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   const VoxelIndex extent = bricks.extent();
-  if (1.0 * extent.x * extent.y * extent.z > static_cast<double>(planes_.size())) {
-    for (std::size_t number = 0; number < planes_.size(); ++number) {
-      if (any_of(number_.address(number), planes_[number])) {
-        return true;
-      }
-    }
-    return false;
+  if (1.0 * extent.x * extent.y * extent.z > static_cast<double>(bricks_.size())) {
+    return std::any_of(bricks_.begin(), bricks_.end(),
+                       [&](const Stored& brick) { return any_of(brick.address, *cells_.find(brick.address)); });
   }
   for (std::int32_t z = bricks.lo.z; z < bricks.hi.z; ++z) {
     for (std::int32_t y = bricks.lo.y; y < bricks.hi.y; ++y) {
       for (std::int32_t x = bricks.lo.x; x < bricks.hi.x; ++x) {
-        const BrickDirectory::Number number = number_.number_of({x, y, z});
-        if (number != BrickDirectory::kNone && any_of({x, y, z}, planes_[number])) {
+        const BrickPlane* reached = cells_.find({x, y, z});
+        if (reached != nullptr && any_of({x, y, z}, *reached)) {
           return true;
         }
       }
     }
   }
   return false;
-}
-
-ReachableSpace::ReachableSpace(const VoxelFrame& frame, const std::vector<VoxelIndex>& cells) : frame_(frame) {
-  std::for_each(cells.begin(), cells.end(), [&](const VoxelIndex& cell) { take(cell); });
-}
-
-void ReachableSpace::take(const VoxelIndex& cell) {
-  const std::uint32_t brick = number_.store(Brick::of_cell(cell));
-  const std::size_t offset = Brick::offset_of(cell);
-  if (brick == planes_.size()) {
-    planes_.emplace_back();
-  }
-  planes_[brick][offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
-  number_.values(brick)[offset] = static_cast<std::uint32_t>(cells_.size());
-  start_ = cells_.empty() ? cell : start_;
-  cells_.push_back(cell);
 }
 
 }  // namespace vantage

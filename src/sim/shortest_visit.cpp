@@ -49,10 +49,10 @@ class Buckets {
 
 // Calls `use(number, length)` for every reachable cell that one wide step leads to.
 template <class Use>
-void for_each_step(const ReachableSpace& space, std::size_t cell, const Use& use) {
+void for_each_step(const NumberedCells& space, std::size_t cell, const Use& use) {
   for (const WideStep& step : wide_steps()) {
     const std::uint32_t to = space.number_of(space.cells()[cell] + step.by);
-    if (to != ReachableSpace::kOutside) {
+    if (to != NumberedCells::kOutside) {
       use(to, step.length);
     }
   }
@@ -61,7 +61,7 @@ void for_each_step(const ReachableSpace& space, std::size_t cell, const Use& use
 // Dijkstra over pairs of a cell and the sets visited so far: state = visited * cells + cell.
 class VisitSearch {
  public:
-  VisitSearch(const ReachableSpace& space, std::span<const std::uint16_t> member, std::size_t sets)
+  VisitSearch(const NumberedCells& space, std::span<const std::uint16_t> member, std::size_t sets)
       : space_(space), member_(member), all_((std::size_t{1} << sets) - 1), cost_(space.size() << sets, kNever) {}
 
   Visit run() {
@@ -117,7 +117,7 @@ class VisitSearch {
     return found;
   }
 
-  const ReachableSpace& space_;
+  const NumberedCells& space_;
   std::span<const std::uint16_t> member_;
   std::size_t all_;
   std::vector<float> cost_;
@@ -139,7 +139,7 @@ const std::vector<WideStep>& wide_steps() {
   return all_steps;
 }
 
-std::vector<float> distances_from(const ReachableSpace& space, std::span<const std::uint32_t> from) {
+std::vector<float> distances_from(const NumberedCells& space, std::span<const std::uint32_t> from) {
   std::vector<float> distance(space.size(), kNever);
   Buckets queue;
   for (const std::uint32_t cell : from) {
@@ -160,7 +160,7 @@ std::vector<float> distances_from(const ReachableSpace& space, std::span<const s
   return distance;
 }
 
-Visit shortest_visit(const ReachableSpace& space, std::span<const std::uint16_t> member, std::size_t sets) {
+Visit shortest_visit(const NumberedCells& space, std::span<const std::uint16_t> member, std::size_t sets) {
   return VisitSearch(space, member, sets).run();
 }
 

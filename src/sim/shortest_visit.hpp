@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vantage/robot/reachable_space.hpp>
 #include <vector>
+
+#include "sim/numbered_cells.hpp"
 
 namespace vantage {
 
@@ -25,12 +26,12 @@ struct WideStep {
 [[nodiscard]] const std::vector<WideStep>& wide_steps();
 
 /// Distance in cells from each cell of the space to the nearest of `from`, over wide steps.
-[[nodiscard]] std::vector<float> distances_from(const ReachableSpace& space, std::span<const std::uint32_t> from);
+[[nodiscard]] std::vector<float> distances_from(const NumberedCells& space, std::span<const std::uint32_t> from);
 
 /// The shortest path over wide steps from the start of the space that enters each of `sets` sets of cells, in any
 /// order. Bit i of `member[c]` says whether cell c is in set i. Exact: Dijkstra over cells and visited sets. Empty
 /// if a set cannot be reached. Memory: 4 bytes per cell and per combination of sets (2^sets).
-[[nodiscard]] Visit shortest_visit(const ReachableSpace& space, std::span<const std::uint16_t> member,
+[[nodiscard]] Visit shortest_visit(const NumberedCells& space, std::span<const std::uint16_t> member,
                                    std::size_t sets);
 
 }  // namespace vantage

@@ -24,9 +24,9 @@ class Watchman {
   Watchman(const Truth& truth, const Platform& platform, const RangeSensor& sensor, const Pose& start,
            const WatchmanOptions& options)
       : threads_(static_cast<std::size_t>(options.threads)),
-        space_(truth.map(), platform, start),
+        space_(ReachableSpace(truth.map(), platform, start)),
         sight_(truth.cells(), truth.map().frame(), sensor, platform.can_tilt()) {
-    if (!space_.start()) {
+    if (space_.size() == 0) {
       throw std::invalid_argument("watchman_route: the platform cannot be at the start");
     }
     cells_ = truth.observable(platform, sensor, start, options.threads);
@@ -112,7 +112,7 @@ class Watchman {
   }
 
   std::size_t threads_;
-  ReachableSpace space_;
+  NumberedCells space_;
   Sight sight_;
   std::vector<VoxelIndex> cells_;
   std::vector<std::uint16_t> member_;  // for each place, the witnesses that it sees

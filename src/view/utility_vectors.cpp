@@ -2,7 +2,9 @@
 //
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", Algorithm 1.
 #include <algorithm>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/map/brick_grid.hpp>
 #include <vantage/view/utility_vectors.hpp>
 
 #include "map/option_rule.hpp"
@@ -49,21 +51,30 @@ AccumulatedUtility accumulate_utility(const OccupancyMap& map, const ReachableSp
   const VoxelFrame& frame = map.frame();
   // Rays need not go beyond the known part of the map. The range of a sensor may be infinite.
   const double furthest_m = std::min(max_range_m, frame.box_of(map.bounds()).extent().norm() + frame.size_m);
-  AccumulatedUtility utility{std::vector<std::uint64_t>(reachable.size(), 0)};
+  AccumulatedUtility utility;
+  BrickGrid<std::uint64_t> sums(0);
   for (const UtilityVector& vector : vectors) {
     const Eigen::Vector3d from = frame.centre_of(vector.frontier);
     for (const VoxelIndex& cell : VoxelRay(frame, from, from + furthest_m * vector.direction)) {
       ++utility.operations;
-      const std::uint32_t number = reachable.number_of(cell);
-      if (number == ReachableSpace::kOutside) {
+      if (!reachable.contains(cell)) {
         if (!map.is_clear(cell)) {
           break;
         }
       } else if ((frame.centre_of(cell) - from).squaredNorm() >= min_range_m * min_range_m) {
-        utility.cells[number] += vector.utility;
+        sums[cell] += vector.utility;
       }
     }
   }
+  for (std::size_t number = 0; number < sums.bricks(); ++number) {
+    for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
+      if (const std::uint64_t sum = sums.values(number)[offset]; sum > 0) {
+        utility.cells.emplace_back(Brick::first_cell(sums.address(number)) + Brick::cell_at(offset), sum);
+      }
+    }
+  }
+  std::sort(utility.cells.begin(), utility.cells.end(),
+            [](const auto& a, const auto& b) { return RasterOrder{}(a.first, b.first); });
   return utility;
 }
 

@@ -45,7 +45,6 @@ struct FrontierSurveyOptions {
 /// occupied cell (26 neighbours), as long as there are any: a ray into open space teaches such a sensor nothing,
 /// while a ray along a known surface probably hits more of it.
 struct FrontierSurvey {
-  ReachableSpace reachable;  ///< cells to which the platform can bring the sensor
   /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};
   std::size_t frontier_cells = 0;  ///< number of all frontier cells in the region

@@ -32,24 +32,25 @@ class FrontierSurveyor {
   FrontierSurveyor& operator=(FrontierSurveyor&& other) noexcept;
   ~FrontierSurveyor();
 
-  /// Surveys the map with the sensor at `current` (world_from_sensor). Unknown cells that `tried` has given up are no
-  /// targets.
-  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried);
-  /// As above, with the frontier cells of the map given in raster order (FrontierTracker).
+  /// Surveys the map with the sensor at `current` (world_from_sensor). `frontier`: the frontier cells of the map in
+  /// raster order (FrontierTracker, frontier_cells). Unknown cells that `tried` has given up are no targets.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                       std::vector<VoxelIndex> frontier);
-  /// As above, with the reachable space given. `admitted` is not updated.
-  [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, ReachableSpace reachable, const TriedViews& tried,
-                                      std::vector<VoxelIndex> frontier);
+  /// As above, for a sensor that could be brought to each of `places`, at least one, and nowhere else.
+  [[nodiscard]] FrontierSurvey survey_from(const std::vector<VoxelIndex>& places, const OccupancyMap& map,
+                                           const TriedViews& tried, std::vector<VoxelIndex> frontier);
 
-  /// The cells that the platform admitted in the last surveyed map, reachable or not.
-  [[nodiscard]] const AdmittedCells& admitted() const { return admitted_; }
+  /// The cells to which the platform could bring the sensor in the last survey.
+  [[nodiscard]] const ReachableSpace& reachable() const { return reachable_; }
 
  private:
+  [[nodiscard]] FrontierSurvey find_targets(const OccupancyMap& map, const TriedViews& tried,
+                                            std::vector<VoxelIndex> frontier);
+
   std::shared_ptr<const Platform> platform_;
   RangeSensor sensor_;
   FrontierSurveyOptions options_;
-  AdmittedCells admitted_;
+  ReachableSpace reachable_;
   std::unique_ptr<detail::SightMemory> memory_;
 };
 

@@ -65,10 +65,10 @@ class Situation {
   [[nodiscard]] const OccupancyMap& map() const { return *map_; }
   /// The sensor pose (world_from_sensor) of the last `sync`, with an orthonormal rotation.
   [[nodiscard]] const Pose& current() const { return current_; }
-  /// Reachable space and observable frontier cells with their viewpoints.
+  /// Observable frontier cells with their viewpoints.
   [[nodiscard]] const FrontierSurvey& survey() const { return survey_; }
   /// The cells to which the platform can bring the sensor.
-  [[nodiscard]] const ReachableSpace& reachable() const { return survey_.reachable; }
+  [[nodiscard]] const ReachableSpace& reachable() const { return surveyor_.reachable(); }
   /// Frontier cells and their clusters.
   [[nodiscard]] const FrontierTracker& frontier() const { return *frontier_; }
   /// The memory of tried views.

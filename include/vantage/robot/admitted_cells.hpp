@@ -14,7 +14,6 @@ namespace VANTAGE_EXPORT vantage {
 ///     AdmittedCells admitted;
 ///     map.insert(scan);
 ///     admitted.follow(map, platform);  // the cost follows what the scan changed
-///     const ReachableSpace space(map, platform, pose, admitted);
 ///
 /// The content is always the same as that of a new object that follows the map once.
 class AdmittedCells {
@@ -23,6 +22,10 @@ class AdmittedCells {
   /// cells within Platform::reach_m of a cell that became clear or stopped being clear are tested again.
   void follow(const OccupancyMap& map, const Platform& platform);
 
+  /// Whether the last `follow` started anew.
+  [[nodiscard]] bool started_anew() const { return started_anew_; }
+  /// The bricks whose admitted cells the last `follow` has changed.
+  [[nodiscard]] const std::vector<VoxelIndex>& changed() const { return changed_; }
   /// The admitted cells.
   [[nodiscard]] const BrickSet& cells() const { return cells_; }
   /// Whether the platform admits a known cell.
@@ -36,6 +39,8 @@ class AdmittedCells {
   OccupancyMap::Revision followed_ = 0;
   BrickSet clear_;  // clear cells at the last follow
   BrickSet cells_;
+  std::vector<VoxelIndex> changed_;
+  bool started_anew_ = true;
 };
 
 }  // namespace vantage

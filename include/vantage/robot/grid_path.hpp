@@ -11,8 +11,8 @@
 namespace VANTAGE_EXPORT vantage {
 
 /// Shortest paths through the cells of a ReachableSpace. A step leads to one of the 26 neighbours and cuts no corner:
-/// all cells of the 1 x 2 x 2 or 2 x 2 x 2 block that it crosses must be reachable. Ties are broken by cell number,
-/// so the result is deterministic.
+/// all cells of the 1 x 2 x 2 or 2 x 2 x 2 block that it crosses must be reachable. Ties are broken by the order in
+/// which the search meets the cells, so the result is deterministic.
 class GridPaths {
  public:
   /// Paths from the start of `space`, which must outlive this object.
@@ -28,8 +28,6 @@ class GridPaths {
   [[nodiscard]] std::vector<VoxelIndex> to(const VoxelIndex& goal) const;
 
  private:
-  [[nodiscard]] std::vector<bool> marked(std::span<const VoxelIndex> goals) const;
-
   const ReachableSpace& space_;
 };
 

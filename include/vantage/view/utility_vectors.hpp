@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -29,9 +30,10 @@ struct UtilityVector {
                                                          std::span<const FrontierVoid> frontier_voids,
                                                          const VoxelFrame& frame, std::size_t most = 1'000'000);
 
-/// Accumulated utility of the cells of a ReachableSpace.
+/// Accumulated utility of cells of a ReachableSpace.
 struct AccumulatedUtility {
-  std::vector<std::uint64_t> cells;  ///< utility per reachable cell, in void cells
+  /// The reachable cells with a utility above 0, in raster order, and their utility in void cells.
+  std::vector<std::pair<VoxelIndex, std::uint64_t>> cells = {};
   std::uint64_t operations = 0;      ///< number of cells visited along all rays
 };
 

@@ -36,10 +36,11 @@ TEST(FrontierSurvey, AnOpeningOfFreeCellsIsATarget) {
   const FrontierSurvey survey = survey_of(map);
   EXPECT_EQ(survey.frontier_cells, 4U);
   EXPECT_EQ(survey.targets.size(), 4U);
+  const ReachableSpace reachable(map, FreeFlyer({.radius_m = 0.1}), pose_looking({1.1, 1.1, 1.1}, 0.0));
   for (const FrontierTarget& target : survey.targets) {
     EXPECT_TRUE(kOpening.contains(target.frontier));
     EXPECT_EQ(target.unknown, (target.frontier + VoxelIndex{1, 0, 0}));
-    EXPECT_TRUE(survey.reachable.contains(target.viewpoint));
+    EXPECT_TRUE(reachable.contains(target.viewpoint));
   }
 }
 

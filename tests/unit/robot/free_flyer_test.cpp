@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -214,7 +213,7 @@ TEST(GridPath, FindsAllGoalsThatAreHardlyFurtherThanTheNearest) {
     const GridPaths paths(space);
     std::vector<VoxelIndex> goals{{40, 40, 40}};
     for (int i = 0; i < 12; ++i) {
-      goals.push_back(space.cells()[engine() % space.size()]);
+      goals.push_back(space.cell(engine() % space.size()));
     }
     const auto length_m = [&](const VoxelIndex& goal) {
       const std::vector<VoxelIndex> way = paths.to(goal);
@@ -264,121 +263,6 @@ TEST(FreeFlyer, ABodyLargerThanTheKnownFitsNowhere) {
     EXPECT_THROW(FreeFlyer({.margin_m = radius_m}), std::invalid_argument);
     EXPECT_THROW(GroundRobot({.radius_m = radius_m}), std::invalid_argument);
   }
-}
-
-// Two outliers make the bounding box a thousand times as large as the room, but not the reachable space.
-TEST(ReachableSpace, CostsNothingForTheBoxAroundTheKnown) {
-  OccupancyMap map({.resolution_m = 0.1});
-  map.set_log_odds(VoxelBox{{0, 0, 0}, {20, 20, 20}}, -2.0);
-  map.set({100'000'000, 0, 5}, Occupancy::Free);
-  map.set({-7, 900'000'000, -900'000'000}, Occupancy::Occupied);
-  const FreeFlyer flyer({.radius_m = 0.15});
-  const ReachableSpace space(map, flyer, pose_looking({1.0, 1.0, 1.0}, 0.0));
-  EXPECT_EQ(space.size(), 18U * 18U * 18U);
-}
-
-/// Flood fill that asks the platform cell by cell, in the same order.
-std::vector<VoxelIndex> flooded(const OccupancyMap& map, const Platform& platform, const VoxelIndex& start) {
-  std::vector<VoxelIndex> cells{start};
-  std::set<VoxelIndex> met{start};
-  for (std::size_t next = 0; next < cells.size(); ++next) {
-    for (const VoxelIndex& step : kFaceNeighbours) {
-      const VoxelIndex cell = cells[next] + step;
-      if (platform.admits_cell(map, cell) && met.insert(cell).second) {
-        cells.push_back(cell);
-      }
-    }
-  }
-  return cells;
-}
-
-void change_at_random(OccupancyMap& map, std::mt19937& engine) {
-  const auto coordinate = [&] { return static_cast<std::int32_t>(engine() % 40) - 12; };
-  const VoxelIndex lo{coordinate(), coordinate(), coordinate()};
-  switch (engine() % 7) {
-    case 0:
-      map.set(lo, Occupancy::Occupied);
-      break;
-    case 1:
-      map.set(lo, Occupancy::Unknown);
-      break;
-    case 2:
-      map.set_log_odds(lo, 0.85 - 3 * 0.4);  // contested, still free
-      break;
-    case 3: {
-      Scan scan;
-      scan.world_from_sensor = pose_looking(map.frame().centre_of(lo), 0.0);
-      for (int i = 0; i < 30; ++i) {
-        scan.points.emplace_back(0.1F * static_cast<float>(coordinate()), 0.1F * static_cast<float>(coordinate()),
-                                 2.0F);
-      }
-      map.insert(scan);
-      break;
-    }
-    default:
-      map.set_log_odds(VoxelBox{lo, lo + VoxelIndex{9, 5, 7}}, -2.0);
-  }
-}
-
-// Compares with a new object and with single queries after every few of thousands of changes.
-TEST(AdmittedCells, FollowWhateverHappensToAMap) {
-  std::mt19937 engine(17);
-  std::size_t compared = 0;
-  std::size_t floods = 0;
-  std::size_t reached = 0;
-  for (int world = 0; world < 6; ++world) {
-    OccupancyMap map({.resolution_m = 0.1});
-    const FreeFlyer flyer({.radius_m = 0.07 * (world % 4), .min_height_m = -0.5});
-    AdmittedCells followed;
-    for (int step = 0; step < 400; ++step) {
-      change_at_random(map, engine);
-      if (step == 250) {
-        map = OccupancyMap(map);  // another map with a new change log
-      }
-      if (engine() % 3 != 0) {
-        continue;
-      }
-      followed.follow(map, flyer);
-      AdmittedCells fresh;
-      fresh.follow(map, flyer);
-      map.for_each_brick([&](const VoxelIndex& address, const Brick& /*brick*/) {
-        const BrickPlane* ours = followed.cells().find(address);
-        const BrickPlane* theirs = fresh.cells().find(address);
-        ASSERT_EQ(ours == nullptr ? BrickPlane{} : *ours, theirs == nullptr ? BrickPlane{} : *theirs);
-        ++compared;
-      });
-      ASSERT_EQ(followed.cells().size(), fresh.cells().size());
-      const Pose pose = pose_looking({0.55, 0.55, 0.55}, 0.0);
-      const ReachableSpace space(map, flyer, pose, followed);
-      if (space.start() && engine() % 30 == 0) {
-        const std::vector<VoxelIndex> expected = flooded(map, flyer, *space.start());
-        ASSERT_EQ(space.cells(), expected);
-        ++floods;
-        reached += expected.size();
-        std::size_t in_planes = 0;
-        space.for_each_brick([&](const VoxelIndex& /*address*/, const BrickPlane& plane) {
-          for (const std::uint64_t word : plane) {
-            in_planes += static_cast<std::size_t>(std::popcount(word));
-          }
-        });
-        ASSERT_EQ(in_planes, expected.size());
-        for (std::uint32_t number = 0; number < expected.size(); number += 7) {
-          ASSERT_EQ(space.number_of(expected[number]), number);
-        }
-        for (int box = 0; box < 5; ++box) {
-          const auto coordinate = [&] { return static_cast<std::int32_t>(engine() % 60) - 22; };
-          const VoxelIndex lo{coordinate(), coordinate(), coordinate()};
-          const VoxelBox cells{
-              lo, lo + VoxelIndex{1 + coordinate() / 4, 3, 1 + static_cast<std::int32_t>(engine() % 19)}};
-          ASSERT_EQ(space.any_in(cells), std::any_of(expected.begin(), expected.end(),
-                                                     [&](const VoxelIndex& cell) { return cells.contains(cell); }));
-        }
-      }
-    }
-  }
-  EXPECT_GT(compared, 20000U);
-  EXPECT_GT(floods, 15U);
-  EXPECT_GT(reached, 10000U);
 }
 
 }  // namespace

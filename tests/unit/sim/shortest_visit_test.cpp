@@ -23,8 +23,9 @@ class BlockedBox {
       map_.set(cell, is_blocked ? Occupancy::Occupied : Occupancy::Free);
     });
   }
-  [[nodiscard]] ReachableSpace space() const {
-    return {map_, FreeFlyer(FreeFlyerOptions{.radius_m = 0.1}), pose_looking({0.5, 0.5, 0.5}, 0.0)};
+  [[nodiscard]] NumberedCells space() const {
+    return NumberedCells(
+        ReachableSpace(map_, FreeFlyer(FreeFlyerOptions{.radius_m = 0.1}), pose_looking({0.5, 0.5, 0.5}, 0.0)));
   }
 
  private:
@@ -33,7 +34,7 @@ class BlockedBox {
 
 TEST(ShortestVisit, InTheOpenWideStepsAreAtMostFivePercentLonger) {
   const BlockedBox box({14, 14, 14}, 0.0, 1);
-  const ReachableSpace space = box.space();
+  const NumberedCells space = box.space();
   const std::vector<std::uint32_t> start{0};
   const std::vector<float> distance = distances_from(space, start);
   double longest = 0.0;
@@ -50,7 +51,7 @@ TEST(ShortestVisit, InTheOpenWideStepsAreAtMostFivePercentLonger) {
 }
 
 // Exhaustive search over all orders of the sets and all members, with all pairwise distances.
-double shortest_by_trying(const ReachableSpace& space, const std::vector<std::uint16_t>& member, std::size_t sets) {
+double shortest_by_trying(const NumberedCells& space, const std::vector<std::uint16_t>& member, std::size_t sets) {
   std::vector<std::vector<float>> distance;
   for (std::uint32_t cell = 0; cell < space.size(); ++cell) {
     distance.push_back(distances_from(space, std::vector<std::uint32_t>{cell}));
@@ -80,7 +81,7 @@ TEST(ShortestVisit, IsTheShortestOfAllOrdersAndPlaces) {
   std::size_t out_of_reach = 0;
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     const BlockedBox box({7, 6, 3}, 0.35, seed);
-    const ReachableSpace space = box.space();
+    const NumberedCells space = box.space();
     std::mt19937 engine(seed);
     const std::size_t sets = 1 + seed % 4;
     std::vector<std::uint16_t> member(space.size(), 0);

@@ -78,7 +78,7 @@ TEST(WatchmanRoute, NoWayThatSeesEverythingIsShorter) {
   for (int rooms = 2; rooms <= 3; ++rooms) {
     const InARow row(rooms);
     const double bound_m = row.route().length_m;
-    const ReachableSpace space(row.truth.map(), row.flyer, row.start);
+    const NumberedCells space(ReachableSpace(row.truth.map(), row.flyer, row.start));
     double shortest_m = 1e9;
     std::mt19937 engine(static_cast<std::uint32_t>(rooms));
     for (int way = 0; way < 150; ++way, ++ways) {

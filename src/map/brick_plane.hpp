@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vantage/frontier/frontiers.hpp>
+#include <vantage/map/brick.hpp>
 #include <vector>
 
 namespace vantage::detail {

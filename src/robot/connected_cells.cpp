@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "robot/connected_cells.hpp"
+
+#include <algorithm>
+#include <vantage/geometry/disjoint_sets.hpp>
+#include <vantage/geometry/raster_order.hpp>
+
+#include "map/brick_plane.hpp"
+
+namespace vantage::detail {
+namespace {
+
+constexpr std::array<VoxelIndex, 3> kUnits{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr std::array<std::size_t, 3> kStrides{1, 8, 64};  // between the numbers of neighbouring bricks of a tile
+
+// Whether a brick is the last one of its tile along an axis.
+bool is_last(std::size_t brick, std::size_t axis) { return (brick / kStrides[axis] & 7U) == 7; }
+
+// The connected part of `cells` that holds a cell: grown from it until nothing is added.
+BrickPlane part_with(const BrickPlane& cells, std::size_t word, std::uint64_t bit) {
+  constexpr BrickPlane kNothing{};
+  BrickPlane part{};
+  part[word] = bit;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t i = 0; i < Brick::kWords; ++i) {
+      std::uint64_t grown = part[i];
+      for (const Axis& axis : kAxes) {
+        grown |= from_below(part, kNothing, axis, i) | from_above(part, kNothing, axis, i);
+      }
+      grown &= cells[i];
+      grows = grows || grown != part[i];
+      part[i] = grown;
+    }
+  }
+  return part;
+}
+
+// Calls `take(part)` for each connected part of the cells of a brick.
+template <class Take>
+void for_each_part(const BrickPlane& cells, Take&& take) {
+  BrickPlane left = cells;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    while (left[word] != 0) {
+      const BrickPlane part = part_with(left, word, left[word] & (~left[word] + 1));
+      std::transform(left.begin(), left.end(), part.begin(), left.begin(),
+                     [](std::uint64_t all, std::uint64_t taken) { return all & ~taken; });
+      take(part);
+    }
+  }
+}
+
+// Whether a brick has a cell at its upper end along an axis.
+bool reaches_up(const BrickPlane& cells, const Axis& axis) {
+  bool found = false;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    found = found || ((word & axis.word_bit) != 0 && (cells[word] >> (3 * axis.stride) & axis.first) != 0);
+  }
+  return found;
+}
+
+// Whether a cell at the upper end of a brick along an axis has a neighbour in the next brick.
+bool touch(const BrickPlane& lower, const BrickPlane& upper, const Axis& axis) {
+  bool found = false;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    if ((word & axis.word_bit) != 0) {
+      found = found || (lower[word] >> (3 * axis.stride) & upper[word ^ axis.word_bit] & axis.first) != 0;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+// Calls `take(part, part)` for the parts of two bricks that touch. `upper` lies beside `lower` along the axis.
+template <class Take>
+void ConnectedCells::for_each_touching(const Tile& tile, std::size_t lower, const Tile& next, std::size_t upper,
+                                       std::size_t axis, Take&& take) {
+  for (std::size_t a = tile.first[lower]; a < tile.first[lower + 1]; ++a) {
+    if (reaches_up(tile.parts[a].cells, kAxes[axis])) {
+      for (std::size_t b = next.first[upper]; b < next.first[upper + 1]; ++b) {
+        if (touch(tile.parts[a].cells, next.parts[b].cells, kAxes[axis])) {
+          take(a, b);
+        }
+      }
+    }
+  }
+}
+
+void ConnectedCells::update(const BrickSet& cells, std::span<const VoxelIndex> changed) {
+  std::vector<VoxelIndex> stale(changed.size());
+  std::transform(changed.begin(), changed.end(), stale.begin(), Brick::of_cell);
+  std::sort(stale.begin(), stale.end(), RasterOrder{});
+  stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
+  for (const VoxelIndex& address : stale) {
+    const std::uint32_t number = numbers_.place(address, static_cast<std::uint32_t>(tiles_.size()));
+    if (number == tiles_.size()) {
+      tiles_.push_back({.address = address});
+    }
+    find_groups(cells, tiles_[number]);
+  }
+  for (const VoxelIndex& address : stale) {
+    for (std::size_t axis = 0; axis < kUnits.size(); ++axis) {
+      find_links(tiles_[*numbers_.find(address)], axis);
+      if (const std::uint32_t* below = numbers_.find(address - kUnits[axis])) {
+        find_links(tiles_[*below], axis);
+      }
+    }
+  }
+}
+
+void ConnectedCells::find_groups(const BrickSet& cells, Tile& tile) {
+  tile.is_new = true;
+  tile.parts.clear();
+  const VoxelIndex first = Brick::first_cell(tile.address);
+  for (std::size_t brick = 0; brick < kBricks; ++brick) {
+    const auto at = static_cast<std::int32_t>(brick);
+    if (const BrickPlane* held = cells.find(first + VoxelIndex{at & 7, at >> 3 & 7, at >> 6})) {
+      for_each_part(*held, [&](const BrickPlane& part) { tile.parts.push_back({part, 0}); });
+    }
+    tile.first[brick + 1] = static_cast<std::uint32_t>(tile.parts.size());
+  }
+  DisjointSets sets(tile.parts.size());
+  for (std::size_t axis = 0; axis < kUnits.size(); ++axis) {
+    for (std::size_t brick = 0; brick < kBricks; ++brick) {
+      if (!is_last(brick, axis)) {
+        for_each_touching(tile, brick, tile, brick + kStrides[axis], axis,
+                          [&](std::size_t a, std::size_t b) { sets.merge(a, b); });
+      }
+    }
+  }
+  const std::vector<std::size_t> labels = sets.labels();
+  for (std::size_t part = 0; part < labels.size(); ++part) {
+    tile.parts[part].group = static_cast<std::uint32_t>(labels[part]);
+  }
+  tile.groups = static_cast<std::uint32_t>(sets.count());
+}
+
+void ConnectedCells::find_links(Tile& tile, std::size_t axis) {
+  std::vector<Link>& links = tile.links[axis];
+  links.clear();
+  const std::uint32_t* number = numbers_.find(tile.address + kUnits[axis]);
+  if (number == nullptr) {
+    return;
+  }
+  const Tile& next = tiles_[*number];
+  for (std::size_t brick = 0; brick < kBricks; ++brick) {
+    if (is_last(brick, axis)) {
+      for_each_touching(tile, brick, next, brick - 7 * kStrides[axis], axis, [&](std::size_t a, std::size_t b) {
+        links.emplace_back(tile.parts[a].group, next.parts[b].group);
+      });
+    }
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+}
+
+std::vector<std::vector<bool>> ConnectedCells::connected_with(const std::optional<VoxelIndex>& start) const {
+  std::vector<std::size_t> first_group{0};  // of each tile, when the groups of all tiles are counted up
+  std::vector<std::vector<bool>> connected;
+  for (const Tile& tile : tiles_) {
+    first_group.push_back(first_group.back() + tile.groups);
+    connected.emplace_back(tile.groups, false);
+  }
+  const std::uint32_t* home = start ? numbers_.find(Brick::of_cell(Brick::of_cell(*start))) : nullptr;
+  if (home == nullptr) {
+    return connected;
+  }
+  DisjointSets sets(first_group.back());
+  for (std::size_t number = 0; number < tiles_.size(); ++number) {
+    for (std::size_t axis = 0; axis < kUnits.size(); ++axis) {
+      for (const auto& [here, there] : tiles_[number].links[axis]) {
+        sets.merge(first_group[number] + here,
+                   first_group[*numbers_.find(tiles_[number].address + kUnits[axis])] + there);
+      }
+    }
+  }
+  const Tile& tile = tiles_[*home];
+  const VoxelIndex brick = Brick::of_cell(*start);
+  const auto in_tile = static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
+  const std::size_t offset = Brick::offset_of(*start);
+  for (std::size_t part = tile.first[in_tile]; part < tile.first[in_tile + 1]; ++part) {
+    if ((tile.parts[part].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
+      const std::size_t root = sets.find(first_group[*home] + tile.parts[part].group);
+      for (std::size_t number = 0; number < tiles_.size(); ++number) {
+        for (std::uint32_t group = 0; group < tiles_[number].groups; ++group) {
+          connected[number][group] = sets.find(first_group[number] + group) == root;
+        }
+      }
+    }
+  }
+  return connected;
+}
+
+}  // namespace vantage::detail
