@@ -5,6 +5,7 @@
 #include <map/mark_rays.hpp>
 #include <map/update_word.hpp>
 #include <optional>
+#include <utility>
 #include <vantage/map/occupancy_map.hpp>
 
 #include "geometry/box_overlap.hpp"
@@ -24,6 +25,9 @@ class ScanInserter {
     const ScanRays rays(scan, map_.frame_);
     report_ = rays.report();
     ++map_.revision_;
+    if (std::exchange(map_.may_have_shrunk_, false)) {
+      map_.bounds_ = map_.box_of_known();
+    }
     if (!rays.empty()) {
       const std::optional<VoxelBox> clip = clip_of(rays.cells());
       if (clip && clip->empty()) {
@@ -74,6 +78,7 @@ class ScanInserter {
     map_.written_[number] = map_.revision_;
     if (update_brick(map_.bricks_[number].cells, marks)) {
       map_.mark_changed(number);
+      map_.grow_bounds(map_.bricks_[number]);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vantage/map/occupancy_map.hpp>
 
+#include "geometry/box_around.hpp"
 #include "geometry/box_overlap.hpp"
 #include "map/option_rule.hpp"
 
@@ -159,7 +160,7 @@ OccupancyMap::Counts OccupancyMap::counts() const {
   return counts;
 }
 
-VoxelBox OccupancyMap::bounds() const {
+VoxelBox OccupancyMap::box_of_known() const {
   constexpr std::int32_t kFar = kFurthestVoxel;
   VoxelBox bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
@@ -208,6 +209,8 @@ void OccupancyMap::swap(OccupancyMap& other) {
   std::swap(max_steps_, other.max_steps_);
   std::swap(directory_, other.directory_);
   std::swap(bricks_, other.bricks_);
+  std::swap(bounds_, other.bounds_);
+  std::swap(may_have_shrunk_, other.may_have_shrunk_);
   std::swap(written_, other.written_);
   std::swap(cells_refused_, other.cells_refused_);
   std::swap(revision_, other.revision_);
@@ -352,10 +355,44 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
   const std::size_t word = offset >> 6U;
   if (brick.at(offset) != state) {
     mark_changed(number);
+    const VoxelBox inner = bounds_.grown(-1);
+    if (state == Occupancy::Unknown) {
+      may_have_shrunk_ = may_have_shrunk_ || !inner.contains(cell);
+    } else if (!inner.contains(cell)) {
+      grow_bounds({cell, cell + VoxelIndex{1, 1, 1}});
+    }
   }
   brick.known[word] = state == Occupancy::Unknown ? brick.known[word] & ~bit : brick.known[word] | bit;
   brick.occupied[word] = state == Occupancy::Occupied ? brick.occupied[word] | bit : brick.occupied[word] & ~bit;
   brick.log_odds[offset] = steps;
+}
+
+void OccupancyMap::grow_bounds(const VoxelBox& cells) { bounds_ = detail::box_around(bounds_, cells); }
+
+void OccupancyMap::grow_bounds(const Stored& brick) {
+  const VoxelIndex first = Brick::first_cell(brick.address);
+  if (bounds_.contains(first) && bounds_.contains(first + VoxelIndex{7, 7, 7})) {
+    return;
+  }
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    const std::uint64_t known = brick.cells.known[word];
+    if (known == 0) {
+      continue;
+    }
+    // The layers of the sub-brick that hold a known cell, for each axis.
+    VoxelBox layers{{4, 4, 4}, {0, 0, 0}};
+    for (std::int32_t i = 0; i < 4; ++i) {
+      const auto take = [i](bool holds, std::int32_t& lo, std::int32_t& hi) {
+        lo = holds ? std::min(lo, i) : lo;
+        hi = holds ? i + 1 : hi;
+      };
+      take((known & 0x1111111111111111ULL << i) != 0, layers.lo.x, layers.hi.x);
+      take((known & 0x000F000F000F000FULL << 4 * i) != 0, layers.lo.y, layers.hi.y);
+      take((known & 0x000000000000FFFFULL << 16 * i) != 0, layers.lo.z, layers.hi.z);
+    }
+    const VoxelIndex corner = first + Brick::cell_at(64 * word);
+    grow_bounds({corner + layers.lo, corner + layers.hi});
+  }
 }
 
 std::int8_t OccupancyMap::to_steps(double log_odds) const {

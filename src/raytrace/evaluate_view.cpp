@@ -4,14 +4,26 @@
 #include <utility>
 #include <vantage/raytrace/evaluate_view.hpp>
 
+#include "geometry/box_overlap.hpp"
 #include "map/option_rule.hpp"
 #include "raytrace/shared_work.hpp"
 
 namespace vantage {
+namespace {
+
+// The part of a box that rays from this pose can reach. A set of its cells may be much smaller.
+VoxelBox in_range(const VoxelBox& box, const RayCaster& caster, const Pose& world_from_sensor, const ViewRays& rays) {
+  const Eigen::Vector3d from = world_from_sensor.translation();
+  const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m() + caster.frame().size_m);
+  return detail::box_overlap(box, {caster.frame().cell_of(from - range), caster.frame().cell_of(from + range)});
+}
+
+}  // namespace
 
 ViewEvaluation evaluate_view(const RayCaster& caster, const Pose& world_from_sensor, const ViewRays& rays,
                              const VoxelBox& object, CellSet* seen) {
-  CellSet cells = caster.visible_cells(world_from_sensor, rays, object);
+  CellSet cells = caster.visible_cells(world_from_sensor, rays,
+                                       seen != nullptr ? object : in_range(object, caster, world_from_sensor, rays));
   const ViewEvaluation evaluation{caster.count(cells, Occupancy::Unknown), caster.count(cells, Occupancy::Occupied)};
   if (seen != nullptr) {
     *seen = std::move(cells);

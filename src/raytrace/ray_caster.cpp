@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vantage/raytrace/ray_caster.hpp>
 
+#include "geometry/box_overlap.hpp"
 #include "geometry/prefetch.hpp"
 #include "map/option_rule.hpp"
 
@@ -166,8 +167,10 @@ CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& 
     }
   }
   if (frame_.box_of(box).distance_to(world_from_sensor.translation()) < rays.min_range_m()) {
-    const CellSet all = seen;
-    all.for_each([&](const VoxelIndex& cell) {
+    const Eigen::Vector3d around = Eigen::Vector3d::Constant(rays.min_range_m() + frame_.size_m);
+    const VoxelBox near{frame_.cell_of(world_from_sensor.translation() - around),
+                        frame_.cell_of(world_from_sensor.translation() + around)};
+    for_each_cell(detail::box_overlap(box, near), [&](const VoxelIndex& cell) {
       if ((frame_.centre_of(cell) - world_from_sensor.translation()).norm() < rays.min_range_m()) {
         seen.erase(cell);
       }

@@ -9,7 +9,7 @@
 namespace vantage {
 
 /// Changes a map of 0.1 m around the origin: a cell, a box of free cells, or a scan.
-inline void change_at_random(OccupancyMap& map, std::mt19937& engine) {
+inline void change_around_origin(OccupancyMap& map, std::mt19937& engine) {
   const auto coordinate = [&] { return static_cast<std::int32_t>(engine() % 40) - 12; };
   const VoxelIndex lo{coordinate(), coordinate(), coordinate()};
   switch (engine() % 7) {

@@ -127,7 +127,7 @@ class OccupancyMap {
   /// Number of known cells by state. Visits all bricks.
   [[nodiscard]] Counts counts() const;
   /// The smallest box that contains all known cells; empty if there are none.
-  [[nodiscard]] VoxelBox bounds() const;
+  [[nodiscard]] VoxelBox bounds() const { return may_have_shrunk_ ? box_of_known() : bounds_; }
   /// Memory in use in bytes, directory included.
   [[nodiscard]] std::size_t memory_bytes() const;
   /// The number of bricks.
@@ -269,6 +269,9 @@ class OccupancyMap {
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
+  void grow_bounds(const VoxelBox& cells);
+  void grow_bounds(const Stored& brick);
+  [[nodiscard]] VoxelBox box_of_known() const;
   [[nodiscard]] std::int8_t to_steps(double log_odds) const;
 
   MapIdentity identity_;
@@ -283,6 +286,8 @@ class OccupancyMap {
 
   BrickDirectory directory_;
   std::deque<Stored> bricks_;
+  VoxelBox bounds_;                // of the known cells, unless it may have shrunk
+  bool may_have_shrunk_ = false;   // a cell at the border of `bounds_` became unknown
   std::vector<Revision> written_;  // per brick: the last revision that wrote to it
   std::size_t cells_refused_ = 0;
   Revision revision_ = 0;

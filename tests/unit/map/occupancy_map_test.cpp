@@ -11,6 +11,8 @@
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
+#include "geometry/box_around.hpp"
+#include "support/changing_map.hpp"
 #include "support/compare_with_definition.hpp"
 
 namespace vantage {
@@ -513,6 +515,37 @@ TEST(VoxelFrame, HoldsEveryLengthWithinTheRangeOfAddresses) {
   EXPECT_EQ(frame.cells_up_to(0.25), 3);
   EXPECT_EQ(frame.cells_centred_in({{-huge, 0, 0}, {huge, 1, 1}}),
             (VoxelBox{{-kFurthestVoxel, 0, 0}, {kFurthestVoxel, 10, 10}}));
+}
+
+// Compares with a search over all known cells, while cells at the border become known and unknown.
+TEST(OccupancyMap, KnowsItsBoundsWhateverHappensToIt) {
+  std::mt19937 engine(41);
+  std::size_t shrunk = 0;
+  std::size_t grown = 0;
+  for (int world = 0; world < 20; ++world) {
+    OccupancyMap map({.resolution_m = 0.1});
+    VoxelBox last;
+    for (int step = 0; step < 300; ++step) {
+      change_around_origin(map, engine);
+      if (engine() % 3 == 0 && !last.empty()) {  // a layer at the border is forgotten
+        VoxelBox layer = last;
+        (engine() % 2 == 0 ? layer.hi.x : layer.hi.z) = engine() % 2 == 0 ? last.lo.x + 1 : last.lo.z + 1;
+        for_each_cell(layer, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Unknown); });
+      }
+      if (step == 150) {
+        map = OccupancyMap(map);
+      }
+      std::vector<VoxelIndex> known;
+      map.for_each_known([&](const VoxelIndex& cell, Occupancy /*occupancy*/) { known.push_back(cell); });
+      const VoxelBox expected = detail::box_around(known);
+      ASSERT_EQ(map.bounds(), expected) << "world " << world << ", step " << step;
+      grown += expected.size() > last.size() ? 1U : 0U;
+      shrunk += expected.size() < last.size() ? 1U : 0U;
+      last = expected;
+    }
+  }
+  EXPECT_GT(grown, 500U);
+  EXPECT_GT(shrunk, 500U);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(AdmittedCells, FollowWhateverHappensToAMap) {
     const FreeFlyer flyer({.radius_m = 0.07 * (world % 4), .min_height_m = -0.5});
     AdmittedCells followed;
     for (int step = 0; step < 400; ++step) {
-      change_at_random(map, engine);
+      change_around_origin(map, engine);
       if (step == 250) {
         map = OccupancyMap(map);  // another map with a new change log
       }

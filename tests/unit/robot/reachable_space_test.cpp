@@ -103,7 +103,7 @@ TEST(ReachableSpace, IsWhatAFloodFillReachesWhateverHappensToTheMap) {
     ReachableSpace followed;
     Mirror mirror;
     for (int step = 0; step < 400; ++step) {
-      change_at_random(map, engine);
+      change_around_origin(map, engine);
       if (step % 20 == 7) {  // a wall across all, which a later step removes
         const std::int32_t x = static_cast<std::int32_t>(engine() % 30) - 10;
         map.set_log_odds(VoxelBox{{x, -20, -20}, {x + 1, 40, 40}}, step % 40 == 7 ? 3.0 : -2.0);
