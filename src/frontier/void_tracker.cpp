@@ -6,8 +6,9 @@
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
-#include "map/brick_plane.hpp"
 #include "frontier/hull_change.hpp"
+#include "map/brick_plane.hpp"
+#include "map/connected_cells.hpp"
 
 namespace vantage {
 namespace {
@@ -23,7 +24,13 @@ bool is_one_layer(const OccupancyMap& map) {
 
 }  // namespace
 
-VoidTracker::VoidTracker(const OccupancyMap& map) : map_(&map) { update(); }
+VoidTracker::VoidTracker(const OccupancyMap& map)
+    : map_(&map), connected_(std::make_unique<detail::ConnectedCells>()) {
+  update();
+}
+VoidTracker::VoidTracker(VoidTracker&&) noexcept = default;
+VoidTracker& VoidTracker::operator=(VoidTracker&&) noexcept = default;
+VoidTracker::~VoidTracker() = default;
 
 bool VoidTracker::update() {
   std::vector<VoxelIndex> touched = map_->changed_since(revision_);
@@ -67,6 +74,10 @@ void VoidTracker::start_anew() {
   numbers_.clear();
   bricks_.clear();
   cell_count_ = 0;
+  voids_ = {};
+  changed_.clear();
+  *connected_ = {};
+  behind_ = {};
   hull_ = {};
   planes_.clear();
   corners_.clear();
@@ -133,11 +144,16 @@ VoidTracker::BrickVoids& VoidTracker::brick_at(const VoxelIndex& address) {
 // The region needs no test: it is a box, so the hull of cells inside it stays inside it.
 void VoidTracker::refresh(BrickVoids& brick) {
   const Brick* stored = map_->find_brick(brick.address);
-  cell_count_ -= detail::size_of(brick.voids);
+  BrickPlane voids{};
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    brick.voids[word] = brick.inside[word] & ~(stored == nullptr ? 0 : stored->known[word]);
+    voids[word] = brick.inside[word] & ~(stored == nullptr ? 0 : stored->known[word]);
   }
-  cell_count_ += detail::size_of(brick.voids);
+  const BrickPlane* const before = voids_.find(brick.address);
+  const std::size_t count_before = before == nullptr ? 0 : detail::size_of(*before);
+  if (voids_.assign(brick.address, voids)) {
+    cell_count_ += detail::size_of(voids) - count_before;
+    changed_.push_back(brick.address);
+  }
 }
 
 void VoidTracker::collect_outside(const VoxelIndex& address, std::vector<VoxelIndex>& cells) const {
@@ -153,24 +169,31 @@ void VoidTracker::collect_outside(const VoxelIndex& address, std::vector<VoxelIn
   detail::append(outside, address, cells);
 }
 
-bool VoidTracker::contains(const VoxelIndex& cell) const {
-  const auto known = numbers_.find(Brick::of_cell(cell));
-  const std::size_t offset = Brick::offset_of(cell);
-  return known != numbers_.end() && (bricks_[known->second].voids[offset / 64] >> (offset % 64) & 1U) != 0;
-}
-
 std::vector<VoxelIndex> VoidTracker::cells() const {
-  std::vector<VoxelIndex> cells = unordered_cells();
+  std::vector<VoxelIndex> cells;
+  cells.reserve(cell_count_);
+  voids_.for_each_brick(
+      [&](const VoxelIndex& brick, const BrickPlane& voids) { detail::append(voids, brick, cells); });
   std::sort(cells.begin(), cells.end(), RasterOrder{});
   return cells;
 }
 
-std::vector<VoxelIndex> VoidTracker::unordered_cells() const {
-  std::vector<VoxelIndex> cells;
-  cells.reserve(cell_count_);
-  for (const BrickVoids& brick : bricks_) {
-    detail::append(brick.voids, brick.address, cells);
+std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const VoxelIndex> frontier) {
+  connected_->update(voids_, changed_);
+  changed_.clear();
+  std::vector<VoxelIndex> starts;
+  for (const VoxelIndex& cell : frontier) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      if (contains(cell + step)) {
+        starts.push_back(cell + step);
+      }
+    }
   }
+  connected_->connect(starts,
+                      [&](const VoxelIndex& brick, const BrickPlane& cells) { (void)behind_.assign(brick, cells); });
+  std::vector<VoxelIndex> cells;
+  behind_.for_each_brick(
+      [&](const VoxelIndex& brick, const BrickPlane& behind) { detail::append(behind, brick, cells); });
   return cells;
 }
 

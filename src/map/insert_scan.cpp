@@ -24,10 +24,7 @@ class ScanInserter {
   ScanReport insert(const Scan& scan, RayPolicy policy) {
     const ScanRays rays(scan, map_.frame_);
     report_ = rays.report();
-    ++map_.revision_;
-    if (std::exchange(map_.may_have_shrunk_, false)) {
-      map_.bounds_ = map_.box_of_known();
-    }
+    map_.begin_revision();
     if (!rays.empty()) {
       const std::optional<VoxelBox> clip = clip_of(rays.cells());
       if (clip && clip->empty()) {

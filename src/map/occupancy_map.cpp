@@ -280,7 +280,7 @@ void OccupancyMap::set_log_odds(const VoxelBox& cells, double log_odds) {
   if (inside.empty()) {
     return;
   }
-  ++revision_;
+  begin_revision();
   const std::int8_t steps = to_steps(log_odds);
   const Occupancy state = steps >= 0 ? Occupancy::Occupied : Occupancy::Free;
   for_each_cell(inside, [&](const VoxelIndex& cell) { write(cell, state, steps); });
@@ -291,12 +291,20 @@ void OccupancyMap::assume_free(const Box& box) {
     throw std::invalid_argument("assume_free: the box must have min < max on every axis and be within the map");
   }
   const VoxelBox inside = writable(frame_.cells_touched_by(box), "OccupancyMap::assume_free");
-  ++revision_;
+  begin_revision();
   for_each_cell(inside, [&](const VoxelIndex& cell) {
     if (at(cell) == Occupancy::Unknown) {
       write(cell, Occupancy::Free, miss_steps_);
     }
   });
+}
+
+// Begins a revision that writes many cells. `set` does not, because a search of the bounds would dominate its cost.
+void OccupancyMap::begin_revision() {
+  ++revision_;
+  if (std::exchange(may_have_shrunk_, false)) {
+    bounds_ = box_of_known();
+  }
 }
 
 BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& address) {

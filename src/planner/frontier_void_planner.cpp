@@ -127,7 +127,7 @@ void FrontierVoidPlanner::extract() {
   for (const FrontierTarget& target : survey.targets) {
     search_.frontier.push_back(target.frontier);
   }
-  const std::vector<VoxelIndex> cells = void_cells_->unordered_cells();
+  const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells());
   search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
   sight_.emplace(map, cells,
                  UnknownSightOptions{options_.strategy.opaque_share, options_.strategy.opaque_beside_surface,

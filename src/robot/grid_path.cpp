@@ -101,6 +101,7 @@ std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, He
   open.emplace(heuristic(*space.start()), 0U);
   std::array<std::uint32_t*, 27> numbers{};
   Around around{};
+  around[place_of({0, 0, 0})] = true;
   while (!open.empty()) {
     const auto [estimate, number] = open.top();
     open.pop();

@@ -6,7 +6,7 @@
 #include <vantage/robot/reachable_space.hpp>
 
 #include "map/brick_plane.hpp"
-#include "robot/connected_cells.hpp"
+#include "map/connected_cells.hpp"
 
 namespace vantage {
 namespace {
@@ -85,7 +85,8 @@ void ReachableSpace::follow(const OccupancyMap& map, const Platform& platform, c
   frame_ = map.frame();
   start_ = stands ? frame_.cell_of(current.translation()) : start;
   stands_at_m_ = stands ? std::optional<Eigen::Vector3d>(current.translation()) : std::nullopt;
-  connected_->connect(start, [&](const VoxelIndex& brick, const BrickPlane& cells) { assign(brick, cells); });
+  const std::vector<VoxelIndex> starts(start ? 1 : 0, start.value_or(VoxelIndex{}));
+  connected_->connect(starts, [&](const VoxelIndex& brick, const BrickPlane& cells) { assign(brick, cells); });
   if (stands) {
     cells_.insert(*start_);
     changed_.push_back(Brick::of_cell(*start_));

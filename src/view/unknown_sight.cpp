@@ -89,24 +89,27 @@ class UnknownSight::Chances {
 
 UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted,
                            const UnknownSightOptions& options)
-    : frame_(map.frame()), options_(options), wanted_box_(detail::box_around(wanted)), contents_(map.bounds()) {
+    : map_(&map),
+      frame_(map.frame()),
+      options_(options),
+      wanted_box_(detail::box_around(wanted)),
+      bounds_(map.bounds()),
+      contents_(wanted_box_) {
   detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
                          "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
-  map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
-    if (occupancy == Occupancy::Occupied) {
-      contents_[cell] = Content::Surface;
-    }
-  });
   for (const VoxelIndex& cell : wanted) {
-    if (contents_.contains(cell)) {
-      const bool beside_surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const auto& step) {
-        return contents_.value_or(cell + step, Content::Open) == Content::Surface;
-      });
-      contents_[cell] = beside_surface ? Content::WantedBesideSurface : Content::Wanted;
-    }
+    const bool beside_surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const auto& step) {
+      return map.at(cell + step) == Occupancy::Occupied;
+    });
+    contents_[cell] = beside_surface ? Content::WantedBesideSurface : Content::Wanted;
   }
+}
+
+UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
+  const Content content = contents_.value_or(cell, Content::Open);
+  return content == Content::Open && map_->at(cell) == Occupancy::Occupied ? Content::Surface : content;
 }
 
 std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,
@@ -125,7 +128,7 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const RayEnd& end = ends[tile.ray[i]];
-      if (end.occupancy != Occupancy::Unknown || contents_.value_or(end.cell, Content::Open) == Content::Open) {
+      if (end.occupancy != Occupancy::Unknown || content_of(end.cell) == Content::Open) {
         continue;
       }
       const Eigen::Vector3d direction = (world_from_sensor.linear() * tile.direction(i).cast<double>()).normalized();
@@ -146,7 +149,7 @@ void UnknownSight::follow(const Ray& ray, Chances& chances) const {
       reached *= 1.0 - (content == Content::Wanted ? options_.opaque_share : options_.opaque_beside_surface);
     }
   };
-  pass(ray.end, contents_[ray.end]);
+  pass(ray.end, content_of(ray.end));
   // The depth of the cells increases along a ray, so the walk may start anywhere before the cell behind the end.
   const auto depth_of = [&](const VoxelIndex& cell) {
     return ray.direction.dot(frame_.centre_of(cell) - ray.sensor);
@@ -160,10 +163,10 @@ void UnknownSight::follow(const Ray& ray, Chances& chances) const {
     if (!behind) {
       continue;
     }
-    if (!contents_.contains(cell) || reached < kLeastChance) {
+    if (!bounds_.contains(cell) || reached < kLeastChance) {
       break;  // the ray has left the bounding box of the map, or its probability is negligible
     }
-    const Content content = contents_[cell];
+    const Content content = content_of(cell);
     if (content == Content::Surface) {
       if (!chances.in_range(cell)) {
         return;

@@ -3,12 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <unordered_map>
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/void_tiles.hpp>
 #include <vantage/geometry/lattice_hull.hpp>
+#include <vantage/map/brick_set.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
+
+namespace vantage::detail {
+class ConnectedCells;
+}
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -28,6 +35,11 @@ class VoidTracker {
  public:
   /// Computes the void cells of the map as it is now.
   explicit VoidTracker(const OccupancyMap& map);
+  /// Moves the content.
+  VoidTracker(VoidTracker&& other) noexcept;
+  /// Moves the content.
+  VoidTracker& operator=(VoidTracker&& other) noexcept;
+  ~VoidTracker();
 
   /// Applies the changes of the map since the last call. Returns whether the hull may have changed; false means that
   /// it has not.
@@ -38,17 +50,17 @@ class VoidTracker {
   /// The number of void cells.
   [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
   /// Whether a cell is a void cell.
-  [[nodiscard]] bool contains(const VoxelIndex& cell) const;
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const { return voids_.contains(cell); }
   /// All void cells in raster order (z, then y, then x), as `void_cells`.
   [[nodiscard]] std::vector<VoxelIndex> cells() const;
-  /// All void cells in no particular order; faster than `cells`.
-  [[nodiscard]] std::vector<VoxelIndex> unordered_cells() const;
+  /// The void cells behind a frontier, in no particular order: those that are connected, through faces of void cells,
+  /// with a void cell beside one of the cells of `frontier`. Others are enclosed by known cells.
+  [[nodiscard]] std::vector<VoxelIndex> cells_behind(std::span<const VoxelIndex> frontier);
 
  private:
   struct BrickVoids {
     VoxelIndex address;
     BrickPlane inside{};  // cells inside the hull
-    BrickPlane voids{};
   };
 
   [[nodiscard]] bool has_lost_a_corner() const;
@@ -69,6 +81,10 @@ class VoidTracker {
   std::size_t cell_count_ = 0;
   std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // index in `bricks_` of each brick that the hull reaches
   std::vector<BrickVoids> bricks_;
+  BrickSet voids_;
+  std::vector<VoxelIndex> changed_;  // bricks of `voids_`, since the last `cells_behind`
+  std::unique_ptr<detail::ConnectedCells> connected_;
+  BrickSet behind_;  // result of the last `cells_behind`
 };
 
 }  // namespace vantage

@@ -269,6 +269,7 @@ class OccupancyMap {
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
+  void begin_revision();
   void grow_bounds(const VoxelBox& cells);
   void grow_bounds(const Stored& brick);
   [[nodiscard]] VoxelBox box_of_known() const;

@@ -41,8 +41,8 @@ struct SightedCell {
 /// which is a lower bound.
 class UnknownSight {
  public:
-  /// Stores the current state of the map around `wanted`, which must be unknown cells. Throws std::invalid_argument,
-  /// which names the invalid option.
+  /// `wanted` must be unknown cells of the map, which must outlive this object and not change. Throws
+  /// std::invalid_argument, which names the invalid option.
   UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted, const UnknownSightOptions& options);
 
   /// The wanted cells that a view may observe, in raster order. Cells whose centre is closer than the sensor's
@@ -57,10 +57,14 @@ class UnknownSight {
   class Chances;
   void follow(const Ray& ray, Chances& chances) const;
 
+  [[nodiscard]] Content content_of(const VoxelIndex& cell) const;
+
+  const OccupancyMap* map_;
   VoxelFrame frame_;
   UnknownSightOptions options_;
   VoxelBox wanted_box_;
-  VoxelGrid<Content> contents_;
+  VoxelBox bounds_;              // of the known cells
+  VoxelGrid<Content> contents_;  // of the wanted cells; Open elsewhere
 };
 
 }  // namespace vantage

@@ -34,7 +34,7 @@ struct UtilityVector {
 struct AccumulatedUtility {
   /// The reachable cells with a utility above 0, in raster order, and their utility in void cells.
   std::vector<std::pair<VoxelIndex, std::uint64_t>> cells = {};
-  std::uint64_t operations = 0;      ///< number of cells visited along all rays
+  std::uint64_t operations = 0;  ///< number of cells visited along all rays
 };
 
 /// Second loop of Algorithm 1: adds the utility of each ray to every reachable cell on it, between `min_range_m` and

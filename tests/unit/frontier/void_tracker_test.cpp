@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
+#include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/frontier/void_tracker.hpp>
 
@@ -92,6 +94,43 @@ TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
   EXPECT_GT(hulls_kept, 50U);
   EXPECT_GT(hulls_grown, 50U);
   EXPECT_GT(hulls_shrunk, 10U);
+}
+
+// Compares with a flood through void cells, one by one.
+TEST(VoidTracker, KnowsTheVoidCellsBehindAFrontier) {
+  std::mt19937 engine(73);
+  std::size_t behind_count = 0;
+  std::size_t enclosed = 0;
+  for (int world = 0; world < 6; ++world) {
+    OccupancyMap map({.resolution_m = 0.1});
+    VoidTracker tracker(map);
+    for (int step = 0; step < 25; ++step) {
+      change(map, step, engine);
+      tracker.update();
+      std::vector<VoxelIndex> frontier = frontier_cells(map);
+      std::erase_if(frontier, [&](const VoxelIndex&) { return step % 3 == 0 && engine() % 8 != 0; });
+      std::vector<VoxelIndex> expected;
+      std::set<VoxelIndex> met;
+      const auto meet_beside = [&](const VoxelIndex& cell) {
+        for (const VoxelIndex& by : kFaceNeighbours) {
+          if (tracker.contains(cell + by) && met.insert(cell + by).second) {
+            expected.push_back(cell + by);
+          }
+        }
+      };
+      std::for_each(frontier.begin(), frontier.end(), meet_beside);
+      for (std::size_t next = 0; next < expected.size(); ++next) {
+        meet_beside(VoxelIndex(expected[next]));
+      }
+      std::vector<VoxelIndex> behind = tracker.cells_behind(frontier);
+      std::sort(behind.begin(), behind.end());
+      ASSERT_EQ(behind, std::vector<VoxelIndex>(met.begin(), met.end())) << "world " << world << ", step " << step;
+      behind_count += behind.size();
+      enclosed += tracker.cell_count() - behind.size();
+    }
+  }
+  EXPECT_GT(behind_count, 100'000U);
+  EXPECT_GT(enclosed, 1'000U);
 }
 
 // A plane has no volume, whatever becomes known in it.

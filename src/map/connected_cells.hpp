@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vantage/geometry/voxel_table.hpp>
@@ -21,9 +20,9 @@ namespace vantage::detail {
 ///
 ///     +-- tile --------+-- tile --------+
 ///     | ##..##  group 0 ->- group 0     |     A change in a brick renews the groups of its tile and the links to
-///     |    ######################       |     the six tiles beside it. To find what is connected with a cell, only
-///     |                |                |     groups and links are visited: some per tile, whatever its cells are.
-///     | ####  group 1  |      #### group 1
+///     |    ######################       |     the six tiles beside it. To find what is connected with some cells,
+///     only |                |                |     groups and links are visited: some per tile, whatever its cells
+///     are. | ####  group 1  |      #### group 1
 ///     +----------------+----------------+
 class ConnectedCells {
  public:
@@ -31,11 +30,11 @@ class ConnectedCells {
   /// bricks that have changed since the last call.
   void update(const BrickSet& cells, std::span<const VoxelIndex> changed);
 
-  /// Finds the cells that are connected with `start`; none without a start. Calls `visit(brick address, const
-  /// BrickPlane&)` with the connected cells of a brick, at least for each brick where they differ from those of the
-  /// last call.
+  /// Finds the cells that are connected with any of `starts`; those outside the set are ignored. Calls `visit(brick
+  /// address, const BrickPlane&)` with the connected cells of a brick, at least for each brick where they differ from
+  /// those of the last call.
   template <class Visit>
-  void connect(const std::optional<VoxelIndex>& start, Visit&& visit);
+  void connect(std::span<const VoxelIndex> starts, Visit&& visit);
 
  private:
   static constexpr std::size_t kBricks = 512;  // of a tile, numbered with x fastest
@@ -59,15 +58,15 @@ class ConnectedCells {
                                 std::size_t axis, Take&& take);
   static void find_groups(const BrickSet& cells, Tile& tile);
   void find_links(Tile& tile, std::size_t axis);
-  [[nodiscard]] std::vector<std::vector<bool>> connected_with(const std::optional<VoxelIndex>& start) const;
+  [[nodiscard]] std::vector<std::vector<bool>> connected_with(std::span<const VoxelIndex> starts) const;
 
   VoxelTable<std::uint32_t> numbers_;  // of tiles, by their address in units of 64 cells
   std::vector<Tile> tiles_;
 };
 
 template <class Visit>
-void ConnectedCells::connect(const std::optional<VoxelIndex>& start, Visit&& visit) {
-  std::vector<std::vector<bool>> connected = connected_with(start);
+void ConnectedCells::connect(std::span<const VoxelIndex> starts, Visit&& visit) {
+  std::vector<std::vector<bool>> connected = connected_with(starts);
   for (std::size_t number = 0; number < tiles_.size(); ++number) {
     Tile& tile = tiles_[number];
     if (!std::exchange(tile.is_new, false) && tile.connected == connected[number]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "robot/connected_cells.hpp"
+#include "map/connected_cells.hpp"
 
 #include <algorithm>
 #include <vantage/geometry/disjoint_sets.hpp>
@@ -155,16 +155,10 @@ void ConnectedCells::find_links(Tile& tile, std::size_t axis) {
   links.erase(std::unique(links.begin(), links.end()), links.end());
 }
 
-std::vector<std::vector<bool>> ConnectedCells::connected_with(const std::optional<VoxelIndex>& start) const {
+std::vector<std::vector<bool>> ConnectedCells::connected_with(std::span<const VoxelIndex> starts) const {
   std::vector<std::size_t> first_group{0};  // of each tile, when the groups of all tiles are counted up
-  std::vector<std::vector<bool>> connected;
   for (const Tile& tile : tiles_) {
     first_group.push_back(first_group.back() + tile.groups);
-    connected.emplace_back(tile.groups, false);
-  }
-  const std::uint32_t* home = start ? numbers_.find(Brick::of_cell(Brick::of_cell(*start))) : nullptr;
-  if (home == nullptr) {
-    return connected;
   }
   DisjointSets sets(first_group.back());
   for (std::size_t number = 0; number < tiles_.size(); ++number) {
@@ -175,18 +169,27 @@ std::vector<std::vector<bool>> ConnectedCells::connected_with(const std::optiona
       }
     }
   }
-  const Tile& tile = tiles_[*home];
-  const VoxelIndex brick = Brick::of_cell(*start);
-  const auto in_tile = static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
-  const std::size_t offset = Brick::offset_of(*start);
-  for (std::size_t part = tile.first[in_tile]; part < tile.first[in_tile + 1]; ++part) {
-    if ((tile.parts[part].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
-      const std::size_t root = sets.find(first_group[*home] + tile.parts[part].group);
-      for (std::size_t number = 0; number < tiles_.size(); ++number) {
-        for (std::uint32_t group = 0; group < tiles_[number].groups; ++group) {
-          connected[number][group] = sets.find(first_group[number] + group) == root;
-        }
+  std::vector<bool> is_root(first_group.back(), false);
+  for (const VoxelIndex& start : starts) {
+    const VoxelIndex brick = Brick::of_cell(start);
+    const std::uint32_t* const number = numbers_.find(Brick::of_cell(brick));
+    const auto in_tile = static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
+    const std::size_t offset = Brick::offset_of(start);
+    if (number == nullptr) {
+      continue;
+    }
+    const Tile& tile = tiles_[*number];
+    for (std::size_t part = tile.first[in_tile]; part < tile.first[in_tile + 1]; ++part) {
+      if ((tile.parts[part].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
+        is_root[sets.find(first_group[*number] + tile.parts[part].group)] = true;
       }
+    }
+  }
+  std::vector<std::vector<bool>> connected;
+  for (std::size_t number = 0; number < tiles_.size(); ++number) {
+    std::vector<bool>& groups = connected.emplace_back(tiles_[number].groups);
+    for (std::size_t group = 0; group < groups.size(); ++group) {
+      groups[group] = is_root[sets.find(first_group[number] + group)];
     }
   }
   return connected;
