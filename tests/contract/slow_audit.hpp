@@ -81,8 +81,8 @@ struct LookedAt {
   std::map<VoxelIndex, std::set<VoxelIndex>> sought;
 };
 
-/// Unknown neighbours of free cells that the sensor could still observe and that were not looked at in vain: not in
-/// view from two cells, and not sought from four goals.
+/// Unknown neighbours of free cells that the sensor could still observe, from a place that was not the goal of a plan
+/// that sought them, and that were not looked at in vain: not in view from two cells, and not sought from four goals.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {
@@ -106,7 +106,11 @@ struct LookedAt {
     const auto is_clear = [&](const VoxelIndex& other) {
       return other == cell || (map.at(other) == Occupancy::Free && !map.contested(other));
     };
+    const auto sought = looked.sought.find(cell);
     const bool observable = std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
+      if (sought != looked.sought.end() && sought->second.contains(place)) {
+        return false;
+      }
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
       return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
@@ -127,7 +131,6 @@ struct LookedAt {
         from_cells.insert(frame.cell_of(pose.translation()));
       }
     }
-    const auto sought = looked.sought.find(cell);
     if (from_cells.size() < 2 && (sought == looked.sought.end() || sought->second.size() < 4)) {
       left.push_back(cell);
     }
