@@ -7,7 +7,7 @@
 #include <vantage/arm/arm.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
-#include <vantage/planner/tried_views.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vector>
 

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/planner/frontier_survey.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/cover_bound.hpp>
+#include <vantage/view/frontier_survey.hpp>
 #include <vantage/view/view_cover.hpp>
 
 #include "geometry/box_around.hpp"

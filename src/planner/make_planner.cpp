@@ -28,24 +28,21 @@ std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_
 
 // With an object, ObjectPlanner, unless a setting of the paper's utility is given; else NextBestViewPlanner.
 std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const PlannerSettings& settings) {
-  detail::NextBestViewSettings read;
-  detail::next_best_view_settings().read("next-best-view", settings, read);
-  detail::next_best_view_settings().validate(read);
-  const NextBestViewOptions& options = read.cells;
-  constexpr std::array<std::string_view, 7> kOfThePaper{
-      "gain", "choice", "min_unknown_cells", "min_overlap_cells", "vision_angle_deg", "min_depth_m", "max_depth_m"};
+  NextBestViewOptions options;
+  detail::next_best_view_settings().read("next-best-view", settings, options);
+  detail::next_best_view_settings().validate(options);
+  constexpr std::array<std::string_view, 4> kOfThePaper{"gain", "choice", "min_unknown_cells", "min_overlap_cells"};
   const bool as_the_paper = options.method != VisibilityMethod::Exact ||
                             std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
                                         [&](std::string_view name) { return settings.find(name) != settings.end(); });
   if (!options.object || as_the_paper) {
     return std::make_unique<NextBestViewPlanner>(setup, options);
   }
-  read.surface.object = *options.object;
-  read.surface.radii_m = options.radii_m;
-  read.surface.subdivisions = options.subdivisions;
-  read.surface.random_candidates = options.random_candidates;
-  read.surface.aimed = options.aimed;
-  return std::make_unique<ObjectPlanner>(setup, read.surface);
+  return std::make_unique<ObjectPlanner>(setup, ObjectPlannerOptions{.object = *options.object,
+                                                                     .radii_m = options.radii_m,
+                                                                     .subdivisions = options.subdivisions,
+                                                                     .random_candidates = options.random_candidates,
+                                                                     .aimed = options.aimed});
 }
 
 struct Maker {

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace vantage::detail {
@@ -126,9 +125,6 @@ const SettingTable<HarmonicOptions>& harmonic_settings() {
             "tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),
             [](O & o) -> auto& { return o.tolerance; })
         .number(
-            "max_sweeps", "sweeps", "gauss-seidel: no field takes more", within(1, 1e7),
-            [](O & o) -> auto& { return o.max_sweeps; })
-        .number(
             "uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
             at_least(0), [](O & o) -> auto& { return o.uniform_source; })
         .number(
@@ -152,10 +148,10 @@ const SettingTable<HarmonicOptions>& harmonic_settings() {
 }
 
 // NOLINTNEXTLINE(readability-function-size): a table
-const SettingTable<NextBestViewSettings>& next_best_view_settings() {
-  using O = NextBestViewSettings;
+const SettingTable<NextBestViewOptions>& next_best_view_settings() {
+  using O = NextBestViewOptions;
   static const auto table = [] {
-    auto made = with_survey<O>("NextBestViewOptions", [](O& o) -> FrontierSurveyOptions& { return o.cells.survey; });
+    auto made = with_survey<O>("NextBestViewOptions", [](O& o) -> FrontierSurveyOptions& { return o.survey; });
     std::vector<std::pair<std::string_view, RayGainMaker>> gains{{"unknown-cells", nullptr}};
     for (const std::string_view name : ray_gain_names()) {
       gains.emplace_back(name, ray_gain_named(name));
@@ -164,76 +160,48 @@ const SettingTable<NextBestViewSettings>& next_best_view_settings() {
               [](O& options, const std::string& text) {
                 const std::vector<double> c = numbers_in(text);
                 if (c.size() == 6) {
-                  options.cells.object = Box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
+                  options.object = Box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
                 }
                 return c.size() == 6;
               })
         .text("radii_m", "m", "distances of the candidates from the middle of the object",
               "numbers, with commas between them",
               [](O& options, const std::string& text) {
-                options.cells.radii_m = numbers_in(text);
-                return !options.cells.radii_m.empty();
+                options.radii_m = numbers_in(text);
+                return !options.radii_m.empty();
               })
         .number(
             "subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6),
-            [](O & o) -> auto& { return o.cells.subdivisions; })
+            [](O & o) -> auto& { return o.subdivisions; })
         .number(
             "random_candidates", "views", "drawn besides, anywhere", within(0, 1e6),
-            [](O & o) -> auto& { return o.cells.random_candidates; })
+            [](O & o) -> auto& { return o.random_candidates; })
         .number(
             "aimed_candidates", "views", "drawn besides, at unknown cells of the object", within(0, 1e6),
-            [](O & o) -> auto& { return o.cells.aimed.count; })
-        .number(
-            "aimed_min_distance_m", "m", "of these from what they are aimed at, at least", at_least(0),
-            [](O & o) -> auto& { return o.cells.aimed.min_distance_m; })
-        .number(
-            "aimed_max_distance_m", "m", "and at most", more_than(0),
-            [](O & o) -> auto& { return o.cells.aimed.max_distance_m; })
+            [](O & o) -> auto& { return o.aimed.count; })
         .number(
             "min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
-            [](O & o) -> auto& { return o.cells.min_overlap_cells; })
+            [](O & o) -> auto& { return o.min_overlap_cells; })
         .number(
             "min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
-            [](O & o) -> auto& { return o.cells.min_unknown_cells; })
+            [](O & o) -> auto& { return o.min_unknown_cells; })
         .choice(
-            "gain", "what new surface is worth", gains, [](O & o) -> auto& { return o.cells.gain; })
-        .text("vision_angle_deg", "deg", "largest incidence that the sensor measures", "a finite number",
-              [](O& o, const std::string& text) {
-                const std::vector<double> numbers = numbers_in(text);
-                o.cells.sensing.max_incidence_rad =
-                    numbers.empty() ? 0.0 : numbers.front() * std::numbers::pi / 180.0;
-                return numbers.size() == 1;
-              })
-        .number(
-            "min_depth_m", "m", "nearest that the sensor measures", at_least(0),
-            [](O & o) -> auto& { return o.cells.sensing.min_depth_m; })
-        .number(
-            "max_depth_m", "m", "furthest that the sensor measures", more_than(0),
-            [](O & o) -> auto& { return o.cells.sensing.max_depth_m; })
+            "gain", "what new surface is worth", gains, [](O & o) -> auto& { return o.gain; })
         .choice(
             "choice", "which view is taken",
             std::vector<std::pair<std::string_view, ViewChoice>>{{"cover", ViewChoice::Cover},
                                                                  {"greedy", ViewChoice::Greedy}},
-            [](O & o) -> auto& { return o.cells.choice; })
+            [](O & o) -> auto& { return o.choice; })
         .choice(
             "method", "how views are evaluated",
             std::vector<std::pair<std::string_view, VisibilityMethod>>{
                 {"default", VisibilityMethod::Exact},
                 {"uniform", VisibilityMethod::Uniform},
                 {"hierarchical", VisibilityMethod::Hierarchical}},
-            [](O & o) -> auto& { return o.cells.method; })
-        .number(
-            "hierarchical_levels", "", "levels of the hierarchical method", within(1, 16),
-            [](O & o) -> auto& { return o.cells.hierarchical_levels; })
-        .number(
-            "min_new_share", "", "a view must be expected to show this share of the surface seen so far",
-            within(0, 1), [](O & o) -> auto& { return o.surface.min_new_share; })
-        .number(
-            "near_share", "", "of views expected to show this share of the best, the nearest is taken",
-            SettingRange{0, 1, false}, [](O & o) -> auto& { return o.surface.near_share; })
+            [](O & o) -> auto& { return o.method; })
         .number(
             "hypotheses", "views", "without an object: weighed per plan", within(1, 1e6),
-            [](O & o) -> auto& { return o.cells.hypotheses; });
+            [](O & o) -> auto& { return o.hypotheses; });
     return made;
   }();
   return table;

@@ -5,17 +5,10 @@
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
-#include <vantage/planner/object_planner.hpp>
 
 #include "planner/setting_table.hpp"
 
 namespace vantage::detail {
-
-/// The settings of `next-best-view`, which is one of two planner classes.
-struct NextBestViewSettings {
-  NextBestViewOptions cells;
-  ObjectPlannerOptions surface;
-};
 
 /// One table per options struct. `make_planner` reads it, `planner_settings` lists it and most constructors validate
 /// with it.
@@ -23,6 +16,6 @@ struct NextBestViewSettings {
 [[nodiscard]] const SettingTable<FrontierGainOptions>& frontier_gain_settings();
 [[nodiscard]] const SettingTable<FrontierVoidOptions>& frontier_void_settings();
 [[nodiscard]] const SettingTable<HarmonicOptions>& harmonic_settings();
-[[nodiscard]] const SettingTable<NextBestViewSettings>& next_best_view_settings();
+[[nodiscard]] const SettingTable<NextBestViewOptions>& next_best_view_settings();
 
 }  // namespace vantage::detail

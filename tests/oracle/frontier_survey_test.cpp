@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/planner/frontier_survey.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/robot/free_flyer.hpp>
+#include <vantage/view/frontier_survey.hpp>
+#include <vantage/view/frontier_surveyor.hpp>
 
 namespace vantage {
 namespace {

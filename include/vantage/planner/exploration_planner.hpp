@@ -8,6 +8,8 @@
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
+#include <vantage/view/goal_result.hpp>
+#include <vantage/view/leftover.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -34,25 +36,6 @@ enum class Outcome : std::uint8_t {
   }
   return "blocked";
 }
-
-/// How following a plan ended. Reported by the host.
-enum class GoalResult : std::uint8_t {
-  Reached,    ///< the sensor is as close to the goal as the controller brings it, and has scanned there
-  Failed,     ///< the controller cannot reach the goal
-  Preempted,  ///< the host cancelled the goal; says nothing about whether it can be reached
-};
-
-/// Frontier cells that are no targets, by cause. The planners for an object (`next-best-view`) count unknown cells or
-/// faces of the object instead.
-struct Leftover {
-  std::size_t unreachable = 0;  ///< not close to any reachable cell
-  /// No reachable pose of this sensor has a line of sight to the unknown cells behind them.
-  std::size_t unobservable = 0;
-  std::size_t in_vain = 0;  ///< looked at from enough different places without a result (TriedViews)
-
-  /// Compares all counts.
-  friend bool operator==(const Leftover&, const Leftover&) = default;
-};
 
 /// A sensor pose and its expected utility.
 struct View {

@@ -9,11 +9,11 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/next_best_view_explorer.hpp>
-#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/aimed_views.hpp>
 #include <vantage/view/information_gain.hpp>
 #include <vantage/view/sensing_constraint.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vantage/view/view_utility.hpp>
 #include <vector>
 

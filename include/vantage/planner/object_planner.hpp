@@ -8,9 +8,9 @@
 #include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
-#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/aimed_views.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vantage/view/unseen_surface.hpp>
 #include <vector>
 

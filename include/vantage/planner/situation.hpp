@@ -7,12 +7,12 @@
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/frontier_survey.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
 #include <vantage/planner/planner_setup.hpp>
 #include <vantage/planner/target_view.hpp>
-#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/following_caster.hpp>
+#include <vantage/view/frontier_survey.hpp>
+#include <vantage/view/frontier_surveyor.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {

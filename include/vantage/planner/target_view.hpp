@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/view/frontier_survey.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {

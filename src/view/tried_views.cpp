@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/planner/tried_views.hpp>
+#include <vantage/view/tried_views.hpp>
 
 #include "map/option_rule.hpp"
 

@@ -8,10 +8,10 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/planner/frontier_survey.hpp>
-#include <vantage/planner/frontier_surveyor.hpp>
+#include <vantage/view/frontier_survey.hpp>
+#include <vantage/view/frontier_surveyor.hpp>
 
-#include "planner/sight_memory.hpp"
+#include "view/sight_memory.hpp"
 
 namespace vantage {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
-#include <vantage/planner/tried_views.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vector>
 
 namespace vantage {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planner/sight_tree.hpp"
+#include "view/sight_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

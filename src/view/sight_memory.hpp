@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "map/brick_tree.hpp"
-#include "planner/sight_tree.hpp"
+#include "view/sight_tree.hpp"
 
 namespace vantage::detail {
 

@@ -11,8 +11,8 @@
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/planner/exploration_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/view/goal_result.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {

@@ -6,11 +6,11 @@
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/tried_views.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
 #include <vantage/robot/reachable_space.hpp>
+#include <vantage/view/leftover.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "planner/sight_memory.hpp"
+#include "view/sight_memory.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <numbers>
-#include <vantage/planner/frontier_survey.hpp>
 #include <vantage/robot/free_flyer.hpp>
+#include <vantage/view/frontier_survey.hpp>
 
 namespace vantage {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <vantage/compiler.hpp>
-#include <vantage/planner/frontier_survey.hpp>
+#include <vantage/view/frontier_survey.hpp>
 #include <vector>
 
 namespace vantage::detail {
