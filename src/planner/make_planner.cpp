@@ -31,6 +31,10 @@ std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setu
   NextBestViewOptions options;
   detail::next_best_view_settings().read("next-best-view", settings, options);
   detail::next_best_view_settings().validate(options);
+  if (const double furthest_m = *std::max_element(options.radii_m.begin(), options.radii_m.end()); furthest_m > 0.0) {
+    options.aimed.min_distance_m = furthest_m / 3.0;
+    options.aimed.max_distance_m = furthest_m;
+  }
   constexpr std::array<std::string_view, 4> kOfThePaper{"gain", "choice", "min_unknown_cells", "min_overlap_cells"};
   const bool as_the_paper = options.method != VisibilityMethod::Exact ||
                             std::any_of(kOfThePaper.begin(), kOfThePaper.end(),

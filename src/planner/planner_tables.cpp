@@ -177,8 +177,8 @@ const SettingTable<NextBestViewOptions>& next_best_view_settings() {
             "random_candidates", "views", "drawn besides, anywhere", within(0, 1e6),
             [](O & o) -> auto& { return o.random_candidates; })
         .number(
-            "aimed_candidates", "views", "drawn besides, at unknown cells of the object", within(0, 1e6),
-            [](O & o) -> auto& { return o.aimed.count; })
+            "aimed_candidates", "views", "drawn besides, at unknown cells, from up to the largest radius",
+            within(0, 1e6), [](O & o) -> auto& { return o.aimed.count; })
         .number(
             "min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
             [](O & o) -> auto& { return o.min_overlap_cells; })

@@ -58,8 +58,9 @@ VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, c
   const __m128i shift = _mm_cvtsi32_si128(static_cast<std::int32_t>(cut.shift));
   const __m512i low = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from), shift);
   const __m512i high = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from + 8), shift);
-  const __m512i cells = _mm512_maskz_inserti64x4(kEight, _mm512_castsi256_si512(_mm512_maskz_cvtepi64_epi32(kEight, low)),
-                                                 _mm512_maskz_cvtepi64_epi32(kEight, high), 1);
+  const __m512i cells =
+      _mm512_maskz_inserti64x4(kEight, _mm512_castsi256_si512(_mm512_maskz_cvtepi64_epi32(kEight, low)),
+                               _mm512_maskz_cvtepi64_epi32(kEight, high), 1);
   _mm512_store_si512(to, cells);
   const auto rows = static_cast<__mmask16>((0xFFFFU << static_cast<unsigned>(cut.lo)) &
                                            (0xFFFFU >> static_cast<unsigned>(SliceWindows::kHeight - 1 - cut.hi)));

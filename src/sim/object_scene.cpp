@@ -60,13 +60,10 @@ ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, 
 }
 
 PlannerSettings planner_settings(const ObjectScene& scene) {
-  const double furthest_m = *std::max_element(scene.radii_m.begin(), scene.radii_m.end());
   const Box& box = scene.box;
   return {{"object", comma_separated({box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()})},
           {"radii_m", comma_separated(scene.radii_m)},
-          {"aimed_candidates", "320"},
-          {"aimed_min_distance_m", comma_separated({furthest_m / 3.0})},
-          {"aimed_max_distance_m", comma_separated({furthest_m})}};
+          {"aimed_candidates", "320"}};
 }
 
 Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platform& platform, std::uint64_t seed) {
