@@ -60,11 +60,10 @@ LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d
   }
 }
 
+// A sensor that looks all around horizontally sees nearly the same in every direction.
 bool LookDirections::choosable(const OccupancyMap& map, const RangeSensor& sensor) {
   constexpr double kAllAround = 2.0 * std::numbers::pi - 1e-3;
-  const bool sees_all =
-      sensor.horizontal_angle_rad() >= kAllAround && sensor.vertical_angle_rad() >= 0.5 * kAllAround;
-  return !sees_all && map.bounds().hi.z - map.bounds().lo.z > 1;
+  return sensor.horizontal_angle_rad() < kAllAround && map.bounds().hi.z - map.bounds().lo.z > 1;
 }
 
 std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {
