@@ -5,7 +5,6 @@
 #include <string>
 #include <vantage/map/occupancy_map.hpp>
 
-#include "geometry/box_around.hpp"
 #include "geometry/box_overlap.hpp"
 #include "map/option_rule.hpp"
 
@@ -158,32 +157,6 @@ OccupancyMap::Counts OccupancyMap::counts() const {
     }
   });
   return counts;
-}
-
-VoxelBox OccupancyMap::box_of_known() const {
-  constexpr std::int32_t kFar = kFurthestVoxel;
-  VoxelBox bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    const auto holds = [&](const VoxelIndex& from, std::int32_t edge) {
-      return bounds.contains(from) && bounds.contains(from + VoxelIndex{edge - 1, edge - 1, edge - 1});
-    };
-    const VoxelIndex first = Brick::first_cell(address);
-    if (holds(first, Brick::kSide)) {
-      return;
-    }
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      if (holds(first + Brick::cell_at(64 * word), Brick::kSide / 2)) {
-        continue;
-      }
-      for_each_offset(brick.known[word], word, [&](std::size_t offset) {
-        const VoxelIndex cell = first + Brick::cell_at(offset);
-        bounds.lo = {std::min(bounds.lo.x, cell.x), std::min(bounds.lo.y, cell.y), std::min(bounds.lo.z, cell.z)};
-        bounds.hi = {std::max(bounds.hi.x, cell.x + 1), std::max(bounds.hi.y, cell.y + 1),
-                     std::max(bounds.hi.z, cell.z + 1)};
-      });
-    }
-  });
-  return bounds.empty() ? VoxelBox{} : bounds;
 }
 
 // The moved-from map gets a new identity, which allocates memory and may throw.
@@ -373,34 +346,6 @@ void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t st
   brick.known[word] = state == Occupancy::Unknown ? brick.known[word] & ~bit : brick.known[word] | bit;
   brick.occupied[word] = state == Occupancy::Occupied ? brick.occupied[word] | bit : brick.occupied[word] & ~bit;
   brick.log_odds[offset] = steps;
-}
-
-void OccupancyMap::grow_bounds(const VoxelBox& cells) { bounds_ = detail::box_around(bounds_, cells); }
-
-void OccupancyMap::grow_bounds(const Stored& brick) {
-  const VoxelIndex first = Brick::first_cell(brick.address);
-  if (bounds_.contains(first) && bounds_.contains(first + VoxelIndex{7, 7, 7})) {
-    return;
-  }
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const std::uint64_t known = brick.cells.known[word];
-    if (known == 0) {
-      continue;
-    }
-    // The layers of the sub-brick that hold a known cell, for each axis.
-    VoxelBox layers{{4, 4, 4}, {0, 0, 0}};
-    for (std::int32_t i = 0; i < 4; ++i) {
-      const auto take = [i](bool holds, std::int32_t& lo, std::int32_t& hi) {
-        lo = holds ? std::min(lo, i) : lo;
-        hi = holds ? i + 1 : hi;
-      };
-      take((known & 0x1111111111111111ULL << i) != 0, layers.lo.x, layers.hi.x);
-      take((known & 0x000F000F000F000FULL << 4 * i) != 0, layers.lo.y, layers.hi.y);
-      take((known & 0x000000000000FFFFULL << 16 * i) != 0, layers.lo.z, layers.hi.z);
-    }
-    const VoxelIndex corner = first + Brick::cell_at(64 * word);
-    grow_bounds({corner + layers.lo, corner + layers.hi});
-  }
 }
 
 std::int8_t OccupancyMap::to_steps(double log_odds) const {

@@ -35,6 +35,10 @@ class VoidTracker {
  public:
   /// Computes the void cells of the map as it is now.
   explicit VoidTracker(const OccupancyMap& map);
+  /// Not copyable.
+  VoidTracker(const VoidTracker&) = delete;
+  /// Not copyable.
+  VoidTracker& operator=(const VoidTracker&) = delete;
   /// Moves the content.
   VoidTracker(VoidTracker&& other) noexcept;
   /// Moves the content.

@@ -32,6 +32,10 @@ class ReachableSpace {
   ReachableSpace(const OccupancyMap& map, const Platform& platform, const Pose& current);
   /// A space of these cells, at least one; the first one is the start. For hypothetical queries.
   ReachableSpace(const VoxelFrame& frame, const std::vector<VoxelIndex>& cells);
+  /// Not copyable.
+  ReachableSpace(const ReachableSpace&) = delete;
+  /// Not copyable.
+  ReachableSpace& operator=(const ReachableSpace&) = delete;
   /// Moves the content.
   ReachableSpace(ReachableSpace&& other) noexcept;
   /// Moves the content.
