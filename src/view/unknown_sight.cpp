@@ -99,17 +99,32 @@ UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> 
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
                          "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    const VoxelIndex first = Brick::first_cell(address);
+    if (detail::box_overlap(wanted_box_, {first, first + VoxelIndex{8, 8, 8}}).empty()) {
+      return;
+    }
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
+        if (const VoxelIndex cell = first + Brick::cell_at(offset); contents_.contains(cell)) {
+          contents_[cell] = Content::Surface;
+        }
+      });
+    }
+  });
   for (const VoxelIndex& cell : wanted) {
     const bool beside_surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const auto& step) {
-      return map.at(cell + step) == Occupancy::Occupied;
+      return content_of(cell + step) == Content::Surface;
     });
     contents_[cell] = beside_surface ? Content::WantedBesideSurface : Content::Wanted;
   }
 }
 
 UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
-  const Content content = contents_.value_or(cell, Content::Open);
-  return content == Content::Open && map_->at(cell) == Occupancy::Occupied ? Content::Surface : content;
+  if (contents_.contains(cell)) {
+    return contents_[cell];
+  }
+  return map_->at(cell) == Occupancy::Occupied ? Content::Surface : Content::Open;
 }
 
 std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,

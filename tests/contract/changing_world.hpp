@@ -69,10 +69,16 @@ struct ChangingWorld {
     }
     if (person) {
       const std::int32_t step = clock / 8 % 2 == 0 ? -1 : 1;
-      const VoxelBox next{person->lo + VoxelIndex{step, 0, 0}, person->hi + VoxelIndex{step, 0, 0}};
-      bool has_room = !is_near(next);
-      for_each_cell(next, [&](const VoxelIndex& cell) { has_room = has_room && solid.value_or(cell, 1) == 0; });
-      person = has_room ? next : *person;
+      for (const std::int32_t by : {step, -step}) {  // who meets the robot turns round
+        const VoxelBox next{person->lo + VoxelIndex{by, 0, 0}, person->hi + VoxelIndex{by, 0, 0}};
+        const bool moves_away = by > 0 ? at.x < person->lo.x : at.x >= person->hi.x;
+        bool has_room = moves_away || !is_near(next);
+        for_each_cell(next, [&](const VoxelIndex& cell) { has_room = has_room && solid.value_or(cell, 1) == 0; });
+        if (has_room) {
+          person = next;
+          break;
+        }
+      }
     }
   }
 };

@@ -64,7 +64,7 @@ class UnknownSight {
   UnknownSightOptions options_;
   VoxelBox wanted_box_;
   VoxelBox bounds_;              // of the known cells
-  VoxelGrid<Content> contents_;  // of the wanted cells; Open elsewhere
+  VoxelGrid<Content> contents_;  // of the cells in `wanted_box_`
 };
 
 }  // namespace vantage
