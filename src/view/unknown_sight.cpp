@@ -93,6 +93,7 @@ UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> 
       frame_(map.frame()),
       options_(options),
       wanted_box_(detail::box_around(wanted)),
+      extent_(wanted_box_.extent()),
       bounds_(map.bounds()),
       contents_(wanted_box_) {
   detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
@@ -121,8 +122,12 @@ UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> 
 }
 
 UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
-  if (contents_.contains(cell)) {
-    return contents_[cell];
+  const VoxelIndex at = cell - wanted_box_.lo;
+  if (at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < extent_.x && at.y < extent_.y && at.z < extent_.z) {
+    return contents_.values()[static_cast<std::size_t>(at.x) +
+                              static_cast<std::size_t>(extent_.x) *
+                                  (static_cast<std::size_t>(at.y) +
+                                   static_cast<std::size_t>(extent_.y) * static_cast<std::size_t>(at.z))];
   }
   return map_->at(cell) == Occupancy::Occupied ? Content::Surface : Content::Open;
 }

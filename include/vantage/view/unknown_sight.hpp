@@ -63,6 +63,7 @@ class UnknownSight {
   VoxelFrame frame_;
   UnknownSightOptions options_;
   VoxelBox wanted_box_;
+  VoxelIndex extent_;            // of `wanted_box_`
   VoxelBox bounds_;              // of the known cells
   VoxelGrid<Content> contents_;  // of the cells in `wanted_box_`
 };
