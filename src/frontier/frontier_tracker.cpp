@@ -23,53 +23,20 @@ void join(BrickPlane& plane, const BrickPlane& other) {
   }
 }
 
-// Dilates a plane by one cell in both directions along an axis, within the brick.
-BrickPlane grown_along(const BrickPlane& plane, std::size_t axis) {
-  constexpr BrickPlane kOutside{};
-  BrickPlane grown = plane;
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    grown[word] |= detail::from_below(plane, kOutside, detail::kAxes[axis], word) |
-                   detail::from_above(plane, kOutside, detail::kAxes[axis], word);
-  }
-  return grown;
-}
-
 BrickPlane grown(const BrickPlane& plane, Connectivity connectivity) {
+  if (connectivity == Connectivity::Face6) {
+    return detail::grown_through_faces(plane);
+  }
   BrickPlane result = plane;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const BrickPlane along = grown_along(plane, axis);
-    switch (connectivity) {
-      case Connectivity::Face6:
-        join(result, along);
-        break;
-      case Connectivity::Edge18:
-        join(result, grown_along(along, (axis + 1) % 3));
-        break;
-      case Connectivity::Corner26:
-        result = grown_along(result, axis);
-        break;
+    if (connectivity == Connectivity::Edge18) {
+      const BrickPlane along = detail::grown_along(plane, detail::kAxes[axis]);
+      join(result, detail::grown_along(along, detail::kAxes[(axis + 1) % 3]));
+    } else {
+      result = detail::grown_along(result, detail::kAxes[axis]);
     }
   }
   return result;
-}
-
-// The connected component of the first cell of `plane`.
-BrickPlane first_piece(const BrickPlane& plane, Connectivity connectivity) {
-  BrickPlane piece{};
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    if (plane[word] != 0) {
-      piece[word] = plane[word] & (~plane[word] + 1);
-      break;
-    }
-  }
-  for (BrickPlane before{}; piece != before;) {
-    before = piece;
-    piece = grown(piece, connectivity);
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      piece[word] &= plane[word];
-    }
-  }
-  return piece;
 }
 
 // The cells on the surface of a brick. Only they have neighbours in other bricks.
@@ -186,14 +153,12 @@ void FrontierTracker::replace(const Change& change, std::vector<PieceNumber>& lo
   BrickFrontier& brick = bricks_[number];
   cell_count_ += detail::size_of(change.cells) - detail::size_of(brick.cells);
   brick = {change.brick, change.cells, {}};
-  for (BrickPlane left = change.cells; detail::any(left);) {
-    const BrickPlane piece = first_piece(left, connectivity_);
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      left[word] &= ~piece[word];
-    }
-    loose.push_back({number, static_cast<std::uint32_t>(brick.pieces.size())});
-    brick.pieces.push_back({piece, {}, kNone});
-  }
+  detail::for_each_piece(
+      change.cells, [this](const BrickPlane& piece) { return grown(piece, connectivity_); },
+      [&](const BrickPlane& piece) {
+        loose.push_back({number, static_cast<std::uint32_t>(brick.pieces.size())});
+        brick.pieces.push_back({piece, {}, kNone});
+      });
   if (brick.pieces.empty()) {
     unused_bricks_.push_back(number);
     numbers_.erase(known);

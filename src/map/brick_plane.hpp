@@ -43,6 +43,51 @@ inline bool any(const BrickPlane& plane) {
   return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
 }
 
+/// A plane dilated by one cell in both directions along an axis, within the brick.
+inline BrickPlane grown_along(const BrickPlane& plane, const Axis& axis) {
+  constexpr BrickPlane kOutside{};
+  BrickPlane grown = plane;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    grown[word] |= from_below(plane, kOutside, axis, word) | from_above(plane, kOutside, axis, word);
+  }
+  return grown;
+}
+
+/// A plane dilated by the face neighbours of its cells, within the brick.
+inline BrickPlane grown_through_faces(const BrickPlane& plane) {
+  BrickPlane grown = plane;
+  for (const Axis& axis : kAxes) {
+    const BrickPlane along = grown_along(plane, axis);
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      grown[word] |= along[word];
+    }
+  }
+  return grown;
+}
+
+/// Calls `take(piece)` for each connected piece of a plane, in the order of its first cell. `grow(piece)` adds the
+/// neighbours of its cells.
+template <class Grow, class Take>
+void for_each_piece(const BrickPlane& plane, Grow&& grow, Take&& take) {
+  for (BrickPlane left = plane; any(left);) {
+    const auto first = static_cast<std::size_t>(
+        std::find_if(left.begin(), left.end(), [](std::uint64_t word) { return word != 0; }) - left.begin());
+    BrickPlane piece{};
+    piece[first] = left[first] & (~left[first] + 1);
+    for (BrickPlane before{}; piece != before;) {
+      before = piece;
+      piece = grow(piece);
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        piece[word] &= left[word];
+      }
+    }
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      left[word] &= ~piece[word];
+    }
+    take(piece);
+  }
+}
+
 /// The number of set bits of a plane.
 inline std::size_t size_of(const BrickPlane& plane) {
   std::size_t count = 0;

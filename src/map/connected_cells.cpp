@@ -16,40 +16,6 @@ constexpr std::array<std::size_t, 3> kStrides{1, 8, 64};  // between the numbers
 // Whether a brick is the last one of its tile along an axis.
 bool is_last(std::size_t brick, std::size_t axis) { return (brick / kStrides[axis] & 7U) == 7; }
 
-// The connected part of `cells` that holds a cell: grown from it until nothing is added.
-BrickPlane part_with(const BrickPlane& cells, std::size_t word, std::uint64_t bit) {
-  constexpr BrickPlane kNothing{};
-  BrickPlane part{};
-  part[word] = bit;
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (std::size_t i = 0; i < Brick::kWords; ++i) {
-      std::uint64_t grown = part[i];
-      for (const Axis& axis : kAxes) {
-        grown |= from_below(part, kNothing, axis, i) | from_above(part, kNothing, axis, i);
-      }
-      grown &= cells[i];
-      grows = grows || grown != part[i];
-      part[i] = grown;
-    }
-  }
-  return part;
-}
-
-// Calls `take(part)` for each connected part of the cells of a brick.
-template <class Take>
-void for_each_part(const BrickPlane& cells, Take&& take) {
-  BrickPlane left = cells;
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    while (left[word] != 0) {
-      const BrickPlane part = part_with(left, word, left[word] & (~left[word] + 1));
-      std::transform(left.begin(), left.end(), part.begin(), left.begin(),
-                     [](std::uint64_t all, std::uint64_t taken) { return all & ~taken; });
-      take(part);
-    }
-  }
-}
-
 // Whether a brick has a cell at its upper end along an axis.
 bool reaches_up(const BrickPlane& cells, const Axis& axis) {
   bool found = false;
@@ -116,7 +82,7 @@ void ConnectedCells::find_groups(const BrickSet& cells, Tile& tile) {
   for (std::size_t brick = 0; brick < kBricks; ++brick) {
     const auto at = static_cast<std::int32_t>(brick);
     if (const BrickPlane* held = cells.find(first + VoxelIndex{at & 7, at >> 3 & 7, at >> 6})) {
-      for_each_part(*held, [&](const BrickPlane& part) { tile.parts.push_back({part, 0}); });
+      for_each_piece(*held, grown_through_faces, [&](const BrickPlane& part) { tile.parts.push_back({part, 0}); });
     }
     tile.first[brick + 1] = static_cast<std::uint32_t>(tile.parts.size());
   }

@@ -19,11 +19,14 @@ namespace vantage::detail {
 ///     links  pairs of groups in two tiles that share a face
 ///
 ///     +-- tile --------+-- tile --------+
-///     | ##..##  group 0 ->- group 0     |     A change in a brick renews the groups of its tile and the links to
-///     |    ######################       |     the six tiles beside it. To find what is connected with some cells,
-///     only |                |                |     groups and links are visited: some per tile, whatever its cells
-///     are. | ####  group 1  |      #### group 1
+///     | ##..##  group 0 ->- group 0     |
+///     |    ######################       |
+///     |                |                |
+///     | ####  group 1  |  group 1 ####  |
 ///     +----------------+----------------+
+///
+/// A change in a brick renews the groups of its tile and the links to the six tiles beside it. To find what is
+/// connected with some cells, only groups and links are visited: a few per tile, whatever its cells are.
 class ConnectedCells {
  public:
   /// Updates the parts, groups and links. `cells`: the set, which is the same object in every call. `changed`: the
