@@ -48,7 +48,7 @@ LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d
     const double range_m = line.norm();
     if (range_m >= sensor.min_range_m && range_m <= furthest_m &&
         !situation.tried().tried_from(target.unknown, place_) &&
-        in_plain_sight(map, position, target.unknown, operations)) {
+        (target.viewpoint == place_ || in_plain_sight(map, position, target.unknown, operations))) {
       sightings_.push_back({target.unknown, line});
     }
   }

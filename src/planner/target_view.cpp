@@ -16,15 +16,17 @@ double counted_range_m(const OccupancyMap& map, const RangeSensor& sensor) {
   return std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
 }
 
-// The targets in clear line of sight within `furthest_m`, whatever the orientation.
+// The targets in clear line of sight within `furthest_m`, whatever the orientation. Those whose viewpoint this is are
+// in sight, if only in part.
 std::vector<Sighting> sightings_from(const OccupancyMap& map, const RangeSensor& sensor, const FrontierSurvey& survey,
                                      const Eigen::Vector3d& position, double furthest_m, std::uint64_t& operations) {
   std::vector<Sighting> sightings;
+  const VoxelIndex place = map.frame().cell_of(position);
   for (const FrontierTarget& target : survey.targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
     const double range_m = line.norm();
     if (range_m >= sensor.min_range_m && range_m <= furthest_m &&
-        in_plain_sight(map, position, target.unknown, operations)) {
+        (target.viewpoint == place || in_plain_sight(map, position, target.unknown, operations))) {
       sightings.push_back({target.unknown, line});
     }
   }
@@ -48,10 +50,14 @@ TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::
   const OccupancyMap& map = situation.map();
   const RangeSensor& sensor = situation.sensor();
   const double furthest_m = counted_range_m(map, sensor);
+  const VoxelIndex place = map.frame().cell_of(pose.translation());
   TargetView seen{.view = {.pose = pose}};
   for (const FrontierTarget& target : situation.survey().targets) {
-    const double range_m = (map.frame().centre_of(target.unknown) - pose.translation()).norm();
-    if (range_m <= furthest_m && sees(map, sensor, pose, target.unknown, operations)) {
+    const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - pose.translation();
+    const bool in_sight = target.viewpoint == place ? sensor.in_view(pose.linear().transpose() * line)
+                                                    : line.norm() <= furthest_m &&
+                                                          sees(map, sensor, pose, target.unknown, operations);
+    if (in_sight) {
       seen.unknown.push_back(target.unknown);
     }
   }

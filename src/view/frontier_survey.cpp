@@ -43,6 +43,20 @@ class ViewpointSearch {
         unknown, tried_.tried(unknown) || tried_.any_rests(), [&](const VoxelIndex& cell) { return passes(cell); },
         [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
+  // Searches backwards from a frontier cell for a viewpoint that sees a part of one of its unknown neighbours.
+  template <class IsSought>
+  std::optional<FrontierTarget> look_back_from(const VoxelIndex& frontier, const IsSought& is_sought) {
+    const auto seen_from = [&](const VoxelIndex& cell) {
+      return std::find_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+        return is_sought(frontier + step) && sees_a_part(cell, frontier + step);
+      });
+    };
+    const std::optional<VoxelIndex> viewpoint = memory_.look_around(
+        frontier, true, [&](const VoxelIndex& cell) { return passes(cell); },
+        [&](const VoxelIndex& cell) { return seen_from(cell) != kFaceNeighbours.end(); });
+    return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
+                     : std::nullopt;
+  }
   // Tests every reachable cell until `pairs` is used up.
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
     if (!can_be_seen(unknown)) {
@@ -56,7 +70,7 @@ class ViewpointSearch {
         return std::nullopt;
       }
       --pairs;
-      if (serves(cell, unknown)) {
+      if (sees_a_part(cell, unknown)) {
         return cell;
       }
     }
@@ -95,9 +109,29 @@ class ViewpointSearch {
   // Cheap tests first. Most pairs fail beside the unknown cell.
   bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
     return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) &&
-           VoxelRay(frame_, frame_.centre_of(viewpoint), frame_.centre_of(unknown))
-               .all_from_the_end([&](const VoxelIndex& cell) { return passes(cell) || cell == unknown; }) &&
-           can_face(viewpoint, unknown);
+           in_sight(viewpoint, unknown, frame_.centre_of(unknown)) && can_face(viewpoint, unknown);
+  }
+  // As `serves`, also where a line to the centre of a face is clear.
+  bool sees_a_part(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+    return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) && can_face(viewpoint, unknown) &&
+           (in_sight(viewpoint, unknown, frame_.centre_of(unknown)) ||
+            std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+              return faces(viewpoint, unknown, step) && clear(unknown + step) &&
+                     in_sight(viewpoint, unknown, just_inside(unknown, step));
+            }));
+  }
+  static bool faces(const VoxelIndex& viewpoint, const VoxelIndex& unknown, const VoxelIndex& step) {
+    const VoxelIndex away = viewpoint - unknown;
+    return away.x * step.x + away.y * step.y + away.z * step.z > 0;
+  }
+  // A point of the cell just behind the centre of its face towards `step`.
+  [[nodiscard]] Eigen::Vector3d just_inside(const VoxelIndex& cell, const VoxelIndex& step) const {
+    return frame_.centre_of(cell) + 0.49 * frame_.size_m * Eigen::Vector3d(step.x, step.y, step.z);
+  }
+  bool in_sight(const VoxelIndex& viewpoint, const VoxelIndex& unknown, const Eigen::Vector3d& point) {
+    return VoxelRay(frame_, frame_.centre_of(viewpoint), point).all_from_the_end([&](const VoxelIndex& cell) {
+      return passes(cell) || cell == unknown;
+    });
   }
   // Whether a line of sight from `viewpoint` can enter `unknown` through a clear neighbour on its side.
   bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
@@ -212,6 +246,16 @@ FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const Tri
   std::erase_if(hidden, [&](const VoxelIndex& cell) {
     return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
   });
+  if (survey.targets.empty()) {
+    const auto sought = [&](const VoxelIndex& unknown) { return is_sought(map, unknown, tried); };
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
+      if (target) {
+        survey.targets.push_back(*target);
+      }
+      return target.has_value();
+    });
+  }
   memory_->forget_others();
   if (survey.targets.empty()) {
     // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too

@@ -75,14 +75,19 @@ template <class Clear>
   return places;
 }
 
-/// What a host knows about a run: the poses of its scans, and for each cell the goals from which it was sought.
+/// What a host knows about a run: its scans, and for each cell the goals from which it was sought.
 struct LookedAt {
-  std::vector<Pose> poses;
+  struct Look {
+    Pose pose;
+    OccupancyMap map;  // after the scan
+  };
+  std::vector<Look> looks;
   std::map<VoxelIndex, std::set<VoxelIndex>> sought;
 };
 
-/// Unknown neighbours of free cells that the sensor could still observe, from a place that was not the goal of a plan
-/// that sought them, and that were not looked at in vain: not in view from two cells, and not sought from four goals.
+/// Unknown neighbours of free cells whose centre, or the centre of one of whose faces, the sensor could still see, from
+/// a place that was not the goal of a plan that sought them, and that were not looked at in vain: not in view from two cells, and not in view or sought from
+/// four cells together.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {
@@ -113,25 +118,32 @@ struct LookedAt {
       }
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
+      const auto in_sight = [&](const Eigen::Vector3d& point) { return touches_only(frame, from, point, is_clear); };
       return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
-             platform.admits(map, facing) && touches_only(frame, from, centre, is_clear);
+             platform.admits(map, facing) &&
+             (in_sight(centre) ||
+              std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+                const Eigen::Vector3d out(step.x, step.y, step.z);
+                return out.dot(from - centre) > 0.0 && in_sight(centre + 0.49 * frame.size_m * out);
+              }));
     });
     if (!observable) {
       continue;
     }
     std::set<VoxelIndex> from_cells;
-    for (const Pose& pose : looked.poses) {
+    for (const auto& [pose, then] : looked.looks) {
       const Eigen::Vector3d line = centre - pose.translation();
       const auto passes = [&](const VoxelIndex& other) {
         const VoxelIndex d = other - cell;
-        return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1 || is_clear(other);
+        return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1 || then.is_clear(other);
       };
       if (in_range(line) && sensor.in_view(pose.linear().transpose() * line) &&
           touches_only(frame, pose.translation(), centre, passes)) {
         from_cells.insert(frame.cell_of(pose.translation()));
       }
     }
-    if (from_cells.size() < 2 && (sought == looked.sought.end() || sought->second.size() < 4)) {
+    const std::size_t goals = sought == looked.sought.end() ? 0 : sought->second.size();
+    if (from_cells.size() < 2 && from_cells.size() + goals < 4) {
       left.push_back(cell);
     }
   }

@@ -226,6 +226,78 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   EXPECT_GT(resting, 10U);
 }
 
+// Whether a line from `viewpoint` to the centre of a face of `unknown`, a hair inside, is clear.
+bool sees_a_face(const SurveyedWorld& world, const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+  const VoxelFrame& frame = world.map.frame();
+  const Eigen::Vector3d from = frame.centre_of(viewpoint);
+  const Eigen::Vector3d line = frame.centre_of(unknown) - from;
+  const auto is_clear_to = [&](const VoxelIndex& step) {
+    const Eigen::Vector3d out(step.x, step.y, step.z);
+    if (out.dot(line) >= 0.0) {
+      return false;  // the face looks away
+    }
+    for (const VoxelIndex& cell : VoxelRay(frame, from, frame.centre_of(unknown) + 0.49 * frame.size_m * out)) {
+      if (cell != unknown && !world.map.is_clear(cell)) {
+        return false;
+      }
+    }
+    return true;
+  };
+  return line.norm() >= world.sensor.min_range_m && line.norm() <= world.sensor.max_range_m &&
+         !world.tried.tried_from(unknown, viewpoint) &&
+         (world.flyer.can_tilt() ||
+          world.sensor.in_view(world.flyer.facing(from, line).linear().transpose() * line)) &&
+         std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), is_clear_to);
+}
+
+TEST(FrontierSurvey, TakesCellsSeenInPartWhenNoOthersAreLeft) {
+  std::mt19937 engine(89);
+  std::size_t seen_in_part = 0;
+  std::size_t ended = 0;
+  for (int i = 0; i < 24; ++i) {
+    SurveyedWorld world = random_world(engine);
+    world.map.set_log_odds(VoxelBox{{-3, -3, -3}, {4, 4, 4}}, 3.0);  // bars around the sensor
+    world.map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);
+    for_each_cell(VoxelBox{{-3, -3, -3}, {4, 4, 4}}, [&](const VoxelIndex& cell) {
+      if (engine() % 40 == 0) {
+        world.map.set(cell, Occupancy::Free);
+      }
+    });
+    const std::vector<VoxelIndex> places = ReachableSpace(world.map, world.flyer, world.current).cells();
+    std::vector<VoxelIndex> left;
+    world.tried.review(world.map, world.current);
+    for (const VoxelIndex& frontier : frontier_cells(world.map)) {
+      for (const VoxelIndex& step : kFaceNeighbours) {
+        const VoxelIndex unknown = frontier + step;
+        if (!world.map.in_region(unknown) || world.map.at(unknown) != Occupancy::Unknown) {
+          continue;
+        }
+        if (std::any_of(places.begin(), places.end(),
+                        [&](const VoxelIndex& place) { return serves(world, place, unknown); })) {
+          world.tried.in_vain(world.map, unknown, unknown + VoxelIndex{900, 0, 0});
+          world.tried.in_vain(world.map, unknown, unknown - VoxelIndex{900, 0, 0});
+        } else if (!world.tried.gave_up(unknown)) {
+          left.push_back(unknown);
+        }
+      }
+    }
+    const bool expected = std::any_of(left.begin(), left.end(), [&](const VoxelIndex& unknown) {
+      return std::any_of(places.begin(), places.end(),
+                         [&](const VoxelIndex& place) { return sees_a_face(world, place, unknown); });
+    });
+    const FrontierSurvey survey =
+        survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
+    EXPECT_EQ(survey.targets.empty(), !expected) << "world " << i;
+    for (const FrontierTarget& target : survey.targets) {
+      EXPECT_TRUE(sees_a_face(world, target.viewpoint, target.unknown)) << "world " << i;
+    }
+    seen_in_part += survey.targets.size();
+    ended += survey.targets.empty() ? 1U : 0U;
+  }
+  EXPECT_GT(seen_in_part, 40U);
+  EXPECT_GT(ended, 2U);
+}
+
 FrontierSurvey survey_from_nothing(const SurveyedWorld& world) {
   return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
 }
