@@ -35,7 +35,8 @@ void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const OccupancyMap& m
     views[i].void_cells = 0.0;
     views[i].hoped.clear();
     const VoxelIndex place = map.frame().cell_of(views[i].pose.translation());
-    for (const SightedCell& seen : sight.look(caster, views[i].pose, rays)) {
+    std::uint64_t operations = 0;
+    for (const SightedCell& seen : sight.look(caster, views[i].pose, rays, operations)) {
       if (!tried_.gave_up(seen.cell) && !tried_.tried_from(seen.cell, place)) {
         views[i].void_cells += seen.chance;
         views[i].hoped.push_back(seen.cell);

@@ -155,9 +155,10 @@ double FrontierVoidPlanner::discounted(double utility, double way_m) const {
 }
 
 // The void cells that count for a view: not given up, and not looked at in vain from its place.
-std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays) const {
+std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays,
+                                                              std::uint64_t& operations) const {
   const VoxelIndex place = situation().caster().frame().cell_of(view.translation());
-  std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays);
+  std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays, operations);
   const TriedViews& tried = situation().tried();
   if (tried.size() > 0) {
     std::erase_if(
@@ -168,14 +169,19 @@ std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, 
 
 // Counts the void cells of each view and sorts the views, best first.
 std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vector<Candidate> candidates,
-                                                                      const ViewRays& rays) const {
+                                                                      const ViewRays& rays,
+                                                                      std::uint64_t& operations) const {
   (void)situation().caster();  // updates the caster before several threads use it
   detail::share_work(candidates.size(), static_cast<std::size_t>(situation().setup().threads), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
-    candidate.void_cells = expected(void_cells_seen(candidate.pose, rays));
+    candidate.operations = 0;
+    candidate.void_cells = expected(void_cells_seen(candidate.pose, rays, candidate.operations));
     candidate.value = discounted(static_cast<double>(candidate.void_cells),
                                  (candidate.pose.translation() - situation().current().translation()).norm());
   });
+  for (const Candidate& candidate : candidates) {
+    operations += candidate.operations;
+  }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
   return candidates;
@@ -201,10 +207,10 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
   std::vector<Candidate> candidates(views.size());
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{pose}; });
   if (views.size() > options_.strategy.finalists) {
-    candidates = rank(std::move(candidates), *sparse_rays_);
+    candidates = rank(std::move(candidates), *sparse_rays_, plan.statistics.ray_operations);
     candidates.resize(options_.strategy.finalists);
   }
-  candidates = rank(std::move(candidates), situation().rays());
+  candidates = rank(std::move(candidates), situation().rays(), plan.statistics.ray_operations);
   refine(candidates, plan.statistics);
   const std::size_t least = least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
   std::optional<ChosenView> best;
@@ -231,7 +237,8 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
     }
   }
   if (best) {
-    for (const SightedCell& one : void_cells_seen(best->view.view.pose, situation().rays())) {
+    for (const SightedCell& one :
+         void_cells_seen(best->view.view.pose, situation().rays(), plan.statistics.ray_operations)) {
       (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
     }
     plan.candidates.clear();
@@ -249,7 +256,8 @@ std::optional<ChosenView> FrontierVoidPlanner::nearest_frontier(PlanStatistics& 
                  [](const FrontierTarget& target) { return target.viewpoint; });
   const GridPaths ways(situation().reachable());
   for (const double detour_m : {0.0, std::numeric_limits<double>::max()}) {
-    for (const VoxelIndex& viewpoint : ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m())) {
+    for (const VoxelIndex& viewpoint :
+         ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m()).goals) {
       const auto target = std::find_if(targets.begin(), targets.end(),
                                        [&](const FrontierTarget& one) { return one.viewpoint == viewpoint; });
       TargetView view = view_of_target(situation(), *target, statistics.ray_operations);

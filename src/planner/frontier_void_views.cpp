@@ -167,7 +167,7 @@ std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) co
                  [](const FrontierTarget* target) { return target->viewpoint; });
   std::vector<const FrontierTarget*> near;
   for (const VoxelIndex& viewpoint :
-       GridPaths(situation().reachable()).nearest_within(viewpoints, kNearM, map.resolution_m())) {
+       GridPaths(situation().reachable()).nearest_within(viewpoints, kNearM, map.resolution_m()).goals) {
     near.push_back(*std::find_if(targets.begin(), targets.end(),
                                  [&](const FrontierTarget* target) { return target->viewpoint == viewpoint; }));
   }
@@ -192,7 +192,7 @@ void FrontierVoidPlanner::refine(std::vector<Candidate>& candidates, PlanStatist
       continue;
     }
     ++statistics.views_scored;
-    const std::vector<Candidate> counted = rank({Candidate{view}}, situation().rays());
+    const std::vector<Candidate> counted = rank({Candidate{view}}, situation().rays(), statistics.ray_operations);
     if (counted.front().value > candidates.front().value) {
       candidates.insert(candidates.begin(), counted.front());
     }

@@ -101,11 +101,11 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   }
   std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
   if (!wanted) {  // otherwise the sensor looks from where it is
-    const std::vector<VoxelIndex> drawing = sinks();
-    if (strategy.shortest_way && drawing.size() == 1) {  // descent would end there from everywhere
-      way = GridPaths(situation().reachable()).to(drawing.front());
+    NearGoals drawing = sinks();
+    if (strategy.shortest_way && drawing.goals.size() == 1) {  // descent would end there from everywhere
+      way = GridPaths(situation().reachable()).to(drawing.goals.front());
     } else {
-      solve(drawing, plan.statistics);
+      solve(std::move(drawing), plan.statistics);
       way = way_down();
       if (strategy.shortest_way) {
         way = GridPaths(situation().reachable()).to(way.back());
@@ -200,18 +200,20 @@ FrontierTarget HarmonicPlanner::first_look(const std::vector<VoxelIndex>& way, s
   return wanted;
 }
 
-// The viewpoints that are sinks: all, or those within detour_m of the nearest.
-std::vector<VoxelIndex> HarmonicPlanner::sinks() const {
+// The sinks and the domain of the field: all viewpoints and the reachable space, or the viewpoints within detour_m of
+// the nearest, and the cells that are nearer than these.
+NearGoals HarmonicPlanner::sinks() const {
+  const ReachableSpace& reachable = situation().reachable();
   std::vector<VoxelIndex> cells = viewpoints(situation().survey());
   return std::isinf(options_.strategy.detour_m)
-             ? cells
-             : GridPaths(situation().reachable())
-                   .nearest_within(cells, options_.strategy.detour_m, situation().map().resolution_m());
+             ? NearGoals{std::move(cells), reachable.cells()}
+             : GridPaths(reachable).nearest_within(cells, options_.strategy.detour_m,
+                                                   situation().map().resolution_m());
 }
 
-void HarmonicPlanner::solve(const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics) {
-  const ReachableSpace& reachable = situation().reachable();
-  field_.emplace(HarmonicField{LaplaceProblem(reachable.cells(), sinks, *reachable.start()), {}, {}, {}, 0, true});
+void HarmonicPlanner::solve(NearGoals drawing, PlanStatistics& statistics) {
+  field_.emplace(HarmonicField{
+      LaplaceProblem(std::move(drawing.met), drawing.goals, *situation().reachable().start()), {}, {}, {}, 0, true});
   if (options_.solver == FieldSolver::Multigrid) {
     solve_by_multigrid();
   } else {

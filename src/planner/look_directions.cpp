@@ -39,7 +39,10 @@ std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eige
 }  // namespace
 
 LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d& position, std::uint64_t& operations)
-    : situation_(situation), position_(position), place_(situation.map().frame().cell_of(position)) {
+    : situation_(situation),
+      position_(position),
+      place_(situation.map().frame().cell_of(position)),
+      operations_(operations) {
   const OccupancyMap& map = situation.map();
   const RangeSensor& sensor = situation.sensor();
   const double furthest_m = std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
@@ -79,7 +82,10 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
   }
   (void)situation_.caster();  // updates the caster before several threads use it
   share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
-             [&](std::size_t i) { looks[i].cells = expected_cells(looks[i].seen.view.pose); });
+             [&](std::size_t i) { count_expected_cells(looks[i]); });
+  for (const Look& look : looks) {
+    operations_ += look.operations;
+  }
   const auto best = std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
     return a.cells != b.cells ? a.cells < b.cells : a.seen.unknown.size() < b.seen.unknown.size();
   });
@@ -97,15 +103,14 @@ TargetView LookDirections::targets_in_view(const Pose& pose) const {
   return seen;
 }
 
-double LookDirections::expected_cells(const Pose& pose) const {
-  double cells = 0.0;
-  for (const SightedCell& seen : sight_->look(situation_.caster(), pose, situation_.rays())) {
+void LookDirections::count_expected_cells(Look& look) const {
+  for (const SightedCell& seen :
+       sight_->look(situation_.caster(), look.seen.view.pose, situation_.rays(), look.operations)) {
     if (!situation_.tried().tried_from(seen.cell, place_) && !situation_.tried().gave_up(seen.cell) &&
         !was_in_view(seen.cell)) {
-      cells += seen.chance;
+      look.cells += seen.chance;
     }
   }
-  return cells;
 }
 
 // Whether the cell was in the field of view of a scan from this place, which did not resolve it.

@@ -13,8 +13,9 @@ namespace vantage::detail {
 
 /// A view and its expected gain.
 struct Look {
-  TargetView seen;     ///< the view and the targets that it sees
-  double cells = 0.0;  ///< expected number of unknown cells that it resolves (UnknownSight)
+  TargetView seen;               ///< the view and the targets that it sees
+  double cells = 0.0;            ///< expected number of unknown cells that it resolves (UnknownSight)
+  std::uint64_t operations = 0;  ///< cells on its rays
 };
 
 /// Chooses the orientation of a sensor with a limited field of view at a given place: among directions spread over
@@ -22,7 +23,7 @@ struct Look {
 /// target count.
 class LookDirections {
  public:
-  /// For the place `position` (metres, world). Adds the number of cells visited by lines of sight to `operations`.
+  /// For the place `position` (metres, world). Adds the number of cells visited by rays to `operations`, also later.
   LookDirections(const Situation& situation, const Eigen::Vector3d& position, std::uint64_t& operations);
 
   /// The best view. With `wanted`, only views that see this cell; it must be in sight from here. None if there is no
@@ -39,7 +40,7 @@ class LookDirections {
     Eigen::Vector3d line;  // from position_ to the centre of the cell, metres, world
   };
   [[nodiscard]] TargetView targets_in_view(const Pose& pose) const;
-  [[nodiscard]] double expected_cells(const Pose& pose) const;
+  void count_expected_cells(Look& look) const;
   [[nodiscard]] bool was_in_view(const VoxelIndex& cell) const;
 
   const Situation& situation_;
@@ -47,6 +48,7 @@ class LookDirections {
   VoxelIndex place_;
   std::vector<Sighting> sightings_;
   std::optional<UnknownSight> sight_;
+  std::uint64_t& operations_;
 };
 
 }  // namespace vantage::detail

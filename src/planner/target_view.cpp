@@ -54,9 +54,9 @@ TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::
   TargetView seen{.view = {.pose = pose}};
   for (const FrontierTarget& target : situation.survey().targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - pose.translation();
-    const bool in_sight = target.viewpoint == place ? sensor.in_view(pose.linear().transpose() * line)
-                                                    : line.norm() <= furthest_m &&
-                                                          sees(map, sensor, pose, target.unknown, operations);
+    const bool in_sight = target.viewpoint == place
+                              ? sensor.in_view(pose.linear().transpose() * line)
+                              : line.norm() <= furthest_m && sees(map, sensor, pose, target.unknown, operations);
     if (in_sight) {
       seen.unknown.push_back(target.unknown);
     }

@@ -81,15 +81,17 @@ std::uint32_t bound(const VoxelIndex& from, const VoxelIndex& to) {
   return kStepCost[3] * d[0] + kStepCost[2] * (d[1] - d[0]) + kStepCost[1] * (d[2] - d[1]);
 }
 
+struct Met {
+  VoxelIndex cell;
+  std::uint32_t cost;
+  std::uint32_t before;  // number of the cell before it
+};
+
 // Best-first search from the start of the space until `is_goal(cell, cost)`. `heuristic` must not overestimate.
+// `met` receives the cells that it meets, by number.
 template <class IsGoal, class Heuristic>
-std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, Heuristic&& heuristic) {
-  struct Met {
-    VoxelIndex cell;
-    std::uint32_t cost;
-    std::uint32_t before;  // number of the cell before it
-  };
-  std::vector<Met> met;                                   // by number
+std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, Heuristic&& heuristic,
+                               std::vector<Met>& met) {
   using Entry = std::pair<std::uint32_t, std::uint32_t>;  // cost + heuristic, number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   MetCells number_of(space);
@@ -182,17 +184,18 @@ std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platform, co
 
 std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals) const {
   const BrickSet wanted = marked(goals);
+  std::vector<Met> met;
   return search(
       space_, [&](const VoxelIndex& cell, std::uint32_t) { return wanted.contains(cell); },
-      [](const VoxelIndex&) { return 0U; });
+      [](const VoxelIndex&) { return 0U; }, met);
 }
 
-std::vector<VoxelIndex> GridPaths::nearest_within(std::span<const VoxelIndex> goals, double detour_m,
-                                                  double cell_m) const {
-  std::vector<VoxelIndex> near;
+NearGoals GridPaths::nearest_within(std::span<const VoxelIndex> goals, double detour_m, double cell_m) const {
+  NearGoals near;
   const BrickSet wanted = marked(goals);
   const double detour = std::min(1000.0 * detour_m / cell_m, 4e9);
   double furthest = 5e9;
+  std::vector<Met> met;
   (void)search(
       space_,
       [&](const VoxelIndex& cell, std::uint32_t cost) {
@@ -200,12 +203,14 @@ std::vector<VoxelIndex> GridPaths::nearest_within(std::span<const VoxelIndex> go
           return true;
         }
         if (wanted.contains(cell)) {
-          furthest = near.empty() ? cost + detour : furthest;
-          near.push_back(cell);
+          furthest = near.goals.empty() ? cost + detour : furthest;
+          near.goals.push_back(cell);
         }
         return false;
       },
-      [](const VoxelIndex&) { return 0U; });
+      [](const VoxelIndex&) { return 0U; }, met);
+  near.met.resize(met.size());
+  std::transform(met.begin(), met.end(), near.met.begin(), [](const Met& one) { return one.cell; });
   return near;
 }
 
@@ -213,9 +218,10 @@ std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) const {
   if (!space_.contains(goal)) {
     return {};
   }
+  std::vector<Met> met;
   return search(
       space_, [&](const VoxelIndex& cell, std::uint32_t) { return cell == goal; },
-      [&](const VoxelIndex& cell) { return bound(cell, goal); });
+      [&](const VoxelIndex& cell) { return bound(cell, goal); }, met);
 }
 
 std::optional<std::vector<Pose>> poses_along(const OccupancyMap& map, const Platform& platform, const Pose& from,

@@ -14,6 +14,13 @@ namespace {
 // Smaller probabilities are neglected.
 constexpr double kLeastChance = 0.01;
 
+// The number of cells that a ray from one cell to the other visits, both included.
+std::uint64_t cells_between(const VoxelIndex& a, const VoxelIndex& b) {
+  const VoxelIndex d = b - a;
+  return static_cast<std::uint64_t>(std::abs(d.x)) + static_cast<std::uint64_t>(std::abs(d.y)) +
+         static_cast<std::uint64_t>(std::abs(d.z)) + 1;
+}
+
 }  // namespace
 
 // A ray that ends in an unknown cell, with its continuation.
@@ -62,7 +69,8 @@ class UnknownSight::Chances {
     VoxelIndex cell;
     double reached;  // probability that the ray reaches it
   };
-  std::vector<Passed> on_ray;  // scratch memory of `follow`
+  std::vector<Passed> on_ray;    // scratch memory of `follow`
+  std::uint64_t operations = 0;  // cells on the rays so far
 
  private:
   static constexpr double kWhole = 65535.0;
@@ -133,7 +141,7 @@ UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
 }
 
 std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,
-                                            const ViewRays& rays) const {
+                                            const ViewRays& rays, std::uint64_t& operations) const {
   std::vector<RayEnd> ends(rays.size());
   caster.cast(world_from_sensor, rays, ends);
   const Eigen::Vector3d sensor = world_from_sensor.translation();
@@ -143,11 +151,13 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
   if (box.empty()) {
     return {};
   }
+  const VoxelIndex here = frame_.cell_of(sensor);
   Chances chances(box, sensor, rays.min_range_m(), frame_);
   for (const RayTile& tile : rays.tiles()) {
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const RayEnd& end = ends[tile.ray[i]];
+      chances.operations += cells_between(here, end.cell);
       if (end.occupancy != Occupancy::Unknown || content_of(end.cell) == Content::Open) {
         continue;
       }
@@ -155,6 +165,7 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
       follow({sensor, direction, end.cell, rays.max_range_m()}, chances);
     }
   }
+  operations += chances.operations;
   return chances.cells();
 }
 
@@ -183,6 +194,7 @@ void UnknownSight::follow(const Ray& ray, Chances& chances) const {
     if (!behind) {
       continue;
     }
+    ++chances.operations;
     if (!bounds_.contains(cell) || reached < kLeastChance) {
       break;  // the ray has left the bounding box of the map, or its probability is negligible
     }

@@ -314,8 +314,8 @@ class DrivenRobot {
       return world_.solid.value_or(cell, 1) == 0 && world_.is_solid(cell);
     });
   }
-  // Counts the pose if the sphere of the body overlaps a static solid cell. A ray through the edge of a solid cell may
-  // clear it in the map; then the map is wrong, not the plan.
+  // Counts the pose if the sphere of the body overlaps a static solid cell. A ray through the edge of a solid cell
+  // may clear it in the map; then the map is wrong, not the plan.
   void count_collision(const Pose& pose) {
     if (collides(pose, [](const VoxelIndex&) { return true; })) {
       ++(collides(pose, [&](const VoxelIndex& cell) { return map_.at(cell) != Occupancy::Free; }) ? collisions
@@ -352,7 +352,8 @@ class DrivenRobot {
       there.translation() = world_.frame.centre_of({static_cast<std::int32_t>(draw(1.0, extent.x - 1.0)),
                                                     static_cast<std::int32_t>(draw(1.0, extent.y - 1.0)),
                                                     scene_.flat ? 0 : static_cast<std::int32_t>(draw(2.0, 5.0))});
-      if (!collides(there, [](const VoxelIndex&) { return true; }) && !world_.is_solid(world_.frame.cell_of(there.translation()))) {
+      if (!collides(there, [](const VoxelIndex&) { return true; }) &&
+          !world_.is_solid(world_.frame.cell_of(there.translation()))) {
         pose_ = there;
         assume_free(map_, *platform_, pose_);
         return;

@@ -85,9 +85,9 @@ struct LookedAt {
   std::map<VoxelIndex, std::set<VoxelIndex>> sought;
 };
 
-/// Unknown neighbours of free cells whose centre, or the centre of one of whose faces, the sensor could still see, from
-/// a place that was not the goal of a plan that sought them, and that were not looked at in vain: not in view from two cells, and not in view or sought from
-/// four cells together.
+/// Unknown neighbours of free cells whose centre, or the centre of one of whose faces, the sensor could still see,
+/// from a place that was not the goal of a plan that sought them, and that were not looked at in vain: not in view
+/// from two cells, and not in view or sought from four cells together.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {

@@ -127,11 +127,13 @@ class FrontierVoidPlanner final : public FrontierPlanner {
     Pose pose;
     std::size_t void_cells = 0;
     double value = 0.0;
+    std::uint64_t operations = 0;  // cells on its rays
   };
 
   void prepare(Plan& plan) override;
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
-  [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays) const;
+  [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays,
+                                                         std::uint64_t& operations) const;
   void extract();
   void accumulate(PlanStatistics& statistics);
   [[nodiscard]] std::vector<Pose> sample_views(PlanStatistics& statistics) const;
@@ -140,7 +142,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   [[nodiscard]] std::vector<Pose> near_views(PlanStatistics& statistics) const;
   [[nodiscard]] std::vector<Pose> views_of_voids(PlanStatistics& statistics) const;
   [[nodiscard]] double discounted(double utility, double way_m) const;
-  [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays) const;
+  [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
+                                            std::uint64_t& operations) const;
   void refine(std::vector<Candidate>& candidates, PlanStatistics& statistics) const;
   [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
   [[nodiscard]] std::optional<std::vector<Pose>> way_to(const Pose& view) const;

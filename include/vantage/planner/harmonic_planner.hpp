@@ -11,6 +11,7 @@
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/planner/frontier_planner.hpp>
+#include <vantage/robot/grid_path.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -26,7 +27,8 @@ enum class FieldSolver : std::uint8_t {
 /// What HarmonicPlanner does beyond the paper or differently. docs/results.md shows the effect of each part.
 struct HarmonicStrategy {
   /// A sink whose path is longer than that to the nearest sink by more than this waits for a later plan, metres, >=
-  /// 0. So nearby frontiers are finished first. Infinity: all frontiers are sinks.
+  /// 0. So nearby frontiers are finished first, and the field covers only the cells that are nearer than its sinks.
+  /// Infinity: all frontiers are sinks, and the field covers the reachable space.
   double detour_m = 0.2;
   /// True: looks from the first cell of the path that sees the target frontier, not from its end.
   bool look_early = true;
@@ -80,10 +82,10 @@ struct HarmonicField {
 ///     #        . . . . . . . .  o      .  streamline: follows -grad phi to one sink
 ///     ###########################
 ///
-/// The sensor of the paper is a point. Here the domain is the reachable space of the platform, and a frontier cell is
-/// represented by the reachable cell from which its unknown neighbour is observed (FrontierSurvey). A streamline is
-/// used only if it is known to end at a sink. docs/harmonic.md lists where each equation is implemented. (Shade &
-/// Newman 2011.)
+/// The sensor of the paper is a point. Here the domain lies in the reachable space of the platform, and a frontier
+/// cell is represented by the reachable cell from which its unknown neighbour is observed (FrontierSurvey). A
+/// streamline is used only if it is known to end at a sink. docs/harmonic.md lists where each equation is
+/// implemented. (Shade & Newman 2011.)
 class HarmonicPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.
@@ -100,11 +102,11 @@ class HarmonicPlanner final : public FrontierPlanner {
  private:
   void prepare(Plan& plan) override;
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
-  void solve(const std::vector<VoxelIndex>& sinks, PlanStatistics& statistics);
+  void solve(NearGoals drawing, PlanStatistics& statistics);
   void solve_by_multigrid();
   void relax();
   [[nodiscard]] std::vector<VoxelIndex> way_down();
-  [[nodiscard]] std::vector<VoxelIndex> sinks() const;
+  [[nodiscard]] NearGoals sinks() const;
   [[nodiscard]] bool can_look(const FrontierTarget& target, const VoxelIndex& from, std::uint64_t& operations) const;
   [[nodiscard]] FrontierTarget first_look(const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
   [[nodiscard]] std::optional<TargetView> look_again(std::uint64_t& operations) const;

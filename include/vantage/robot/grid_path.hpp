@@ -10,6 +10,14 @@
 
 namespace VANTAGE_EXPORT vantage {
 
+/// The goals of a search that are about as near as the nearest one.
+struct NearGoals {
+  std::vector<VoxelIndex> goals;  ///< without duplicates, nearest first
+  /// The cells that the search has met: those with a path that is at most `detour_m` longer than that to the nearest
+  /// goal, and their neighbours.
+  std::vector<VoxelIndex> met;
+};
+
 /// Shortest paths through the cells of a ReachableSpace. A step leads to one of the 26 neighbours and cuts no corner:
 /// all cells of the 1 x 2 x 2 or 2 x 2 x 2 block that it crosses must be reachable. Ties are broken by the order in
 /// which the search meets the cells, so the result is deterministic.
@@ -20,10 +28,9 @@ class GridPaths {
 
   /// The path to the nearest of `goals`, both ends included (Dijkstra). Empty if no goal is reachable.
   [[nodiscard]] std::vector<VoxelIndex> to_nearest(std::span<const VoxelIndex> goals) const;
-  /// The goals whose path is at most `detour_m` metres longer than the path to the nearest one, without duplicates,
-  /// nearest first. `cell_m` is the edge of a cell, metres. Empty if no goal is reachable.
-  [[nodiscard]] std::vector<VoxelIndex> nearest_within(std::span<const VoxelIndex> goals, double detour_m,
-                                                       double cell_m) const;
+  /// The goals whose path is at most `detour_m` metres longer than the path to the nearest one. `cell_m` is the edge
+  /// of a cell, metres. No goals if none is reachable.
+  [[nodiscard]] NearGoals nearest_within(std::span<const VoxelIndex> goals, double detour_m, double cell_m) const;
   /// The path to one cell, both ends included (A*). Empty if the cell is not reachable.
   [[nodiscard]] std::vector<VoxelIndex> to(const VoxelIndex& goal) const;
 

@@ -46,10 +46,10 @@ class UnknownSight {
   UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted, const UnknownSightOptions& options);
 
   /// The wanted cells that a view may observe, in raster order. Cells whose centre is closer than the sensor's
-  /// minimum range are passed but not returned. `caster` must show the same map in the same state. Errors as
-  /// RayCaster::cast.
+  /// minimum range are passed but not returned. `caster` must show the same map in the same state. Adds the number of
+  /// cells on the rays to `operations`. Errors as RayCaster::cast.
   [[nodiscard]] std::vector<SightedCell> look(const RayCaster& caster, const Pose& world_from_sensor,
-                                              const ViewRays& rays) const;
+                                              const ViewRays& rays, std::uint64_t& operations) const;
 
  private:
   enum class Content : std::uint8_t { Open, Wanted, WantedBesideSurface, Surface };

@@ -261,7 +261,14 @@ TEST(GridPath, FindsAllGoalsThatAreHardlyFurtherThanTheNearest) {
     };
     const double nearest_m = length_m(paths.to_nearest(goals).back());
     const double detour_m = 3.3 * kCell;
-    const std::vector<VoxelIndex> found = paths.nearest_within(goals, detour_m, kCell);
+    const auto [found, met] = paths.nearest_within(goals, detour_m, kCell);
+    const std::set<VoxelIndex, RasterOrder> met_cells(met.begin(), met.end());
+    EXPECT_EQ(met_cells.size(), met.size());
+    for (int i = 0; i < 40; ++i) {
+      const VoxelIndex cell = space.cell(engine() % space.size());
+      EXPECT_TRUE(met_cells.contains(cell) || length_m(cell) > nearest_m + detour_m);
+      EXPECT_TRUE(!met_cells.contains(cell) || length_m(cell) <= nearest_m + detour_m + 2.0 * kCell);
+    }
     for (std::size_t i = 1; i < goals.size(); ++i) {
       const bool expected = length_m(goals[i]) <= nearest_m + detour_m;
       EXPECT_EQ(std::find(found.begin(), found.end(), goals[i]) != found.end(), expected) << world;
@@ -271,7 +278,7 @@ TEST(GridPath, FindsAllGoalsThatAreHardlyFurtherThanTheNearest) {
       EXPECT_LE(length_m(found[i - 1]), length_m(found[i]) + 1e-2 * kCell);
     }
     const std::set<VoxelIndex, RasterOrder> reachable_goals(goals.begin() + 1, goals.end());
-    EXPECT_EQ(paths.nearest_within(goals, 1e9, kCell).size(), reachable_goals.size());
+    EXPECT_EQ(paths.nearest_within(goals, 1e9, kCell).goals.size(), reachable_goals.size());
   }
   EXPECT_GT(within, 60U);
   EXPECT_GT(beyond, 60U);

@@ -39,7 +39,9 @@ TEST(UnknownSight, OpaqueItIsTheFirstCellOfEachRay) {
       std::vector<VoxelIndex> expected;
       std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(expected),
                    [&](const VoxelIndex& cell) { return seen.contains(cell); });
-      const std::vector<SightedCell> looked = sight.look(caster, pose, rays);
+      std::uint64_t operations = 0;
+      const std::vector<SightedCell> looked = sight.look(caster, pose, rays, operations);
+      EXPECT_GT(operations, rays.size());
       EXPECT_EQ(looked.size(), expected.size());
       for (const SightedCell& one : looked) {
         EXPECT_TRUE(seen.contains(one.cell));
@@ -63,28 +65,32 @@ struct Corridor {
     }
     map.set({end, 0, 0}, wall ? Occupancy::Occupied : Occupancy::Free);
   }
-  [[nodiscard]] std::vector<SightedCell> look(const UnknownSightOptions& options, double min_range_m = 0.0) const {
+  [[nodiscard]] std::vector<SightedCell> look(const UnknownSightOptions& options, double min_range_m = 0.0) {
     const ViewRays ray({Eigen::Vector3f::UnitZ()}, 1, 1, 3.0, min_range_m);
-    return UnknownSight(map, wanted, options).look(RayCaster(map), pose_looking({0.05, 0.05, 0.05}, 0.0), ray);
+    operations = 0;
+    return UnknownSight(map, wanted, options)
+        .look(RayCaster(map), pose_looking({0.05, 0.05, 0.05}, 0.0), ray, operations);
   }
 
   OccupancyMap map;
   std::vector<VoxelIndex> wanted;
+  std::uint64_t operations = 0;  // of the last look
 };
 
 constexpr double kStep = 1e-4;  // resolution of stored probabilities
 
 TEST(UnknownSight, FollowsItsFormula) {
-  const Corridor corridor(12, true);
+  Corridor corridor(12, true);
   const std::vector<SightedCell> seen = corridor.look({.opaque_share = 0.2, .opaque_beside_surface = 0.5});
   ASSERT_EQ(cells_of(seen), corridor.wanted);
   for (std::size_t k = 0; k < seen.size(); ++k) {
     EXPECT_NEAR(seen[k].chance, std::pow(0.8, static_cast<double>(k)), kStep) << k;
   }
+  EXPECT_EQ(corridor.operations, 13U) << "the cells up to the wall, and the wall";
 }
 
 TEST(UnknownSight, WithoutReturnsAnOpenWayTeachesLess) {
-  const Corridor corridor(12, false);
+  Corridor corridor(12, false);
   const UnknownSightOptions blind{.opaque_share = 0.2, .opaque_beside_surface = 0.5};
   const std::vector<SightedCell> seen = corridor.look(blind);
   ASSERT_EQ(seen.size(), 7U);
@@ -106,7 +112,7 @@ TEST(UnknownSight, SurfacesGoOn) {
 }
 
 TEST(UnknownSight, WhatIsTooNearReturnsNothing) {
-  const Corridor corridor(8, true);
+  Corridor corridor(8, true);
   EXPECT_EQ(corridor.look({.opaque_share = 0.2, .opaque_beside_surface = 0.5}, 0.65).size(), 1U)
       << "of three cells the last is in range, and so is the wall";
   EXPECT_TRUE(corridor.look({.opaque_share = 0.2, .opaque_beside_surface = 0.5}, 0.85).empty()) << "nor is the wall";
