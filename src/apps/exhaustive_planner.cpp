@@ -37,7 +37,7 @@ void ExhaustivePlanner::weigh(std::vector<Weighed>& views, const OccupancyMap& m
     const VoxelIndex place = map.frame().cell_of(views[i].pose.translation());
     std::uint64_t operations = 0;
     for (const SightedCell& seen : sight.look(caster, views[i].pose, rays, operations)) {
-      if (!tried_.gave_up(seen.cell) && !tried_.tried_from(seen.cell, place)) {
+      if (!tried_.hoped_in_vain(seen.cell, place)) {
         views[i].void_cells += seen.chance;
         views[i].hoped.push_back(seen.cell);
       }

@@ -161,8 +161,7 @@ std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, 
   std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays, operations);
   const TriedViews& tried = situation().tried();
   if (tried.size() > 0) {
-    std::erase_if(
-        seen, [&](const SightedCell& one) { return tried.gave_up(one.cell) || tried.tried_from(one.cell, place); });
+    std::erase_if(seen, [&](const SightedCell& one) { return tried.hoped_in_vain(one.cell, place); });
   }
   return seen;
 }
@@ -211,7 +210,6 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
     candidates.resize(options_.strategy.finalists);
   }
   candidates = rank(std::move(candidates), situation().rays(), plan.statistics.ray_operations);
-  refine(candidates, plan.statistics);
   const std::size_t least = least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
   std::optional<ChosenView> best;
   double best_value = 0.0;

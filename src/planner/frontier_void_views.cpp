@@ -174,29 +174,4 @@ std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) co
   return views_of(near, options_.strategy.near_views, statistics);
 }
 
-// Hill climbing: replaces the best view by a random variation of it whenever that is better.
-void FrontierVoidPlanner::refine(std::vector<Candidate>& candidates, PlanStatistics& statistics) const {
-  const OccupancyMap& map = situation().map();
-  constexpr double kMostTurn = 0.5;  // radians, approximately
-  Dice dice(situation().setup().seed, ~map.revision());
-  for (std::size_t i = 0; i < options_.strategy.refinements && !candidates.empty(); ++i) {
-    const Pose& best = candidates.front().pose;
-    const Eigen::Vector3d shift = options_.strategy.place_spacing_m * dice.share() * dice.direction();
-    const Eigen::Vector3d direction = optical_axis(best) + kMostTurn * dice.share() * dice.direction();
-    const VoxelIndex cell = map.frame().cell_of(best.translation() + shift);
-    if (!situation().reachable().contains(cell)) {
-      continue;
-    }
-    const Pose view = situation().platform().facing(map.frame().centre_of(cell), direction);
-    if (!situation().platform().admits(map, view)) {
-      continue;
-    }
-    ++statistics.views_scored;
-    const std::vector<Candidate> counted = rank({Candidate{view}}, situation().rays(), statistics.ray_operations);
-    if (counted.front().value > candidates.front().value) {
-      candidates.insert(candidates.begin(), counted.front());
-    }
-  }
-}
-
 }  // namespace vantage

@@ -171,7 +171,7 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   } else if (reported_ == GoalResult::Reached || arrived(current)) {
     settle(goal, reported_ ? 0.0 : (expected_->goal.translation() - current.translation()).norm());
     const VoxelIndex here = map.frame().cell_of(current.translation());
-    const auto look = [&](const VoxelIndex& cell) {
+    const auto look = [&](const VoxelIndex& cell, std::vector<VoxelIndex> Looks::*unseen) {
       if (map.at(cell) != Occupancy::Unknown) {
         return;
       }
@@ -181,17 +181,21 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
         add_if_it_differs(cell, here, looks.in_vain);
       }
       if (!looked || differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
-        std::vector<VoxelIndex>& missed = looks.missed;
-        if (std::find(missed.begin(), missed.end(), goal) == missed.end()) {
-          missed.push_back(goal);
+        std::vector<VoxelIndex>& goals = looks.*unseen;
+        if (std::find(goals.begin(), goals.end(), goal) == goals.end()) {
+          goals.push_back(goal);
         }
       }
     };
-    std::for_each(expected_->sought.begin(), expected_->sought.end(), look);
+    for (const VoxelIndex& cell : expected_->sought) {
+      look(cell, &Looks::missed);
+    }
     const std::vector<VoxelIndex>& hoped = expected_->hoped;
     if (std::all_of(hoped.begin(), hoped.end(),
                     [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
-      std::for_each(hoped.begin(), hoped.end(), look);
+      for (const VoxelIndex& cell : hoped) {
+        look(cell, &Looks::hoped);
+      }
     }
   } else {
     // The length of the way is only known after planning, so the last stretch is judged by the distance to the goal.
@@ -286,6 +290,13 @@ bool TriedViews::tried_from(const VoxelIndex& unknown, const VoxelIndex& place) 
   const auto alike = [&](const VoxelIndex& other) { return !differ(unknown, place, other); };
   return looks != nullptr && (std::any_of(looks->in_vain.begin(), looks->in_vain.end(), alike) ||
                               std::find(looks->missed.begin(), looks->missed.end(), place) != looks->missed.end());
+}
+
+bool TriedViews::hoped_in_vain(const VoxelIndex& unknown, const VoxelIndex& place) const {
+  const Looks* looks = looks_at(unknown);
+  return looks != nullptr && (gave_up(unknown) || tried_from(unknown, place) ||
+                              looks->hoped.size() >= 2 * static_cast<std::size_t>(options_.patience) ||
+                              std::find(looks->hoped.begin(), looks->hoped.end(), place) != looks->hoped.end());
 }
 
 bool TriedViews::gave_up(const VoxelIndex& unknown) const {

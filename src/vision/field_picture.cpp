@@ -146,7 +146,7 @@ void draw_legend(MapSheet& sheet, const FieldContent& content, const Slice& slic
   }
   sheet.legend_swatch(drawing::kOccupiedSpace, "occupied");
   sheet.legend_swatch(drawing::kUnknownSpace, "unknown");
-  sheet.legend_swatch(drawing::kFreeSpace, "free, out of reach");
+  sheet.legend_swatch(drawing::kFreeSpace, "free, outside the field");
 }
 
 }  // namespace

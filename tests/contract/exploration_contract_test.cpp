@@ -265,14 +265,17 @@ class DrivenRobot {
   }
 
   void count_asks() {
-    const double way = length_m(last.path) + turn_rad(pose_, last.goal.pose);
+    const double way_m = length_m(last.path);
+    const double turn = turn_rad(pose_, last.goal.pose);
     const VoxelIndex goal = map_.frame().cell_of(last.goal.pose.translation());
-    const bool again = goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && way > asked_way_ - 0.01;
+    const bool no_nearer = way_m > asked_way_m_ - 0.01 && (way_m > 0.01 || turn > asked_turn_ - 0.01);
+    const bool again = goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && no_nearer;
     asks_ = again ? asks_ + 1 : 1;
     most_asks = std::max(most_asks, asks_);
     asked_for_ = goal;
     asked_ = last.goal.pose;
-    asked_way_ = again ? std::min(way, asked_way_) : way;
+    asked_way_m_ = again ? std::min(way_m, asked_way_m_) : way_m;
+    asked_turn_ = again ? std::min(turn, asked_turn_) : turn;
   }
 
   void go() {
@@ -374,7 +377,8 @@ class DrivenRobot {
   testing::LookedAt looked_;
   VoxelIndex asked_for_{};
   Pose asked_ = Pose::Identity();
-  double asked_way_ = 0.0;
+  double asked_way_m_ = 0.0;
+  double asked_turn_ = 0.0;
   std::size_t asks_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
 #include <vantage/geometry/voxel_grid.hpp>
@@ -85,9 +86,16 @@ struct LookedAt {
   std::map<VoxelIndex, std::set<VoxelIndex>> sought;
 };
 
+/// Whether two places are alike, as seen from `unknown` (TriedViews).
+[[nodiscard]] inline bool alike(const VoxelIndex& unknown, const VoxelIndex& a, const VoxelIndex& b) {
+  const auto square = [](const VoxelIndex& d) { return d.x * d.x + d.y * d.y + d.z * d.z; };
+  return 4 * square(a - b) <= std::min(square(a - unknown), square(b - unknown));
+}
+
 /// Unknown neighbours of free cells whose centre, or the centre of one of whose faces, the sensor could still see,
-/// from a place that was not the goal of a plan that sought them, and that were not looked at in vain: not in view
-/// from two cells, and not in view or sought from four cells together.
+/// from a place that was not the goal of a plan that sought them and is not like one from which they were in view,
+/// and that were not looked at in vain: not in view from two cells, and not in view or sought from four cells
+/// together.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {
@@ -112,10 +120,7 @@ struct LookedAt {
       return other == cell || (map.at(other) == Occupancy::Free && !map.contested(other));
     };
     const auto sought = looked.sought.find(cell);
-    const bool observable = std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
-      if (sought != looked.sought.end() && sought->second.contains(place)) {
-        return false;
-      }
+    const auto is_seen_from = [&](const VoxelIndex& place) {
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
       const auto in_sight = [&](const Eigen::Vector3d& point) { return touches_only(frame, from, point, is_clear); };
@@ -126,8 +131,12 @@ struct LookedAt {
                 const Eigen::Vector3d out(step.x, step.y, step.z);
                 return out.dot(from - centre) > 0.0 && in_sight(centre + 0.49 * frame.size_m * out);
               }));
+    };
+    std::vector<VoxelIndex> viewpoints;
+    std::copy_if(places.begin(), places.end(), std::back_inserter(viewpoints), [&](const VoxelIndex& place) {
+      return (sought == looked.sought.end() || !sought->second.contains(place)) && is_seen_from(place);
     });
-    if (!observable) {
+    if (viewpoints.empty()) {
       continue;
     }
     std::set<VoxelIndex> from_cells;
@@ -142,8 +151,12 @@ struct LookedAt {
         from_cells.insert(frame.cell_of(pose.translation()));
       }
     }
+    std::erase_if(viewpoints, [&](const VoxelIndex& place) {
+      return std::any_of(from_cells.begin(), from_cells.end(),
+                         [&](const VoxelIndex& other) { return alike(cell, place, other); });
+    });
     const std::size_t goals = sought == looked.sought.end() ? 0 : sought->second.size();
-    if (from_cells.size() < 2 && from_cells.size() + goals < 4) {
+    if (!viewpoints.empty() && from_cells.size() < 2 && from_cells.size() + goals < 4) {
       left.push_back(cell);
     }
   }

@@ -38,9 +38,6 @@ struct FrontierVoidStrategy {
   std::size_t near_views = 0;
   /// All views are first ranked with a sixteenth of the rays, and this many of the best again with all rays, >= 1.
   std::size_t finalists = 5;
-  /// Number of attempts to improve the best view by moving it up to `place_spacing_m` and turning it up to half a
-  /// radian, >= 0. A better view replaces the best one at once.
-  std::size_t refinements = 0;
   /// UnknownSightOptions::opaque_share for void cells, in (0, 1]. With 1, only the first void cell of a ray counts.
   double opaque_share = 0.05;
   double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface, in (0, 1]
@@ -144,7 +141,6 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   [[nodiscard]] double discounted(double utility, double way_m) const;
   [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
                                             std::uint64_t& operations) const;
-  void refine(std::vector<Candidate>& candidates, PlanStatistics& statistics) const;
   [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
   [[nodiscard]] std::optional<std::vector<Pose>> way_to(const Pose& view) const;
   [[nodiscard]] std::optional<ChosenView> nearest_frontier(PlanStatistics& statistics) const;

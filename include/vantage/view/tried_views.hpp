@@ -86,6 +86,9 @@ class TriedViews {
   [[nodiscard]] bool tried(const VoxelIndex& unknown) const { return looks_at(unknown) != nullptr; }
   /// Whether it was looked at in vain from this place or from one that does not differ, or missed from this place.
   [[nodiscard]] bool tried_from(const VoxelIndex& unknown, const VoxelIndex& place) const;
+  /// Whether a view from this place should not hope for the cell: `gave_up` or `tried_from`, or hoped for in vain
+  /// from this place or from 2 * `patience` places.
+  [[nodiscard]] bool hoped_in_vain(const VoxelIndex& unknown, const VoxelIndex& place) const;
   /// Whether the evidence suffices to give the cell up.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
@@ -112,6 +115,7 @@ class TriedViews {
   struct Looks {
     std::vector<VoxelIndex> in_vain;  // places that differ
     std::vector<VoxelIndex> missed;   // goals from which the cell was sought, but not in view when the robot stopped
+    std::vector<VoxelIndex> hoped;    // goals from which a view hoped for the cell, but resolved nothing it hoped for
     int known_neighbours = 0;         // at the latest look
     std::uint64_t latest = 0;         // number of the plan of the latest look
   };

@@ -152,30 +152,6 @@ TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
   EXPECT_GE(compared, 15U);
 }
 
-// Without cost for the distance, a refined view sees at least as much as the original one.
-TEST(FrontierVoidPlanner, ARefinedViewSeesNoLess) {
-  Robot robot;
-  std::size_t compared = 0;
-  std::size_t more = 0;
-  for (int step = 0; step < 6; ++step) {
-    FrontierVoidOptions options{.strategy = {.cost_per_m = 0.0}};
-    const Plan plain = FrontierVoidPlanner(robot.setup(), options).plan(robot.map, robot.pose);
-    options.strategy.refinements = 30;
-    const Plan refined = FrontierVoidPlanner(robot.setup(), options).plan(robot.map, robot.pose);
-    ASSERT_EQ(plain.outcome, refined.outcome);
-    if (plain.outcome != Outcome::Move) {
-      break;
-    }
-    EXPECT_GE(refined.goal.utility, plain.goal.utility) << "step " << step;
-    more += refined.goal.utility > plain.goal.utility ? 1U : 0U;
-    ++compared;
-    robot.pose = refined.goal.pose;
-    robot.look();
-  }
-  EXPECT_GE(compared, 3U);
-  EXPECT_GE(more, 1U);
-}
-
 TEST(FrontierVoidPlanner, FinishesWhatLiesNear) {
   Robot robot;
   FrontierVoidPlanner planner(robot.setup(), {.strategy = FrontierVoidStrategy::travelling()});
