@@ -52,6 +52,9 @@ TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::
   const double furthest_m = counted_range_m(map, sensor);
   const VoxelIndex place = map.frame().cell_of(pose.translation());
   TargetView seen{.view = {.pose = pose}};
+  if (situation.tried().rests(place)) {
+    return seen;
+  }
   for (const FrontierTarget& target : situation.survey().targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - pose.translation();
     const bool in_sight = target.viewpoint == place
