@@ -256,7 +256,7 @@ function seek(now) {
   markCurves();
   const run = runs.find((r) => r.report.cycles.length === length);
   const cycle = run.report.cycles[state.now - 1];
-  const share = shareOf(run, cycle);
+  const share = shareOf(cycle);
   $("moment").value = several ? `view ${state.now}`
     : `view ${cycle.view} of ${length} · ${cycle.path_length_m.toFixed(1)} m` +
       (share === null ? "" : ` · ${percent(share)}`);
