@@ -155,7 +155,7 @@ std::string table_of(const std::vector<Row>& rows) {
   }
   add("collisions", [](const Row& row) { return std::to_string(row.collisions()); });
   add("plan, ms", [](const Row& row) { return quantile_text(row.plan_ms(), 0.5); });
-  add("99th, ms", [](const Row& row) { return quantile_text(row.plan_ms(), 0.99); });
+  add("plan 99th, ms", [](const Row& row) { return quantile_text(row.plan_ms(), 0.99); });
 
   std::string text;
   for (std::size_t line = 0; line <= rows.size(); ++line) {

@@ -49,9 +49,9 @@ def main(program, picture=None):
             curves = "document.querySelectorAll('.plot .curve').length"
             check(browser.evaluate(curves) == 2 * 2 + 2, "a curve of each run and a median of each planner")
             way = "document.querySelector('.plot .median').getAttribute('d')"
-            metres = browser.evaluate(way)
-            browser.evaluate("document.querySelector('#abscissa button[value=seconds]').click()")
-            check(browser.evaluate(way) != metres, "seconds change no curve")
+            seconds = browser.evaluate(way)
+            browser.evaluate("document.querySelector('#abscissa button[value=metres]').click()")
+            check(browser.evaluate(way) != seconds, "metres change no curve")
             browser.evaluate("document.querySelector('#planners input').click()")
             check(browser.evaluate(curves) == 3, "a planner that is hidden keeps its curves")
             check(browser.evaluate("document.querySelector('tbody tr').hidden"), "its row stays")

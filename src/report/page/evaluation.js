@@ -5,7 +5,7 @@ const results = JSON.parse(document.querySelector("script.results").textContent)
 const planners = [...new Set(results.rows.map((row) => row.planner))];
 const hidden = new Set();
 const isTimed = results.rows.some((row) => row.duration_s);
-const shown = { abscissa: "metres" };
+const shown = { abscissa: isTimed ? "seconds" : "metres" };  // seconds only where runs are timed
 const drawn = [];  // by world: what draws its plot again
 
 function made(name, attributes, ...children) {
@@ -80,7 +80,7 @@ function figureCell(spread, digits, runs) {
 
 function tableOf(rows) {
   const columns = results.columns.filter(({ key }) => rows.some((row) => row[key]));
-  const titles = ["world", "planner", "ended", ...columns.map(({ title }) => title), "collisions", "plan, ms", "99th, ms"];
+  const titles = ["world", "planner", "ended", ...columns.map(({ title }) => title), "collisions", "plan, ms", "plan 99th, ms"];
   const table = made("table", {});
   table.createTHead().insertRow().append(...titles.map((title) => made("th", { textContent: title })));
   const body = table.createTBody();
@@ -152,6 +152,7 @@ results.classes.forEach(addClass);
 const choice = document.getElementById("abscissa");
 choice.hidden = !isTimed;
 for (const button of choice.children) {
+  button.setAttribute("aria-pressed", button.value === shown.abscissa);
   button.addEventListener("click", () => {
     shown.abscissa = button.value;
     for (const other of choice.children) other.setAttribute("aria-pressed", other === button);
