@@ -78,11 +78,12 @@ void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
   }
   std::vector<std::vector<std::string>> rows{
       {"planner", "runs", "views", "path, m", "turned, deg", "time, s", "coverage, %", "computing, s", "plan, ms"}};
-  for (const auto& [group, members] : groups) {
+  for (const auto& group : groups) {
+    const std::vector<const ComparedRun*>& members = group.second;
     const auto add = [&](int digits, const std::function<std::optional<double>(const RunFigures&)>& figure) {
       rows.back().push_back(spread_of(members, digits, figure));
     };
-    rows.push_back({group, std::to_string(members.size())});
+    rows.push_back({group.first, std::to_string(members.size())});
     add(0, [](const RunFigures& run) { return static_cast<double>(run.views); });
     add(1, [](const RunFigures& run) { return run.path_m; });
     add(0, [](const RunFigures& run) { return run.turned_deg; });

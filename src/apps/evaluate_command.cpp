@@ -249,7 +249,7 @@ void evaluate_objects(EvaluateRequest& request) {
 void add_evaluate_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("evaluate", "Print tables of planners beside their peers");
   command->require_subcommand(1);
-  command->footer("Examples:\n  vantage evaluate exploration --out quick --quick\n  vantage evaluate objects");
+  command->footer("Examples:\n  vantage evaluate exploration --help\n  vantage evaluate objects");
   add_evaluate_exploration_command(*command, exit_code);
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;

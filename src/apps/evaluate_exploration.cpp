@@ -206,7 +206,8 @@ std::vector<std::string> make_all(const EvaluationFolder& folder, const Work& wo
               [&](const PlannerText& p, const std::string& message) {
                 progress.failed(at, p, message);
                 const std::scoped_lock lock(mutex);
-                failures.push_back(p + " in " + std::string(at.world->name) + ": " + message);
+                failures.push_back(p);
+                failures.back().append(" in ").append(at.world->name).append(": ").append(message);
               },
           .on_work = [&](const std::string& doing) { progress.work(at, doing); },
           .stop = stopped};

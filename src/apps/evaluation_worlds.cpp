@@ -64,9 +64,9 @@ constexpr std::array<EvaluationClass, 6> kClasses{{
 // The number after --max-views is the budget of a run.
 constexpr std::array<EvaluationWorld, 26> kWorlds{{
     {"rooms", "generated", "--world rooms --max-views 1000", true, true},
-    {"office", "generated", "--world office --max-views 2000", false, true},
+    {"office", "generated", "--world office --max-views 2000"},
     {"maze", "generated", "--world maze --max-views 2000", false, true},
-    {"two-storey", "generated", "--world two-storey --max-views 2000", false, true},
+    {"two-storey", "generated", "--world two-storey --max-views 2000"},
 
     {"rooms-kinect", "narrow", "--world rooms --sensor sensors/kinect.json --max-views 6000"},
     {"rooms-stereo", "narrow", "--world rooms --sensor sensors/stereo.json --max-views 3000"},
@@ -112,7 +112,7 @@ constexpr std::array<EvaluationWorld, 26> kWorlds{{
     {"kth-50015847-20m", "floor-plans",
      "--world $VANTAGE_DATA/floorplans/kth/50015847.yaml --sensor sensors/lidar-20m.json"},
 
-    {"driven-office", "driven", "--world office --size 15,10 --max-views 1500", false, true},
+    {"driven-office", "driven", "--world office --size 15,10 --max-views 1500"},
 }};
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "apps/explore_request.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): named by CLI11
 class App;
 }
 
