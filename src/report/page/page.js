@@ -126,7 +126,9 @@ function showTable() {
   const columns = [
     ["views", (r) => r.report.views, (v) => v.toFixed(0)], ["path [m]", (r) => r.report.path_length_m, (v) => v.toFixed(1)],
     ["coverage", (r) => r.report.seen_coverage ?? r.report.coverage, (v) => percent(v, 2)],
-    ["time [s]", (r) => r.seconds[r.seconds.length - 1], (v) => v.toFixed(1)],
+    ["turned [°]", (r) => r.report.turned_deg, (v) => v.toFixed(0)],
+    [runs.some(isTimed) ? "time [s]" : "computing [s]", (r) => r.report.duration_s ?? r.seconds[r.seconds.length - 1],
+      (v) => v.toFixed(1)],
     ["plan [ms]", (r) => r.report.time_ms.plan.median, (v) => String(+v.toPrecision(3))],
   ];
   const table = document.createElement("table");
