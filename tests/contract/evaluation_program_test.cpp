@@ -61,49 +61,49 @@ class Evaluation : public testing::Test {
 };
 
 TEST_F(Evaluation, MakesATableAndGoesOn) {
-  const std::string command = std::string(kTiny) + "--planners nearest-frontier,harmonic,mode=faithful --out $OUT";
+  const std::string command = std::string(kTiny) + "--planners next-best-view,frontier-gain,hypotheses=30 --out $OUT";
   ASSERT_EQ(shell(command), 0) << err_;
   EXPECT_EQ(runs_told(), 2U) << err_;
   for (const char* file : {"table.md", "results.json", "index.html", "sensors/aerial.json"}) {
     EXPECT_TRUE(fs::exists(out() / file)) << file;
   }
   EXPECT_EQ(out_, test::read_all(out() / "table.md"));
-  EXPECT_NE(out_.find("\n| small-maze | nearest-frontier | 1 explored | "), std::string::npos) << out_;
-  EXPECT_NE(out_.find("\n| small-maze | harmonic,mode=faithful | 1 explored | "), std::string::npos) << out_;
+  EXPECT_NE(out_.find("\n| small-maze | next-best-view | 1 explored | "), std::string::npos) << out_;
+  EXPECT_NE(out_.find("\n| small-maze | frontier-gain,hypotheses=30 | 1 explored | "), std::string::npos) << out_;
   EXPECT_NE(out_.find("    vantage evaluate exploration --out DIR --worlds small-maze --planners "
-                      "nearest-frontier,harmonic,mode=faithful --starts 1 --quick\n"),
+                      "next-best-view,frontier-gain,hypotheses=30 --starts 1 --quick\n"),
             std::string::npos)
       << out_;
   EXPECT_EQ(nlohmann::json::parse(test::read_all(out() / "results.json"))["rows"].size(), 2U);
 
   // The same start for both, and what a run was made with repeats it.
-  const nlohmann::json nearest = run("nearest-frontier");
-  EXPECT_EQ(nearest["cycles"][0]["pose"], run("harmonic,mode=faithful")["cycles"][0]["pose"]);
-  ASSERT_EQ(shell("cd $OUT && vantage explore " + nearest["options"].get<std::string>() + " --quiet --json -"), 0)
+  const nlohmann::json first = run("next-best-view");
+  EXPECT_EQ(first["cycles"][0]["pose"], run("frontier-gain,hypotheses=30")["cycles"][0]["pose"]);
+  ASSERT_EQ(shell("cd $OUT && vantage explore " + first["options"].get<std::string>() + " --quiet --json -"), 0)
       << err_;
   nlohmann::json again = nlohmann::json::parse(out_);
-  EXPECT_EQ(again["views"], nearest["views"]);
-  EXPECT_EQ(again["duration_s"], nearest["duration_s"]);
-  EXPECT_EQ(again["turned_deg"], nearest["turned_deg"]);
-  EXPECT_EQ(again["coverage"], nearest["coverage"]);
-  EXPECT_EQ(again["cycles"].back()["pose"], nearest["cycles"].back()["pose"]);
+  EXPECT_EQ(again["views"], first["views"]);
+  EXPECT_EQ(again["duration_s"], first["duration_s"]);
+  EXPECT_EQ(again["turned_deg"], first["turned_deg"]);
+  EXPECT_EQ(again["coverage"], first["coverage"]);
+  EXPECT_EQ(again["cycles"].back()["pose"], first["cycles"].back()["pose"]);
 
   // Nothing is made twice; what is missing, broken or of other options is.
   const std::string table = test::read_all(out() / "table.md");
   ASSERT_EQ(shell(command), 0) << err_;
   EXPECT_EQ(runs_told(), 0U) << err_;
   EXPECT_EQ(out_, table);
-  const std::string whole = test::read_all(run_file("nearest-frontier"));
-  std::ofstream(run_file("nearest-frontier")) << whole.substr(0, whole.size() / 2);
+  const std::string whole = test::read_all(run_file("next-best-view"));
+  std::ofstream(run_file("next-best-view")) << whole.substr(0, whole.size() / 2);
   ASSERT_EQ(shell(command), 0) << err_;
   EXPECT_EQ(runs_told(), 1U) << err_;
-  EXPECT_EQ(run("nearest-frontier")["views"], nearest["views"]);
+  EXPECT_EQ(run("next-best-view")["views"], first["views"]);
   std::string other = whole;
   other.replace(other.find("--seed 1"), 8, "--seed 2");
-  std::ofstream(run_file("nearest-frontier")) << other;
+  std::ofstream(run_file("next-best-view")) << other;
   ASSERT_EQ(shell(command), 0) << err_;
   EXPECT_EQ(runs_told(), 1U) << err_;
-  EXPECT_EQ(run("nearest-frontier")["options"], nearest["options"]);
+  EXPECT_EQ(run("next-best-view")["options"], first["options"]);
 }
 
 TEST_F(Evaluation, RefusesBeforeTheFirstRun) {
@@ -133,7 +133,7 @@ TEST_F(Evaluation, RefusesBeforeTheFirstRun) {
 
 TEST_F(Evaluation, LeavesOutWorldsWhoseDataIsNotThere) {
   EXPECT_EQ(shell("unset VANTAGE_DATA; " + std::string(kTiny) +
-                  "--worlds timed --planners nearest-frontier --jobs 2 --out $OUT"),
+                  "--worlds timed --planners next-best-view --jobs 2 --out $OUT"),
             0)
       << err_;
   EXPECT_EQ(err_.rfind("VANTAGE_DATA is not set: complex-office, maze1, maze4 are left out\n", 0), 0U) << err_;
@@ -142,7 +142,7 @@ TEST_F(Evaluation, LeavesOutWorldsWhoseDataIsNotThere) {
 
 TEST_F(Evaluation, EndsCleanlyWhenInterrupted) {
   const std::string arguments =
-      "evaluate exploration --worlds small-maze,driven --planners nearest-frontier "
+      "evaluate exploration --worlds small-maze,driven --planners next-best-view "
       "--starts 1 --out " +
       out().string();
   const pid_t child = ::fork();
@@ -153,10 +153,10 @@ TEST_F(Evaluation, EndsCleanlyWhenInterrupted) {
     ::execl("/bin/sh", "sh", "-c", ("exec '" VANTAGE_PROGRAM "' " + arguments).c_str(), nullptr);
     ::_exit(127);
   }
-  for (int i = 0; i < 12000 && !fs::exists(run_file("nearest-frontier")); ++i) {
+  for (int i = 0; i < 12000 && !fs::exists(run_file("next-best-view")); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  ASSERT_TRUE(fs::exists(run_file("nearest-frontier")));
+  ASSERT_TRUE(fs::exists(run_file("next-best-view")));
   ::kill(child, SIGINT);
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -164,7 +164,7 @@ TEST_F(Evaluation, EndsCleanlyWhenInterrupted) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130) << err_;
   EXPECT_NE(err_.find("interrupted: 1 of 2 runs are there; the same command goes on"), std::string::npos) << err_;
-  EXPECT_FALSE(fs::exists(out() / "runs" / "driven-office" / "nearest-frontier-1.json"));
+  EXPECT_FALSE(fs::exists(out() / "runs" / "driven-office" / "next-best-view-1.json"));
   EXPECT_TRUE(fs::exists(out() / "index.html"));
 }
 

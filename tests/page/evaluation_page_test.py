@@ -22,7 +22,7 @@ def main(program, picture=None):
         return 77
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program, "evaluate", "exploration", "--worlds", "small-maze", "--planners",
-                        "nearest-frontier,harmonic,mode=faithful", "--quick", "--out", folder],
+                        "next-best-view,frontier-gain,hypotheses=30", "--quick", "--out", folder],
                        check=True, stdout=subprocess.DEVNULL)
         page = os.path.join(folder, "index.html")
         with open(page, encoding="utf-8") as file:
