@@ -17,6 +17,7 @@ endif()
 if(VANTAGE_BUILD_SIM)
   vantage_find(report PRIVATE nlohmann_json 3.10)
   vantage_find(report PRIVATE ZLIB)
+  vantage_find(evaluation PRIVATE nlohmann_json 3.10)
   # Embedded in the library. Needs the classic build with THREE as a global, which exists up to release 147.
   find_file(VANTAGE_THREE_JS three.min.js PATHS /usr/share/javascript/three PATH_SUFFIXES build)
   find_file(VANTAGE_ORBIT_CONTROLS_JS OrbitControls.js PATHS /usr/share/javascript/three/examples/js/controls)

@@ -67,7 +67,7 @@ void add_commands(CLI::App& app, int& exit_code) {
 #endif
   add_report_command(app);
   add_compare_command(app);
-  add_evaluate_command(app);
+  add_evaluate_command(app, exit_code);
   add_map_command(app, exit_code);
   add_list_command(app);
   // Set last, because the commands do not inherit it.

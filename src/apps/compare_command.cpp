@@ -2,15 +2,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <iomanip>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <vantage/evaluation/run_figures.hpp>
+#include <vantage/evaluation/spread.hpp>
 #include <vantage/report/report_html.hpp>
 #include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/picture.hpp>
@@ -29,46 +32,21 @@ struct CompareRequest {
 
 // What the table shows of a run.
 struct ComparedRun {
-  std::string group;  // planner and world
-  std::string name;   // the same with the seed
-  nlohmann::json report;
-  double views = 0.0;
-  double path_m = 0.0;
-  double share = std::nan("");  // seen coverage if there is one, else coverage
-  double seconds = 0.0;         // of computing
-  double plan_ms = std::nan("");
-  std::vector<double> curve;  // the share after each view
+  RunFigures figures;
+  std::string group = {};  // planner and world
+  std::string name = {};   // the same with the seed
 };
-
-double number_or_nan(const nlohmann::json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
-
-// Seen coverage if there is one, else coverage; of a report or of one of its cycles.
-double share_in(const nlohmann::json& measured) {
-  const auto seen = measured.find("seen_coverage");
-  return number_or_nan(seen != measured.end() && !seen->is_null() ? *seen : measured.at("coverage"));
-}
 
 ComparedRun compared(const std::string& file, const std::string& text) {
   try {
-    ComparedRun run;
-    run.report = nlohmann::json::parse(text);
-    const nlohmann::json& report = run.report;
+    ComparedRun run{.figures = run_figures(text)};
     std::ostringstream group;
-    group << report.at("planner").get<std::string>() << " in "
-          << std::filesystem::path(report.at("world").get<std::string>()).stem().string() << ", "
-          << report.at("resolution_m").get<double>() << " m";
+    group << run.figures.planner << " in " << std::filesystem::path(run.figures.world).stem().string() << ", "
+          << run.figures.resolution_m << " m";
     run.group = group.str();
-    run.name = run.group + ", seed " + report.at("seed").dump();
-    run.views = report.at("views").get<double>();
-    run.path_m = report.at("path_length_m").get<double>();
-    run.share = share_in(report);
-    run.plan_ms = number_or_nan(report.at("time_ms").at("plan").at("median"));
-    for (const nlohmann::json& cycle : report.at("cycles")) {
-      run.curve.push_back(share_in(cycle));
-      run.seconds += (cycle.at("insert_ms").get<double>() + cycle.at("plan_ms").get<double>()) / 1000.0;
-    }
+    run.name = run.group + ", seed " + std::to_string(run.figures.seed);
     return run;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const std::invalid_argument&) {
     throw std::runtime_error(file + ": is no report.json of a run");
   }
 }
@@ -81,32 +59,16 @@ std::string read_file(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-double quantile_of(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (place - static_cast<double>(low)) * (sorted[high] - sorted[low]);
-}
-
-// Median, with quartiles if there are several runs.
-std::string spread_of(const std::vector<const ComparedRun*>& runs, double ComparedRun::*member, int digits,
-                      double unit = 1.0) {
+// Median and quartiles of a figure; what a run lacks is left out.
+std::string spread_of(const std::vector<const ComparedRun*>& runs, int digits,
+                      const std::function<std::optional<double>(const RunFigures&)>& figure) {
   std::vector<double> values;
   for (const ComparedRun* run : runs) {
-    if (!std::isnan(run->*member)) {
-      values.push_back(unit * run->*member);
+    if (const std::optional<double> value = figure(run->figures)) {
+      values.push_back(*value);
     }
   }
-  if (values.empty()) {
-    return "-";
-  }
-  std::sort(values.begin(), values.end());
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << quantile_of(values, 0.5);
-  if (values.size() > 1) {
-    text << " (" << quantile_of(values, 0.25) << "-" << quantile_of(values, 0.75) << ")";
-  }
-  return text.str();
+  return spread_text(values, digits);
 }
 
 void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
@@ -115,11 +77,22 @@ void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
     groups[run.group].push_back(&run);
   }
   std::vector<std::vector<std::string>> rows{
-      {"planner", "runs", "views", "path, m", "coverage, %", "computing, s", "plan, ms"}};
-  for (const auto& [group, members] : groups) {
-    rows.push_back({group, std::to_string(members.size()), spread_of(members, &ComparedRun::views, 0),
-                    spread_of(members, &ComparedRun::path_m, 1), spread_of(members, &ComparedRun::share, 2, 100.0),
-                    spread_of(members, &ComparedRun::seconds, 1), spread_of(members, &ComparedRun::plan_ms, 1)});
+      {"planner", "runs", "views", "path, m", "turned, deg", "time, s", "coverage, %", "computing, s", "plan, ms"}};
+  for (const auto& group : groups) {
+    const std::vector<const ComparedRun*>& members = group.second;
+    const auto add = [&](int digits, const std::function<std::optional<double>(const RunFigures&)>& figure) {
+      rows.back().push_back(spread_of(members, digits, figure));
+    };
+    rows.push_back({group.first, std::to_string(members.size())});
+    add(0, [](const RunFigures& run) { return static_cast<double>(run.views); });
+    add(1, [](const RunFigures& run) { return run.path_m; });
+    add(0, [](const RunFigures& run) { return run.turned_deg; });
+    add(1, [](const RunFigures& run) { return run.duration_s; });
+    add(2, [](const RunFigures& run) { return run.covered ? std::optional(100.0 * *run.covered) : std::nullopt; });
+    add(1, [](const RunFigures& run) { return run.computing_s; });
+    add(1, [](const RunFigures& run) {
+      return run.plan_ms.empty() ? std::nullopt : std::optional(quantile(run.plan_ms, 0.5));
+    });
   }
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows) {
@@ -146,18 +119,16 @@ Picture overlaid_coverage(const std::vector<ComparedRun>& runs) {
   metres.title = "coverage over metres";
   metres.x_label = "path travelled [m]";
   const bool objects = std::all_of(runs.begin(), runs.end(),
-                                   [](const ComparedRun& run) { return run.report.at("command") == "reconstruct"; });
+                                   [](const ComparedRun& run) { return run.figures.command == "reconstruct"; });
   views.y_label = objects ? "surface seen [%]" : "observable cells known rightly [%]";
   metres.y_label = views.y_label;
   for (const ComparedRun& run : runs) {
     LineSeries over_views{.name = run.name};
     LineSeries over_metres{.name = run.name};
-    for (const nlohmann::json& cycle : run.report.at("cycles")) {
-      over_views.x.push_back(cycle.at("view").get<double>());
-      over_metres.x.push_back(cycle.at("path_length_m").get<double>());
-    }
-    for (const double share : run.curve) {
-      over_views.y.push_back(100.0 * share);
+    for (const KnownSoFar& after : run.figures.after_views) {
+      over_views.x.push_back(static_cast<double>(after.view));
+      over_metres.x.push_back(after.path_m);
+      over_views.y.push_back(after.covered ? 100.0 * *after.covered : std::nan(""));
     }
     over_metres.y = over_views.y;
     views.series.push_back(std::move(over_views));
@@ -184,7 +155,8 @@ void compare(const CompareRequest& request) {
   write_report_html(reported, folder / "report.html");
   std::vector<std::filesystem::path> files{folder / "report.html"};
   if (std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
-        return std::any_of(run.curve.begin(), run.curve.end(), [](double share) { return !std::isnan(share); });
+        return std::any_of(run.figures.after_views.begin(), run.figures.after_views.end(),
+                           [](const KnownSoFar& after) { return after.covered.has_value(); });
       })) {
     files.push_back(folder / "coverage.png");
     write_png(overlaid_coverage(runs), files.back());

@@ -13,12 +13,14 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vantage/evaluation/spread.hpp>
 #include <vantage/evaluation/test_objects.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/sim/mesh_file.hpp>
 #include <vector>
 
+#include "apps/evaluate_exploration.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
 #include "apps/object_run.hpp"
@@ -115,6 +117,7 @@ TrialJson result_of(const Trial& trial, const ExploreRequest& shared, std::size_
       {"seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count()},
       {"outcome", to_string(record.outcome)},
       {"observable", *record.seen_observable > 0.0 ? *record.seen_coverage / *record.seen_observable : 0.0},
+      {"turned_deg", record.turned_deg},
       {"seen", TrialJson::array()},
       {"path_m", TrialJson::array()},
       {"plan_ms", TrialJson::array()}};
@@ -131,20 +134,12 @@ std::map<std::string, TrialJson> results_in(const std::string& file) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     TrialJson result = TrialJson::parse(line, nullptr, false);
-    if (result.is_object() && result.contains("key")) {  // an interrupted run may leave half a line
+    // An interrupted run may leave half a line, and older lines lack the turn.
+    if (result.is_object() && result.contains("key") && result.contains("turned_deg")) {
       results.insert_or_assign(result.at("key").get<std::string>(), result);
     }
   }
   return results;
-}
-
-// Quantile of the values at a share in [0, 1].
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
 // The value after so many views, or the last one.
@@ -179,12 +174,13 @@ void print_row(const std::string& object, const std::string& planner, const std:
   });
   const auto views = over([](const TrialJson& r) { return static_cast<double>(r.at("seen").size()); });
   const auto last = over([](const TrialJson& r) { return 100.0 * r.at("seen").back().get<double>(); });
-  std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.0f | %.1f | %.1f | %.1f |\n",
+  std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.0f | %.1f | %.1f | %.0f | %.1f |\n",
               quantile(over([](const TrialJson& r) { return 100.0 * r.at("observable").get<double>(); }), 0.5),
               quantile(enough, 0.5), quantile(enough, 0.25), quantile(enough, 0.75), quantile(last, 0.5),
               quantile(views, 0.5),
               quantile(over([](const TrialJson& r) { return at_view(r.at("path_m"), 5); }), 0.5),
               quantile(over([](const TrialJson& r) { return r.at("path_m").back().get<double>(); }), 0.5),
+              quantile(over([](const TrialJson& r) { return r.at("turned_deg").get<double>(); }), 0.5),
               quantile(over([](const TrialJson& r) { return r.at("seconds").get<double>(); }), 0.5));
 }
 
@@ -235,7 +231,8 @@ void evaluate_objects(EvaluateRequest& request) {
   std::fprintf(stderr, "\r\x1b[K");
   std::printf(
       "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
-      "the end | views | path after 5, m | path | s |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "the end | views | path after 5, m | path | turned, deg | s "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& object : request.objects) {
     for (const std::string& planner : request.planners) {
       std::vector<const TrialJson*> results;
@@ -249,9 +246,11 @@ void evaluate_objects(EvaluateRequest& request) {
 
 }  // namespace
 
-void add_evaluate_command(CLI::App& app) {
+void add_evaluate_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("evaluate", "Print tables of planners beside their peers");
-  command->footer("Example:\n  vantage evaluate objects");
+  command->require_subcommand(1);
+  command->footer("Examples:\n  vantage evaluate exploration --help\n  vantage evaluate objects");
+  add_evaluate_exploration_command(*command, exit_code);
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
   request->run.max_views = 20;

@@ -12,6 +12,6 @@ void add_report_command(CLI::App& app);
 /// Adds `vantage compare`: several reports side by side.
 void add_compare_command(CLI::App& app);
 /// Adds `vantage evaluate`: tables of planners beside their peers.
-void add_evaluate_command(CLI::App& app);
+void add_evaluate_command(CLI::App& app, int& exit_code);
 
 }  // namespace vantage::apps

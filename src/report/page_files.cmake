@@ -2,7 +2,8 @@
 # The page of a report and what draws in it become part of the library.
 set(page_files "three.js|${VANTAGE_THREE_JS}" "OrbitControls.js|${VANTAGE_ORBIT_CONTROLS_JS}")
 set(page_paths "${VANTAGE_THREE_JS}" "${VANTAGE_ORBIT_CONTROLS_JS}")
-foreach(name page.html style.css colours.js layers.js scene.js plots.js page.js three_licence.txt)
+foreach(name page.html style.css colours.js layers.js scene.js plots.js page.js three_licence.txt
+             evaluation.html evaluation.css evaluation.js)
   list(APPEND page_files "${name}|${CMAKE_CURRENT_SOURCE_DIR}/report/page/${name}")
   list(APPEND page_paths "${CMAKE_CURRENT_SOURCE_DIR}/report/page/${name}")
 endforeach()

@@ -18,9 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-// A run as the script of the page reads it. It must hold no "<", which could end that script.
-std::string run_script(const json& run) {
-  const std::string text = run.dump(-1, ' ', false, json::error_handler_t::replace);
+// JSON as a script of the page reads it. It must hold no "<", which could end that script.
+std::string script_of(const char* kind, const json& data) {
+  const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
@@ -30,7 +30,7 @@ std::string run_script(const json& run) {
       safe += c;
     }
   }
-  return "<script type=\"application/json\" class=\"run\">" + safe + "</script>\n";
+  return "<script type=\"application/json\" class=\"" + std::string(kind) + "\">" + safe + "</script>\n";
 }
 
 json parsed_report(const std::string& text) {
@@ -51,16 +51,17 @@ json run_json(json report, const detail::Replay* replay) {
   return run;
 }
 
-// Writes the page: every {{name}} is replaced by the file of that name, {{runs}} by the runs.
-void write_page(const std::string& runs, const std::filesystem::path& html) {
+// Writes a page: every {{name}} is replaced by the file of that name, but the one named `slot` by `scripts`.
+void write_page(const char* file, std::string_view slot, const std::string& scripts,
+                const std::filesystem::path& html) {
   std::string out;
-  const std::string whole = detail::page_file("page.html");
+  const std::string whole = detail::page_file(file);
   std::string_view page = whole;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
     const std::size_t close = page.find("}}", open);
     const std::string_view name = page.substr(open + 2, close - open - 2);
     out += page.substr(0, open);
-    out += name == "runs" ? runs : detail::page_file(name);
+    out += name == slot ? scripts : detail::page_file(name);
     page.remove_prefix(close + 2);
   }
   out += page;
@@ -77,18 +78,27 @@ void write_report_html(std::span<const ReportedRun> runs, const std::filesystem:
   for (const ReportedRun& run : runs) {
     json report = parsed_report(run.report);
     if (run.record.empty()) {
-      scripts += run_script(run_json(std::move(report), nullptr));
+      scripts += script_of("run", run_json(std::move(report), nullptr));
     } else {
       const detail::Replay replay = detail::replay_of(run.record);
-      scripts += run_script(run_json(std::move(report), &replay));
+      scripts += script_of("run", run_json(std::move(report), &replay));
     }
   }
-  write_page(scripts, html);
+  write_page("page.html", "runs", scripts, html);
 }
 
 void write_report_html(const std::filesystem::path& record, const std::filesystem::path& html) {
   const detail::Replay replay = detail::replay_of(record);
-  write_page(run_script(run_json(json::parse(report_json(replay.run)), &replay)), html);
+  write_page("page.html", "runs", script_of("run", run_json(json::parse(report_json(replay.run)), &replay)), html);
+}
+
+void write_evaluation_html(const std::string& results, const std::filesystem::path& html) {
+  const json data = json::parse(results, nullptr, false);
+  const auto has = [&](const char* key) { return data.contains(key) && data.at(key).is_array(); };
+  if (!data.is_object() || !has("classes") || !has("columns") || !has("rows") || !has("runs")) {
+    throw std::invalid_argument("write_evaluation_html: what is given is no result of an evaluation");
+  }
+  write_page("evaluation.html", "results", script_of("results", data), html);
 }
 
 }  // namespace vantage

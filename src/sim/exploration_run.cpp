@@ -350,8 +350,12 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
                     SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),
                     SeenSurface(scene_, options_.object_surface, sensor_));
   if (options_.measure_coverage) {
-    progress.observable = truth_.observable(*platform_, sensor_, start, options_.threads,
-                                            options_.on_observable_share, options_.unknown_box);
+    if (!observable_from_ || observable_from_->matrix() != start.matrix()) {
+      observable_ = truth_.observable(*platform_, sensor_, start, options_.threads, options_.on_observable_share,
+                                      options_.unknown_box);
+      observable_from_ = start;
+    }
+    progress.observable = observable_;
   }
   progress.body_radius_m = options_.body_radius_m.value_or(0.5 * platform_->body_box(start).extent().minCoeff());
   RunRecord& record = progress.record;

@@ -239,7 +239,8 @@ def look_at_a_comparison(browser, folder, reports):
     rows = browser.evaluate("""[...document.querySelectorAll('#table tbody tr')].map((row) =>
         Object.fromEntries([...row.cells].map((cell) => [cell.dataset.column, cell.dataset.value])))""")
     check(len(rows) == 2, f"there are {len(rows)} groups of runs, not 2")
-    for column, key in (("views", "views"), ("path [m]", "path_length_m"), ("coverage", "coverage")):
+    for column, key in (("views", "views"), ("path [m]", "path_length_m"), ("turned [°]", "turned_deg"),
+                        ("coverage", "coverage")):
         groups = {}
         for report in reports:
             groups.setdefault(report["planner"], []).append(report[key])

@@ -100,7 +100,8 @@ class ExplorationRun {
 
   /// Runs until the planner is done, the budget is spent or ExplorationRunOptions::stop ends it. The space of the
   /// body at `start` is declared free first. Throws std::invalid_argument if `start` is not rigid, outside the
-  /// region, or not admitted in the true world.
+  /// region, or not admitted in the true world. A further run from the same start does not look for the observable
+  /// cells again.
   RunRecord run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view = {});
 
  private:
@@ -132,6 +133,8 @@ class ExplorationRun {
   Truth truth_;
   OccupancyMap map_;
   std::optional<HeightBand> band_;
+  std::vector<VoxelIndex> observable_;  // from the start of the latest run, because the next may start there, too
+  std::optional<Pose> observable_from_;
 };
 
 }  // namespace vantage

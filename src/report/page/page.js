@@ -126,7 +126,9 @@ function showTable() {
   const columns = [
     ["views", (r) => r.report.views, (v) => v.toFixed(0)], ["path [m]", (r) => r.report.path_length_m, (v) => v.toFixed(1)],
     ["coverage", (r) => r.report.seen_coverage ?? r.report.coverage, (v) => percent(v, 2)],
-    ["time [s]", (r) => r.seconds[r.seconds.length - 1], (v) => v.toFixed(1)],
+    ["turned [°]", (r) => r.report.turned_deg, (v) => v.toFixed(0)],
+    [runs.some(isTimed) ? "time [s]" : "computing [s]", (r) => r.report.duration_s ?? r.seconds[r.seconds.length - 1],
+      (v) => v.toFixed(1)],
     ["plan [ms]", (r) => r.report.time_ms.plan.median, (v) => String(+v.toPrecision(3))],
   ];
   const table = document.createElement("table");
@@ -256,7 +258,7 @@ function seek(now) {
   markCurves();
   const run = runs.find((r) => r.report.cycles.length === length);
   const cycle = run.report.cycles[state.now - 1];
-  const share = shareOf(run, cycle);
+  const share = shareOf(cycle);
   $("moment").value = several ? `view ${state.now}`
     : `view ${cycle.view} of ${length} · ${cycle.path_length_m.toFixed(1)} m` +
       (share === null ? "" : ` · ${percent(share)}`);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vantage/compiler.hpp>
+#include <vantage/evaluation/run_figures.hpp>
+#include <vantage/report/run_record.hpp>
+#include <vector>
+
+namespace VANTAGE_EXPORT vantage {
+
+/// One run among those that are compared.
+struct EvaluatedRun {
+  std::string world;        ///< its name in the tables; implies the sensor and the robot
+  std::string planner;      ///< with its settings: NAME[,KEY=VALUE]...
+  std::uint64_t start = 1;  ///< number of the start, the same for every planner
+  RunFigures figures = {};  ///< what came of it
+  std::optional<PathBound> bound =
+      std::nullopt;  ///< on the path of any planner from that start; none if it was not asked for
+};
+
+/// Worlds that share a table.
+struct WorldClass {
+  std::string name = {};                 ///< heading
+  std::string about = {};                ///< sensor, robot and cells, in a sentence
+  std::string command = {};              ///< what prints the table
+  std::vector<std::string> worlds = {};  ///< names, in the order of the rows
+};
+
+/// Tables in Markdown, one for each class of which there are runs: a row for each planner in each world, both in the
+/// order in which they first come. Figures are medians, with quartiles behind them where there are several starts;
+/// collisions are sums; the times of plans are quantiles over all plans of a row. A column without any figure is left
+/// out. A share of the world that less than half of the runs came to know was reached "never".
+[[nodiscard]] std::string exploration_tables(std::span<const WorldClass> classes, std::span<const EvaluatedRun> runs);
+
+/// The same figures and the curves of the runs as JSON, for scripts and for write_evaluation_html:
+///   {"classes": [{name, about, command, worlds}], "columns": [{key, title, digits}],
+///    "rows": [{world, planner, runs, outcomes, collisions, plan_p50_ms, plan_p99_ms, KEY: {median, q1, q3} | null}],
+///    "runs": [{world, planner, start, outcome, curve: [[metres, seconds | null, share], ...]}]}
+/// What was reached never is null, and a curve has at most 250 points.
+[[nodiscard]] std::string exploration_json(std::span<const WorldClass> classes, std::span<const EvaluatedRun> runs);
+
+}  // namespace vantage

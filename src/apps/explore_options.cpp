@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "apps/explore_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/help_format.hpp"
+#include "apps/shared_options.hpp"
+
+namespace vantage::apps {
+namespace {
+
+void add_world_options(CLI::App& command, ExploreRequest& request) {
+  command
+      .add_option("--world", request.world,
+                  "By name (vantage list), a mesh, an OctoMap, or a nav2 map (.yaml); must be given")
+      ->required()
+      ->type_name("NAME|FILE")
+      ->group("World");
+  command.add_option("--up", request.up, "Axis of a mesh file that points up; unless given as the file says, else z")
+      ->type_name("y|z")
+      ->group("World");
+  command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
+      ->type_name("S")
+      ->check(a_number())
+      ->default_str("1")
+      ->group("World");
+  command.add_option("--size", request.size, "Extent of a generated world (office, maze), metres")
+      ->type_name("LENGTH,WIDTH")
+      ->group("World");
+  command.add_option("--region", request.region, "What to explore, metres; all of the world unless given")
+      ->type_name("x0,y0,z0,x1,y1,z1")
+      ->group("World");
+}
+
+void add_robot_options(CLI::App& command, ExploreRequest& request) {
+  command.add_option("--start", request.start, "First pose of the sensor, metres and degrees; drawn unless given")
+      ->type_name("x,y,z[,yaw[,pitch]]")
+      ->group("Robot");
+  add_sensor_options(command, request, "Robot");
+  command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
+  command
+      .add_option("--band", request.band,
+                  "It drives, and explores the plane of these heights; the sensor is in the middle")
+      ->type_name("LOW,HIGH[,SENSOR]")
+      ->group("Robot");
+  command
+      .add_flag("--look-around", request.look_around, "It turns once on the spot, scanning, before the first plan")
+      ->group("Robot");
+  command.add_option("--scan-spacing", request.scan_spacing_m, "Metres between scans on the way; 0: at goals only")
+      ->type_name("M")
+      ->check(a_number())
+      ->capture_default_str()
+      ->group("Robot");
+}
+
+void add_motion_options(CLI::App& command, ExploreRequest& request) {
+  const auto option = [&](const char* name, std::optional<double>& value, const char* type, const char* about) {
+    return command.add_option(name, value, about)->type_name(type)->check(a_number())->group("Robot in time");
+  };
+  option("--max-speed", request.max_speed_m_s, "M/S", "The run is timed: how fast it moves");
+  option("--max-acceleration", request.max_acceleration_m_s2, "M/S2", "Speeding up, braking and in corners");
+  option("--max-yaw-rate", request.max_yaw_rate_deg_s, "DEG/S", "How fast it turns");
+  option("--max-yaw-acceleration", request.max_yaw_acceleration_deg_s2, "DEG/S2", "Unlimited unless given");
+  option("--scan-rate", request.scan_rate_hz, "HZ", "Scans a second, while it moves and turns");
+  option("--planning-latency", request.planning_latency_s, "S",
+         "From a scan until the plan made from it takes effect")
+      ->default_str("0.05");
+}
+
+}  // namespace
+
+void add_explore_options(CLI::App& command, ExploreRequest& request) {
+  add_world_options(command, request);
+  add_robot_options(command, request);
+  add_motion_options(command, request);
+  command.add_option("--planner", request.planner, "By name (vantage list)")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group("Run");
+  command.add_flag("--wear", request.wear, "Rays at a small angle wear away the surface they end in, as in OctoMap")
+      ->group("Run");
+  command
+      .add_flag("--bound", request.bound,
+                "At the end, find the shortest route with full knowledge of the world; slow")
+      ->group("Run");
+  command
+      .add_flag("--no-coverage", request.no_coverage,
+                "Do not measure coverage, so that the first view need not wait for it")
+      ->group("Run");
+  command
+      .add_flag("--audit", request.audit,
+                "At the end, check by brute force that nothing is left that could be observed; slow")
+      ->group("Run");
+  add_setting_option(command, request, "A setting of the planner, as often as needed; a wrong key lists them");
+  add_run_options(command, request);
+}
+
+ExploreRequest explore_request(const std::string& options) {
+  ExploreRequest request;
+  CLI::App app;
+  add_explore_options(app, request);
+  try {
+    app.parse(options);
+  } catch (const CLI::ParseError& error) {
+    throw std::invalid_argument("'" + options + "': " + error.what());
+  }
+  check_numbers(request);
+  return request;
+}
+
+}  // namespace vantage::apps

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "apps/simulated_run.hpp"
+
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <vantage/planner/assume_free.hpp>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/ground_robot.hpp>
+#include <vantage/sim/watchman_route.hpp>
+
+namespace vantage::apps {
+namespace {
+
+bool is_plan(const ExploreRequest& request) { return is_world_file(request, World::FileKind::Plan); }
+
+// In a plane the height of the sensor is given.
+std::optional<Pose> start_in_world(const ExploreRequest& request) {
+  std::optional<Pose> start = start_of(request);
+  if (start && is_plan(request)) {
+    start->translation().z() = 0.5 * request.resolution_m;
+  }
+  return start;
+}
+
+void check_region(const ExploreRequest& request, const World& world, const Box& region) {
+  const Box bounds = world.mesh.bounds();
+  if (!(region.min.array() < bounds.max.array()).all() || !(region.max.array() > bounds.min.array()).all()) {
+    std::ostringstream message;
+    message << "--region " << request.region << " holds nothing of the world, which spans " << bounds.min.x() << ','
+            << bounds.min.y() << ',' << bounds.min.z() << ',' << bounds.max.x() << ',' << bounds.max.y() << ','
+            << bounds.max.z();
+    throw std::invalid_argument(message.str());
+  }
+  check_cell_count(region, request.resolution_m);
+  const std::optional<Pose> start = start_in_world(request);
+  if (start && !region.contains(start->translation())) {
+    throw std::invalid_argument("--start " + request.start + " lies outside the region");
+  }
+}
+
+}  // namespace
+
+SensorCarrier carrier_of(const ExploreRequest& request) {
+  if (is_plan(request) && !request.band.empty()) {
+    throw std::invalid_argument("--band: --world " + request.world + " is a plane already");
+  }
+  (void)start_in_world(request);  // a faulty start is found before the world is read
+  SensorCarrier carrier{.sensor = is_plan(request) ? in_plane(sensor_of(request)) : sensor_of(request)};
+  if (!request.band.empty() || is_plan(request)) {
+    carrier.platform = std::make_shared<const GroundRobot>(GroundRobotOptions{.radius_m = request.robot_radius_m});
+  } else {
+    carrier.platform = std::make_shared<const FreeFlyer>(
+        FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
+  }
+  return carrier;
+}
+
+std::unique_ptr<ExplorationPlanner> planner_of(const ExploreRequest& request, const SensorCarrier& carrier) {
+  return make_planner(
+      request.planner,
+      {.sensor = carrier.sensor, .platform = carrier.platform, .seed = request.seed, .threads = request.threads},
+      settings_of(request));
+}
+
+ExploredWorld explored_world(const ExploreRequest& request) {
+  const std::optional<Box> asked = region_of(request);
+  ExploredWorld explored{.world = world_of(request)};
+  explored.region = asked.value_or(explored.world.region);
+  if (explored.world.plan) {
+    explored.region.min.z() = 0.0;
+    explored.region.max.z() = request.resolution_m;
+  }
+  check_region(request, explored.world, explored.region);
+  return explored;
+}
+
+ExplorationRunOptions run_options_of(const ExploreRequest& request, const SensorCarrier& carrier, const Box& region) {
+  ExplorationRunOptions options;
+  options.map.resolution_m = request.resolution_m;
+  options.map.region = region;
+  options.map.keep_grazed_cells = !request.wear;
+  options.band = band_of(request);
+  options.start_clearance_m = start_clearance_m(*carrier.platform, carrier.sensor);
+  options.look_around = request.look_around;
+  options.max_views = request.max_views;
+  options.scan_spacing_m = request.scan_spacing_m;
+  options.motion = motion_of(request);
+  options.seed = request.seed;
+  options.noise = noise_of(request);
+  options.body_radius_m = request.robot_radius_m;
+  options.threads = request.threads;
+  options.measure_coverage = !request.no_coverage;
+  return options;
+}
+
+Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
+  const std::optional<Pose> given = start_in_world(request);
+  const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
+  if (!start) {
+    throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region");
+  }
+  return *start;
+}
+
+PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start, int threads) {
+  const WatchmanRoute route =
+      watchman_route(run.truth(), *carrier.platform, carrier.sensor, start, {.threads = threads});
+  return {route.length_m, route.sees_all};
+}
+
+void tell_request(RunRecord& record, const ExploreRequest& request) {
+  record.command = "explore";
+  record.world = request.world;
+  record.planner = request.planner;
+  record.seed = request.seed;
+  record.threads = request.threads;
+  record.resolution_m = request.resolution_m;
+}
+
+}  // namespace vantage::apps

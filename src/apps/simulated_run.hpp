@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vantage/planner/exploration_planner.hpp>
+#include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/robot/platform.hpp>
+#include <vantage/sim/exploration_run.hpp>
+#include <vantage/sim/world.hpp>
+
+#include "apps/explore_request.hpp"
+
+// A run in a simulated world, as the commands explore and evaluate make it. Each function throws
+// std::invalid_argument or std::runtime_error with the option or file at fault.
+namespace vantage::apps {
+
+/// The sensor, and what carries it.
+struct SensorCarrier {
+  RangeSensor sensor;
+  std::shared_ptr<const Platform> platform = nullptr;
+};
+/// In a world that is a plane, a sensor of that plane; there and with a band it drives.
+[[nodiscard]] SensorCarrier carrier_of(const ExploreRequest& request);
+
+[[nodiscard]] std::unique_ptr<ExplorationPlanner> planner_of(const ExploreRequest& request,
+                                                             const SensorCarrier& carrier);
+
+/// A world and the part of it to explore.
+struct ExploredWorld {
+  World world;
+  Box region = {};
+};
+[[nodiscard]] ExploredWorld explored_world(const ExploreRequest& request);
+
+[[nodiscard]] ExplorationRunOptions run_options_of(const ExploreRequest& request, const SensorCarrier& carrier,
+                                                   const Box& region);
+
+/// The start that was asked for, or else the one drawn from the seed.
+[[nodiscard]] Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request);
+
+/// A lower bound on the path from this start.
+[[nodiscard]] PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start,
+                                 int threads);
+
+/// Writes into the record of a run what was asked for.
+void tell_request(RunRecord& record, const ExploreRequest& request);
+
+}  // namespace vantage::apps
