@@ -24,7 +24,7 @@ enum class FieldSolver : std::uint8_t {
   GaussSeidel,
 };
 
-/// What HarmonicPlanner does beyond the paper or differently. docs/results.md shows the effect of each part.
+/// What HarmonicPlanner does beyond the paper or differently.
 struct HarmonicStrategy {
   /// A sink whose path is longer than that to the nearest sink by more than this waits for a later plan, metres, >=
   /// 0. So nearby frontiers are finished first, and the field covers only the cells that are nearer than its sinks.
