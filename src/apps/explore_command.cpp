@@ -82,6 +82,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Box& r
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
   options.map.keep_grazed_cells = !request.wear;
+  options.map.max_bytes = max_bytes_of(request.memory_limit_mb);
   options.band = band_of(request);
   options.start_clearance_m = start_clearance_m(platform, sensor);
   options.look_around = request.look_around;
