@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "map/octomap_file.hpp"
+#include "map/plain_stream.hpp"
 #include "map/whole_file.hpp"
 
 namespace vantage {
@@ -133,8 +133,7 @@ class OctreeWriter {
   explicit OctreeWriter(const octomap::OcTree& tree) : tree_(tree) {}
 
   std::string write(Keep keep) {
-    std::ostringstream header;
-    header.imbue(std::locale::classic());
+    detail::PlainStream header;
     header.precision(17);
     header << "# Octomap OcTree " << (keep == Keep::States ? "binary " : "") << "file\n"
            << "# (the first line must stay as it is)\nid OcTree\nsize " << tree_.size() << "\nres "

@@ -181,7 +181,10 @@ void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
         add_if_it_differs(cell, here, looks.in_vain);
       }
       if (!looked || differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
-        add_if_it_differs(cell, goal, looks.missed);
+        std::vector<VoxelIndex>& missed = looks.missed;
+        if (std::find(missed.begin(), missed.end(), goal) == missed.end()) {
+          missed.push_back(goal);
+        }
       }
     };
     std::for_each(expected_->sought.begin(), expected_->sought.end(), look);

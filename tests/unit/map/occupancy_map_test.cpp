@@ -442,9 +442,11 @@ std::size_t write_one_way(OccupancyMap& map, std::uint32_t kind, const Scan& sca
   const std::size_t before = map.cells_refused();
   const VoxelBox box{at, at + VoxelIndex{5, 3, 9}};
   switch (kind % 4) {
-    case 0:
-      EXPECT_EQ(map.insert(scan).cells_refused, map.cells_refused() - before);
+    case 0: {
+      const ScanReport report = map.insert(scan);
+      EXPECT_EQ(report.cells_refused, map.cells_refused() - before);
       break;
+    }
     case 1:
       map.set(at, kind % 3 == 0 ? Occupancy::Unknown : Occupancy::Occupied);
       break;
