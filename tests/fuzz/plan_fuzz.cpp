@@ -55,6 +55,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.max_bytes = input.byte() % 4 == 0 ? 60'000 : 0;
   vantage::OccupancyMap map(options);
   vantage::Pose current = vantage::pose_looking({0.1, 0.1, 0.1}, 0.0);
+  if (input.byte() % 4 != 0) {
+    map.set_log_odds(VoxelBox{{-5, -5, -3}, {6, 6, 4}}, -2.0);
+  }
   const auto box = [&] {
     const VoxelIndex lo{input.small() / 8, input.small() / 8, input.small() / 16};
     return VoxelBox{lo, lo + VoxelIndex{1 + input.byte() % 12, 1 + input.byte() % 12, 1 + input.byte() % 6}};
