@@ -9,6 +9,7 @@
 #include <vantage/version.hpp>
 #include <vector>
 
+#include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
 #include "apps/map_command.hpp"
 #include "apps/report_commands.hpp"
@@ -19,6 +20,7 @@ namespace {
 struct MapRequest {
   std::string file;
   std::string json;
+  double memory_limit_mb = 0.0;
 };
 
 void add_map_command(CLI::App& app, int& exit_code) {
@@ -28,11 +30,18 @@ void add_map_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("FILE.bt|FILE.ot");
   command->add_option("--json", request->json, "The same as JSON; -: on stdout")->type_name("FILE|-");
+  command
+      ->add_option("--memory-limit", request->memory_limit_mb,
+                   "A map that needs more is refused, 10^6 bytes; 0: no limit")
+      ->type_name("MB")
+      ->check(a_number());
   command->footer(
       "Examples:\n"
       "  vantage map rooms/map.ot\n"
       "  vantage map geb079.bt --json -");
-  command->callback([request, &exit_code] { exit_code = run_map_command(request->file, request->json, std::cout); });
+  command->callback([request, &exit_code] {
+    exit_code = run_map_command(request->file, request->json, std::cout, max_bytes_of(request->memory_limit_mb));
+  });
 }
 
 // Called before any command runs.

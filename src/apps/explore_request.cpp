@@ -48,6 +48,12 @@ std::vector<double> numbers_of(const char* flag, const std::string& text) {
   return numbers;
 }
 
+std::size_t max_bytes_of(double memory_limit_mb) {
+  detail::require_option(memory_limit_mb == 0.0 || (memory_limit_mb >= 0.01 && memory_limit_mb <= 1e9),
+                         "--memory-limit", memory_limit_mb, "0 or in [0.01, 1e9] MB");
+  return static_cast<std::size_t>(memory_limit_mb * 1e6);
+}
+
 void check_numbers(const ExploreRequest& request) {
   const auto require = [](double value, const char* option, double least, double most, const char* rule) {
     detail::require_option(value >= least && value <= most, option, value, rule);  // false for NaN
@@ -59,6 +65,7 @@ void check_numbers(const ExploreRequest& request) {
   require(request.noise, "--noise", 0.0, 1000.0, "in [0, 1000]");
   (void)noise_of(request);
   (void)motion_of(request);
+  (void)max_bytes_of(request.memory_limit_mb);
   detail::require_option(request.max_views > 0, "--max-views", request.max_views, "> 0");
   detail::require_option(request.threads > 0, "--threads", request.threads, "> 0");
   if (!request.up.empty() && request.up != "y" && request.up != "z") {

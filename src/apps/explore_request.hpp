@@ -47,6 +47,7 @@ struct ExploreRequest {
   double noise = 0.0;
   std::string pose_noise;  // "metres,degrees"
   std::size_t max_views = 500;
+  double memory_limit_mb = 0.0;  // 10^6 bytes; 0: none
   std::uint64_t seed = 1;
   int threads = 1;
   std::string out;
@@ -74,6 +75,8 @@ struct ExploreRequest {
 [[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
 /// The numbers of a list "1,2.5,-3" given to `flag`, each within +-10^6.
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
+/// `--memory-limit` in bytes; 0: none.
+[[nodiscard]] std::size_t max_bytes_of(double memory_limit_mb);
 /// Noise of depth and poses, from `--noise` and `--pose-noise`.
 [[nodiscard]] SensorNoise noise_of(const ExploreRequest& request);
 /// The box "x0,y0,z0,x1,y1,z1" given to `flag`, metres.

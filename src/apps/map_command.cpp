@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <stdexcept>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/map/octomap_bridge.hpp>
@@ -34,8 +35,12 @@ void print(const nlohmann::json& summary, std::ostream& out) {
 
 }  // namespace
 
-nlohmann::json map_summary(const std::filesystem::path& file) {
-  const OccupancyMap map = load_octomap(file).map;
+nlohmann::json map_summary(const std::filesystem::path& file, std::size_t max_bytes) {
+  const OccupancyMap map = load_octomap(file, {.map = {.max_bytes = max_bytes}}).map;
+  if (map.cells_refused() > 0) {
+    throw std::runtime_error(file.string() + ": its map needs more than the " + std::to_string(max_bytes) +
+                             " bytes of --memory-limit");
+  }
   const OccupancyMap::Counts counts = map.counts();
   const Box bounds = map.frame().box_of(map.bounds());
   return {{"file", file.string()},
@@ -51,8 +56,9 @@ nlohmann::json map_summary(const std::filesystem::path& file) {
           {"memory_mb", static_cast<double>(map.memory_bytes()) / 1e6}};
 }
 
-int run_map_command(const std::filesystem::path& file, const std::string& json, std::ostream& out) {
-  const nlohmann::json summary = map_summary(file);
+int run_map_command(const std::filesystem::path& file, const std::string& json, std::ostream& out,
+                    std::size_t max_bytes) {
+  const nlohmann::json summary = map_summary(file, max_bytes);
   if (json == "-") {
     out << summary.dump(2) << '\n';
     return 0;

@@ -11,6 +11,7 @@ ExplorationRunOptions object_run_options(const ExploreRequest& request, const Ob
                                          const TriangleMesh& object) {
   ExplorationRunOptions options;
   options.map.resolution_m = request.resolution_m;
+  options.map.max_bytes = max_bytes_of(request.memory_limit_mb);
   options.max_views = request.max_views;
   options.scan_spacing_m = 0.0;
   options.seed = request.seed;

@@ -17,6 +17,9 @@ void check_numbers(const ReplayRequest& request) {
   if (!request.object_box.empty() && !request.select) {
     throw std::invalid_argument("--object-box says what counts for --select, which is not given");
   }
+  if (request.select && request.run.memory_limit_mb > 0.0) {
+    throw std::invalid_argument("--memory-limit does not go with --select, which compares all that the views show");
+  }
   detail::require_option(request.every > 0, "--every", request.every, "> 0");
 }
 
@@ -37,7 +40,9 @@ Recording recording_of(const ReplayRequest& request) {
 }
 
 OccupancyMapOptions map_options_of(const ReplayRequest& request) {
-  return {.resolution_m = request.run.resolution_m, .region = region_of(request.run)};
+  return {.resolution_m = request.run.resolution_m,
+          .region = region_of(request.run),
+          .max_bytes = max_bytes_of(request.run.memory_limit_mb)};
 }
 
 std::optional<Box> object_of(const ReplayRequest& request) {

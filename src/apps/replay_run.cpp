@@ -15,6 +15,8 @@
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/report/report_json.hpp>
 
+#include "report/full_map.hpp"
+
 namespace vantage::apps {
 namespace {
 
@@ -157,6 +159,7 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
     throw std::runtime_error("no frame of the recording can be used; the last, " + last.name + ": " + last.reason);
   }
   conclude(record, stopped);
+  detail::tell_refused(record.run, map);
   return record;
 }
 

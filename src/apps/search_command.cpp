@@ -160,6 +160,7 @@ ExplorationRunOptions options_of(const ExploreRequest& shared, const World& worl
   ExplorationRunOptions options;
   options.map.resolution_m = shared.resolution_m;
   options.map.region = region_of(shared).value_or(world.region);
+  options.map.max_bytes = max_bytes_of(shared.memory_limit_mb);
   check_cell_count(*options.map.region, shared.resolution_m);
   options.max_views = shared.max_views;
   options.scan_spacing_m = 0.0;

@@ -14,7 +14,7 @@ namespace vantage::apps {
 void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* group);
 /// Adds --set; `about` says whose settings they are.
 void add_setting_option(CLI::App& command, ExploreRequest& request, const char* about);
-/// Adds --resolution, --max-views, --seed and --threads.
+/// Adds --resolution, --max-views, --memory-limit, --seed and --threads.
 void add_run_options(CLI::App& command, ExploreRequest& request);
 /// Adds --out, --json and --quiet.
 void add_output_options(CLI::App& command, ExploreRequest& request);

@@ -81,6 +81,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
   options.map.resolution_m = request.resolution_m;
   options.map.region = region;
   options.map.keep_grazed_cells = !request.wear;
+  options.map.max_bytes = max_bytes_of(request.memory_limit_mb);
   options.band = band_of(request);
   options.start_clearance_m = start_clearance_m(*carrier.platform, carrier.sensor);
   options.look_around = request.look_around;

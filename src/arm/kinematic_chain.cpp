@@ -36,6 +36,16 @@ double length_of(const KDL::Segment& segment, const JointRange* range) {
   return segment.getFrameToTip().p.Norm() + slide_m;
 }
 
+void check(const DhRow& row) {
+  const auto require_finite = [](double value, const char* field) {
+    detail::require_option(std::isfinite(value), field, value, "finite");
+  };
+  require_finite(row.a_m, "DhRow::a_m");
+  require_finite(row.alpha_rad, "DhRow::alpha_rad");
+  require_finite(row.d_m, "DhRow::d_m");
+  require_finite(row.theta_rad, "DhRow::theta_rad");
+}
+
 }  // namespace
 
 // Computes all derived data.
@@ -83,8 +93,12 @@ KinematicChain KinematicChain::from_dh(std::span<const DhRow> rows, const Pose& 
   if (rows.empty()) {
     throw std::invalid_argument("KinematicChain::from_dh needs at least one row");
   }
+  if (!is_rigid(last_from_sensor)) {
+    throw std::invalid_argument("KinematicChain::from_dh: last_from_sensor is not a rigid transform");
+  }
   const auto parts = std::make_shared<Parts>();
   for (const DhRow& row : rows) {
+    check(row);
     const std::string name = "joint_" + std::to_string(parts->names.size() + 1);
     const KDL::Joint joint(name, row.slides ? KDL::Joint::TransZ : KDL::Joint::RotZ);
     parts->add(KDL::Segment(name, joint, KDL::Frame::DH(row.a_m, row.alpha_rad, row.d_m, row.theta_rad)));

@@ -191,8 +191,7 @@ void OccupancyMap::swap(OccupancyMap& other) {
 }
 
 std::size_t OccupancyMap::memory_bytes() const {
-  return sizeof(*this) + directory_.memory_bytes() +
-         bricks_.size() * (sizeof(Stored) + sizeof(void*) + sizeof(Revision));
+  return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * kBytesOfBrick;
 }
 
 void OccupancyMap::require_past(Revision revision) const {
@@ -285,8 +284,11 @@ BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& address) {
   if (known != BrickDirectory::kNone) {
     return known;
   }
-  if (options_.max_bytes != 0 && memory_bytes() >= options_.max_bytes) {
-    return BrickDirectory::kNone;
+  if (options_.max_bytes != 0) {
+    const std::size_t bricks = (bricks_.size() + 1) * kBytesOfBrick;
+    if (sizeof(*this) + directory_.memory_with(address) + bricks > options_.max_bytes) {
+      return BrickDirectory::kNone;
+    }
   }
   const auto number = static_cast<BrickDirectory::Number>(bricks_.size());
   directory_.place(address) = number;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "map/octomap_file.hpp"
+#include "map/plain_stream.hpp"
 #include "map/whole_file.hpp"
 
 namespace vantage {
@@ -43,20 +43,18 @@ double log_odds_of(const OctomapLeaf& leaf, BeamModel model, const OccupancyMapO
   return std::max(1.0, std::round(leaf.log_odds / options.log_odds_miss)) * options.log_odds_miss;
 }
 
-void write_leaf(const OctomapLeaf& leaf, BeamModel model, OccupancyMap& map) {
+VoxelBox box_of(const OctomapLeaf& leaf) {
   const std::int32_t edge = std::int32_t{1} << leaf.level;
-  map.set_log_odds(VoxelBox{leaf.first, leaf.first + VoxelIndex{edge, edge, edge}},
-                   log_odds_of(leaf, model, map.options()));
+  return {leaf.first, leaf.first + VoxelIndex{edge, edge, edge}};
 }
 
-// Fills a new map from any object with `for_each_leaf(visit)`. The first pass only counts and checks, so that a tree
-// that is too large fails early; the second one writes.
+void write_leaf(const OctomapLeaf& leaf, BeamModel model, OccupancyMap& map) {
+  map.set_log_odds(box_of(leaf), log_odds_of(leaf, model, map.options()));
+}
+
+// Throws if the leaves stand for too many cells, so that a tree that is too large fails before anything is written.
 template <class ForEachLeaf>
-OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapImportOptions& options,
-                            const std::string& what, const ForEachLeaf& for_each_leaf) {
-  OccupancyMapOptions map_options = options.map;
-  map_options.resolution_m = resolution_m;
-  OctomapImport import{OccupancyMap(map_options)};
+void check_leaves(const OctomapImportOptions& options, const std::string& what, const ForEachLeaf& for_each_leaf) {
   std::uint64_t cells = 0;
   for_each_leaf([&](const OctomapLeaf& leaf) {
     cells += leaf.cells();  // at most 2^48 in total, because leaves are disjoint
@@ -68,6 +66,16 @@ OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapI
       throw std::runtime_error(what + ": a node has log-odds that are not a number");
     }
   });
+}
+
+// Fills a new map from any object with `for_each_leaf(visit)`.
+template <class ForEachLeaf>
+OctomapImport import_leaves(double resolution_m, BeamModel model, const OctomapImportOptions& options,
+                            const std::string& what, const ForEachLeaf& for_each_leaf) {
+  OccupancyMapOptions map_options = options.map;
+  map_options.resolution_m = resolution_m;
+  OctomapImport import{OccupancyMap(map_options)};
+  check_leaves(options, what, for_each_leaf);
   for_each_leaf([&](const OctomapLeaf& leaf) {
     write_leaf(leaf, model, import.map);
     const std::optional<double> held = import.map.log_odds(leaf.first);
@@ -125,8 +133,7 @@ class OctreeWriter {
   explicit OctreeWriter(const octomap::OcTree& tree) : tree_(tree) {}
 
   std::string write(Keep keep) {
-    std::ostringstream header;
-    header.imbue(std::locale::classic());
+    detail::PlainStream header;
     header.precision(17);
     header << "# Octomap OcTree " << (keep == Keep::States ? "binary " : "") << "file\n"
            << "# (the first line must stay as it is)\nid OcTree\nsize " << tree_.size() << "\nres "
@@ -230,25 +237,37 @@ std::size_t OctomapFollower::update() {
   return changed;
 }
 
+// Compares with the tree itself: another map with a limit would hold other cells than this one.
 std::size_t OctomapFollower::resync() {
   check_resolution();
-  const OccupancyMap current = from_octree(tree_, options_).map;
-  std::vector<VoxelIndex> differing;
-  std::size_t changed = 0;
+  const auto for_each_leaf = [this](const auto& visit) { for_each_leaf_of(tree_, visit); };
+  check_leaves(options_, "from_octree", for_each_leaf);
+  std::vector<VoxelIndex> gone;
   map_.for_each_known([&](const VoxelIndex& cell, Occupancy) {
-    if (current.at(cell) == Occupancy::Unknown) {
-      differing.push_back(cell);
+    if (tree_.search(key_of(cell)) == nullptr) {
+      gone.push_back(cell);
     }
   });
-  changed += differing.size();
-  for (const VoxelIndex& cell : differing) {
+  for (const VoxelIndex& cell : gone) {
     map_.set(cell, Occupancy::Unknown);
   }
-  current.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
-    changed += map_.at(cell) != state ? 1U : 0U;
-    if (map_.log_odds(cell) != current.log_odds(cell)) {
-      map_.set_log_odds(cell, current.log_odds(cell).value());
-    }
+  std::size_t changed = gone.size();
+  const BeamModel model = beam_model_of(tree_, map_.options());
+  OccupancyMapOptions one_cell = map_.options();  // of a map that clamps and rounds in the same way
+  one_cell.region.reset();
+  one_cell.max_bytes = 0;
+  OccupancyMap rounded(one_cell);
+  for_each_leaf([&](const OctomapLeaf& leaf) {
+    const double log_odds = log_odds_of(leaf, model, map_.options());
+    rounded.set_log_odds(VoxelIndex{}, log_odds);
+    const std::optional<double> expected = rounded.log_odds(VoxelIndex{});
+    for_each_cell(box_of(leaf), [&](const VoxelIndex& cell) {
+      if (map_.in_region(cell) && map_.log_odds(cell) != expected) {
+        const Occupancy before = map_.at(cell);
+        map_.set_log_odds(cell, log_odds);
+        changed += map_.at(cell) != before ? 1U : 0U;
+      }
+    });
   });
   tree_.resetChangeDetection();
   return changed;

@@ -3,12 +3,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <unordered_map>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/report/map_export.hpp>
 #include <vector>
 
+#include "map/plain_stream.hpp"
 #include "map/whole_file.hpp"
 #include "report/bytes.hpp"
 
@@ -76,7 +76,7 @@ void write_ply(const std::vector<Eigen::Vector3d>& vertices,
       body.word(corner, 4);
     }
   }
-  std::ostringstream out;
+  detail::PlainStream out;
   out << "ply\nformat binary_little_endian 1.0\ncomment metres, z up\nelement vertex " << vertices.size()
       << "\nproperty float x\nproperty float y\nproperty float z\n"
          "property uchar red\nproperty uchar green\nproperty uchar blue\n";

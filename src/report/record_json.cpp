@@ -121,6 +121,7 @@ std::string end_json(const RunRecord& run) {
                  {"collisions", run.collisions},
                  {"integration_operations", run.integration_operations},
                  {"planning_operations", run.planning_operations},
+                 {"cells_refused", run.cells_refused},
                  {"peak_memory_mb", run.peak_memory_mb}});
 }
 
@@ -142,6 +143,7 @@ void read_end(const std::string& text, RunRecord& run) {
   take(object, "collisions", run.collisions);
   take(object, "integration_operations", run.integration_operations);
   take(object, "planning_operations", run.planning_operations);
+  take(object, "cells_refused", run.cells_refused);
   take(object, "peak_memory_mb", run.peak_memory_mb);
 }
 

@@ -90,6 +90,7 @@ ordered_json summary_json(const RunRecord& record) {
         {"too_small", 0}}},
       {"collisions", record.collisions},
       {"ray_operations", {{"integration", record.integration_operations}, {"planning", record.planning_operations}}},
+      {"cells_refused", record.cells_refused},
       {"time_ms", times_json(record)},
       {"peak_memory_mb", record.peak_memory_mb}};
   if (record.path_bound) {

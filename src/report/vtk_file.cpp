@@ -2,8 +2,8 @@
 #include "report/vtk_file.hpp"
 
 #include <numeric>
-#include <sstream>
 
+#include "map/plain_stream.hpp"
 #include "map/whole_file.hpp"
 #include "report/base64.hpp"
 #include "report/bytes.hpp"
@@ -34,14 +34,14 @@ std::string packed_letters(const std::string& bytes) {
 }
 
 std::string data_array(std::string_view type, std::string_view name, int components, const ByteWriter& bytes) {
-  std::ostringstream out;
+  PlainStream out;
   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
       << "\" format=\"binary\">" << packed_letters(bytes.bytes()) << "</DataArray>\n";
   return out.str();
 }
 
 void write_file(const std::filesystem::path& file, std::string_view type, std::string_view content) {
-  std::ostringstream out;
+  PlainStream out;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type
       << "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
          "compressor=\"vtkZLibDataCompressor\">\n"
@@ -88,9 +88,9 @@ void write_vti(const VoxelBox& cells, const VoxelFrame& frame, std::string_view 
                const std::vector<std::uint8_t>& values, const std::filesystem::path& file) {
   const VoxelIndex n = cells.extent();
   const Eigen::Vector3d origin = frame.corner_of(cells.lo);
-  std::ostringstream out;
+  PlainStream out;
   out.precision(17);
-  std::ostringstream extent;
+  PlainStream extent;
   extent << "0 " << n.x << " 0 " << n.y << " 0 " << n.z;
   out << "<ImageData WholeExtent=\"" << extent.str() << "\" Origin=\"" << origin.x() << ' ' << origin.y() << ' '
       << origin.z() << "\" Spacing=\"" << frame.size_m << ' ' << frame.size_m << ' ' << frame.size_m
@@ -109,7 +109,7 @@ void write_vtp(const VtkPolyData& data, const std::filesystem::path& file) {
   }
   const bool lines = !data.line_lengths.empty();
   const std::size_t n = data.points.size();
-  std::ostringstream out;
+  PlainStream out;
   out << "<PolyData>\n<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"" << (lines ? 0 : n)
       << "\" NumberOfLines=\"" << data.line_lengths.size()
       << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n"
@@ -127,7 +127,7 @@ void write_vtp(const VtkPolyData& data, const std::filesystem::path& file) {
 
 void write_pvd(const std::vector<std::pair<std::size_t, std::filesystem::path>>& parts,
                const std::filesystem::path& file) {
-  std::ostringstream out;
+  PlainStream out;
   out << "<Collection>\n";
   for (const auto& [time, part] : parts) {
     out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\""

@@ -15,6 +15,7 @@
 #include <vantage/view/candidate_views.hpp>
 
 #include "map/option_rule.hpp"
+#include "report/full_map.hpp"
 #include "sim/run_progress.hpp"
 #include "sim/timed_robot.hpp"
 
@@ -386,6 +387,7 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
     }
   }
   measure_observable(progress, start);
+  detail::tell_refused(record, map_);
   record.peak_memory_mb = peak_memory_mb();
   return std::move(progress.record);
 }

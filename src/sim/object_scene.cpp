@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <vantage/sim/object_scene.hpp>
 #include <vantage/view/candidate_views.hpp>
 
 #include "geometry/dice.hpp"
+#include "map/plain_stream.hpp"
 
 namespace vantage {
 namespace {
@@ -22,7 +22,7 @@ double fitting_radius_m(const Box& box, const RangeSensor& sensor, const ObjectS
 }
 
 std::string comma_separated(const std::vector<double>& numbers) {
-  std::ostringstream text;
+  detail::PlainStream text;
   text.precision(17);
   for (const double number : numbers) {
     text << (text.tellp() > 0 ? "," : "") << number;

@@ -30,7 +30,11 @@ World World::from_file(const std::filesystem::path& path, const MeshFileOptions&
   if (map.counts().free == 0) {
     throw std::runtime_error(path.string() + ": has no free cell to explore");
   }
-  return from_map(path.filename().string(), map);
+  try {
+    return from_map(path.filename().string(), map);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
 }
 
 }  // namespace vantage

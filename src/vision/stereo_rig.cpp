@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -69,6 +71,18 @@ LensModel lens_of(const cv::Mat& k, const cv::Mat& distortion) {
   return lens;
 }
 
+// OpenCV knows lenses of these numbers of coefficients; none: no distortion.
+void check_lens(const LensModel& lens, const char* camera) {
+  constexpr std::array<std::size_t, 6> kCounts{0, 4, 5, 8, 12, 14};
+  const std::size_t count = lens.distortion.size();
+  require_option(std::find(kCounts.begin(), kCounts.end(), count) != kCounts.end(),
+                 std::string("count of Rectification::") + camera + ".distortion", count, "0, 4, 5, 8, 12 or 14");
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!lens.k.allFinite() || !std::all_of(lens.distortion.begin(), lens.distortion.end(), finite)) {
+    throw std::invalid_argument(std::string("Rectification::") + camera + " has a number that is not finite");
+  }
+}
+
 }  // namespace
 
 double StereoRig::depth_m(double disparity_px) const {
@@ -83,7 +97,12 @@ void StereoRig::validate() const {
   require_option(std::isfinite(cx), "StereoRig::cx", cx, "finite");
   require_option(std::isfinite(cy), "StereoRig::cy", cy, "finite");
   require_option(std::isfinite(offset_px), "StereoRig::offset_px", offset_px, "finite");
-  if (rectification && !is_rigid(rectification->right_from_left)) {
+  if (!rectification) {
+    return;
+  }
+  check_lens(rectification->left, "left");
+  check_lens(rectification->right, "right");
+  if (!is_rigid(rectification->right_from_left)) {
     throw std::invalid_argument("Rectification::right_from_left is not a rigid transform");
   }
 }
@@ -129,9 +148,17 @@ StereoRig read_middlebury_calibration(const std::filesystem::path& file) {
     }
     return found->second[index];
   };
+  const auto pixels = [&](const char* name) {
+    constexpr double kMost = 1U << 26U;
+    const double count = value(name, 1, 0);
+    if (!(count >= 0.0 && count <= kMost && count == std::floor(count))) {  // false for NaN
+      refuse(file, std::string("'") + name + "' is no number of pixels");
+    }
+    return static_cast<std::size_t>(count);
+  };
   StereoRig rig;
-  rig.width = static_cast<std::size_t>(value("width", 1, 0));
-  rig.height = static_cast<std::size_t>(value("height", 1, 0));
+  rig.width = pixels("width");
+  rig.height = pixels("height");
   if (values.contains("cam0")) {
     rig.focal_px = value("cam0", 9, 0);
     rig.cx = value("cam0", 9, 2);
@@ -151,6 +178,9 @@ StereoRig read_middlebury_calibration(const std::filesystem::path& file) {
 StereoRig read_opencv_calibration(const std::filesystem::path& intrinsics, const std::filesystem::path& extrinsics,
                                   std::size_t width, std::size_t height, double unit_m) {
   require_option(std::isfinite(unit_m) && unit_m > 0.0, "unit_m", unit_m, "> 0");
+  constexpr std::size_t kMostPixels = std::size_t{1} << 26U;
+  require_option(width > 0 && width <= kMostPixels, "width", width, "in [1, 67108864]");
+  require_option(height > 0 && height <= kMostPixels, "height", height, "in [1, 67108864]");
   const cv::FileStorage lenses = storage_of(intrinsics);
   Rectification rectification;
   rectification.left = lens_of(matrix_in(lenses, "M1", 3, 3, intrinsics), matrix_in(lenses, "D1", 0, 0, intrinsics));

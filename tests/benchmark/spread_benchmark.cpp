@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// plan/nearest-frontier/tunnel-folded, plan/nearest-frontier/tunnel-spread: the same tunnel of ten million known
-// cells of 0.1 m, folded into a compact block, and as a staircase over 2 x 2 km. Times a complete plan after the
-// cells in front of a hole in the wall became known. The cost should follow the cells, not their bounding box.
-// `map_mb` is the memory of the map.
+// plan/<planner>/tunnel-folded, plan/<planner>/tunnel-spread: the same tunnel of ten million known cells of 0.1 m,
+// folded into a compact block, and as a staircase over 2 x 2 km. Times a complete plan after the cells in front of a
+// hole in the wall became known. The cost should follow the cells, not their bounding box. `first_ms` is the time of
+// the first plan, `map_mb` the memory of the map, `planner_mb` that of the planner after the last plan.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
+#include <chrono>
 #include <memory>
+#include <string>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vector>
@@ -58,14 +61,22 @@ struct Tunnel {
   }
 };
 
-void plan_in_tunnel(benchmark::State& state, Course course) {
-  const OccupancyMap::Counts counts = Tunnel(course).map.counts();
+double megabytes_in_use() {
+  const struct mallinfo2 info = ::mallinfo2();
+  return 1e-6 * static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+void plan_in_tunnel(benchmark::State& state, const std::string& name, Course course) {
   Tunnel tunnel(course);
-  PlannerSetup setup{.sensor = RangeSensor::preset("kinect"),
-                     .platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.3})};
-  const auto planner = make_planner("nearest-frontier", setup, {});
+  const OccupancyMap::Counts counts = tunnel.map.counts();
+  const double before_mb = megabytes_in_use();
+  const auto planner =
+      make_planner(name, {.sensor = RangeSensor::preset("kinect"),
+                          .platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.3})});
   const Pose pose = pose_looking({0.85, 0.85, 0.85}, 0.0);
+  const auto start = std::chrono::steady_clock::now();
   (void)planner->plan(tunnel.map, pose);
+  const std::chrono::duration<double, std::milli> first = std::chrono::steady_clock::now() - start;
   std::size_t next = 0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -75,15 +86,22 @@ void plan_in_tunnel(benchmark::State& state, Course course) {
     benchmark::DoNotOptimize(planner->plan(tunnel.map, pose));
   }
   state.counters["known"] = static_cast<double>(counts.free + counts.occupied);
+  state.counters["first_ms"] = first.count();
   state.counters["map_mb"] = static_cast<double>(tunnel.map.memory_bytes()) / 1e6;
+  state.counters["planner_mb"] = megabytes_in_use() - before_mb;
 }
 
 const bool registered = [] {
-  for (const auto& [name, course] : {std::pair{"plan/nearest-frontier/tunnel-folded", Course::Folded},
-                                     {"plan/nearest-frontier/tunnel-spread", Course::Spread}}) {
-    benchmark::RegisterBenchmark(name, [course = course](benchmark::State& state) { plan_in_tunnel(state, course); })
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(10);
+  for (const std::string_view planner : planner_names()) {
+    for (const auto& [name, course] :
+         {std::pair{"/tunnel-folded", Course::Folded}, {"/tunnel-spread", Course::Spread}}) {
+      benchmark::RegisterBenchmark(("plan/" + std::string(planner) + name).c_str(),
+                                   [planner, course = course](benchmark::State& state) {
+                                     plan_in_tunnel(state, std::string(planner), course);
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(10);
+    }
   }
   return true;
 }();

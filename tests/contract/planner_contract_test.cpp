@@ -88,11 +88,13 @@ void PrintTo(const Setting& setting, std::ostream* out) {  // NOLINT(readability
 /// A robot in a world, with a minimal host.
 class Robot {
  public:
-  Robot(const Setting& setting, Furniture furniture, std::uint32_t seed)
+  Robot(const Setting& setting, Furniture furniture, std::uint32_t seed, std::size_t max_bytes = 0)
       : world_(testing::make_cell_world(furniture, seed)),
         sensor_(setting.narrow ? camera() : all_round()),
         platform_(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1})),
-        map_({.resolution_m = world_.frame.size_m, .region = world_.frame.box_of(world_.solid.box())}),
+        map_({.resolution_m = world_.frame.size_m,
+              .region = world_.frame.box_of(world_.solid.box()),
+              .max_bytes = max_bytes}),
         pose_(pose_looking(world_.frame.centre_of(world_.start), 0.3)) {
     map_.assume_free(platform_->body_box(pose_));
     look();
@@ -301,6 +303,51 @@ TEST_P(PlannerContract, SaysWhyItIsBlockedWhenThePlatformCannotMove) {
   EXPECT_EQ(plan.outcome, Outcome::Blocked);
   EXPECT_FALSE(plan.reason.empty());
   EXPECT_EQ(plan.leftover.unreachable, 1U);
+}
+
+// Runs to the end in a map with room for a part of the world. What could not be stored is counted as left over.
+TEST_P(PlannerContract, InAFullMapItEndsAndCountsWhatItCouldNotLearn) {
+  std::size_t runs = 0;
+  for (const Furniture furniture : {Furniture::Rooms, Furniture::Pillars}) {
+    Robot unlimited(GetParam(), furniture, 1);
+    const auto planner = make_planner(GetParam().planner, unlimited.setup());
+    for (std::size_t views = 0; views < kMaxViews; ++views) {
+      const Plan plan = planner->plan(unlimited.map(), unlimited.pose());
+      if (plan.outcome != Outcome::Move) {
+        break;
+      }
+      unlimited.go(plan);
+    }
+    OccupancyMap one_brick;
+    one_brick.set({0, 0, 0}, Occupancy::Free);
+    OccupancyMap two_bricks = one_brick;
+    two_bricks.set({8, 0, 0}, Occupancy::Free);
+    const std::size_t brick_bytes = two_bricks.memory_bytes() - one_brick.memory_bytes();
+    for (const std::size_t quarters : {2U, 3U}) {
+      const std::size_t without = unlimited.map().brick_count() * (4 - quarters) / 4;
+      ASSERT_GT(without, 0U);
+      const std::size_t max_bytes = unlimited.map().memory_bytes() - without * brick_bytes;
+      Robot robot(GetParam(), furniture, 1, max_bytes);
+      const auto in_full = make_planner(GetParam().planner, robot.setup());
+      Plan plan;
+      std::size_t views = 0;
+      for (; views < 10 * kMaxViews; ++views) {
+        plan = in_full->plan(robot.map(), robot.pose());
+        if (plan.outcome != Outcome::Move) {
+          break;
+        }
+        ASSERT_TRUE(robot.platform().admits(robot.map(), plan.goal.pose));
+        robot.go(plan);
+      }
+      EXPECT_LT(views, 10 * kMaxViews) << "the run does not end by itself";
+      EXPECT_NE(plan.outcome, Outcome::Move);
+      EXPECT_LE(robot.map().memory_bytes(), max_bytes);
+      EXPECT_GT(robot.map().cells_refused(), 0U);
+      EXPECT_GT(plan.leftover.in_vain + plan.leftover.unreachable + plan.leftover.unobservable, 0U) << plan.reason;
+      ++runs;
+    }
+  }
+  EXPECT_EQ(runs, 4U);
 }
 
 std::vector<Setting> settings() {

@@ -116,6 +116,8 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--robot-radius -1", "--robot-radius");
   expect_refused(table + "--max-views 0", "--max-views");
   expect_refused(table + "--max-views -3", "--max-views: '-3' is not a whole number");
+  expect_refused(table + "--memory-limit -1", "--memory-limit is -1, must be 0 or in [0.01, 1e9] MB");
+  expect_refused(table + "--memory-limit nan", "--memory-limit");
   expect_refused(table + "--threads 99999999999", "--threads: '99999999999' is not a whole number from 0 to 1024");
   expect_refused(table + "--threads 0", "--threads");
   expect_refused(table + "--seed x", "--seed");
@@ -126,7 +128,7 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--pose-noise 0.01,-1", "--pose-noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 20);
+  EXPECT_EQ(refused_, 22);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {
@@ -405,6 +407,29 @@ TEST_F(Program, SaysThatABudgetEndedIt) {
   const nlohmann::json report = nlohmann::json::parse(ran.out);
   EXPECT_EQ(report["outcome"], "budget");
   EXPECT_EQ(report["views"], 1);
+}
+
+TEST_F(Program, SaysThatAFullMapEndedIt) {
+  const Ran ran = run("explore " + std::string(kTable) + "--memory-limit 0.02 --json - --out '" + out() + "'");
+  EXPECT_EQ(ran.code, 3) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["outcome"], "budget");
+  const auto refused = report["cells_refused"].get<std::size_t>();
+  EXPECT_GT(refused, 0U);
+  EXPECT_NE(report["reason"].get<std::string>().find("; the map is full: it refused " + std::to_string(refused)),
+            std::string::npos)
+      << report["reason"];
+  EXPECT_GT(report["coverage"], 0.01);
+  EXPECT_LT(report["coverage"], 0.9);
+  const std::string map = out() + "/map.ot";
+  EXPECT_EQ(run("map '" + map + "' --memory-limit 0.02").code, 0);
+  const Ran too_large = run("map '" + map + "' --memory-limit 0.01");
+  EXPECT_EQ(too_large.code, 2);
+  EXPECT_EQ(too_large.err, "vantage: " + map + ": its map needs more than the 10000 bytes of --memory-limit\n");
+  EXPECT_EQ(too_large.out, "");
+  const Ran whole = run("explore " + std::string(kTable) + "--memory-limit 100 --json -");
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(nlohmann::json::parse(whole.out)["cells_refused"], 0);
 }
 
 // A mesh: a block of 20 x 16 x 24 cm.

@@ -208,6 +208,7 @@ TEST_F(ReplayProgram, RefusesBadInput) {
   }
   expect_refused(on_data() + "--every 0", "--every is 0");
   expect_refused(on_data() + "--object-box 0,0,0,1,1,1", "--object-box says what counts for --select");
+  expect_refused(on_data() + "--select --memory-limit 5", "--memory-limit does not go with --select");
   expect_refused(on_data() + "--select --object-box 0,0,0,1,1", "--object-box has 5 numbers");
   expect_refused(on_data() + "--max-range -1", "--max-range is -1");
   expect_refused("--dataset '" + data().string() + "' --format 7scenes --resolution 0", "--resolution is 0");

@@ -63,8 +63,9 @@ class KinematicChain {
   /// The same for a URDF text. `name` replaces the path in error messages.
   [[nodiscard]] static KinematicChain from_urdf_text(const std::string& text, std::string_view base_link,
                                                      std::string_view sensor_link, const std::string& name = "URDF");
-  /// Creates a chain from Denavit-Hartenberg parameters. Throws std::invalid_argument if there are no rows, a range
-  /// is not finite or has min > max, or a capsule has an invalid link or radius, or an end that is not finite.
+  /// Creates a chain from Denavit-Hartenberg parameters. Throws std::invalid_argument if there are no rows, a
+  /// number of a row is not finite, a range has min > max, `last_from_sensor` is not rigid, or a capsule has an
+  /// invalid link or radius, or an end that is not finite.
   [[nodiscard]] static KinematicChain from_dh(std::span<const DhRow> rows,
                                               const Pose& last_from_sensor = Pose::Identity(),
                                               std::vector<Capsule> capsules = {});

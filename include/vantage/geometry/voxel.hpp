@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
 
@@ -90,16 +91,29 @@ struct VoxelBox {
   [[nodiscard]] constexpr bool contains(const VoxelIndex& cell) const {
     return cell.x >= lo.x && cell.x < hi.x && cell.y >= lo.y && cell.y < hi.y && cell.z >= lo.z && cell.z < hi.z;
   }
-  /// Number of cells along each axis.
-  [[nodiscard]] constexpr VoxelIndex extent() const { return empty() ? VoxelIndex{} : hi - lo; }
-  /// Number of cells.
+  /// Number of cells along each axis; at most 2^31 - 1, which every box of addressable cells keeps to.
+  [[nodiscard]] constexpr VoxelIndex extent() const {
+    return empty() ? VoxelIndex{} : VoxelIndex{length(lo.x, hi.x), length(lo.y, hi.y), length(lo.z, hi.z)};
+  }
+  /// Number of cells; at most 2^64 - 1.
   [[nodiscard]] constexpr std::size_t size() const {
     const VoxelIndex e = extent();
-    return static_cast<std::size_t>(e.x) * static_cast<std::size_t>(e.y) * static_cast<std::size_t>(e.z);
+    const auto z = static_cast<std::uint64_t>(e.z);
+    const std::uint64_t layer = static_cast<std::uint64_t>(e.x) * static_cast<std::uint64_t>(e.y);  // below 2^62
+    const std::uint64_t above = (layer >> 32U) * z + ((layer & 0xFFFFFFFFU) * z >> 32U);  // the product over 2^32
+    return above >> 32U != 0 ? std::numeric_limits<std::size_t>::max() : layer * z;
   }
   /// The box grown by `cells` on every side.
   [[nodiscard]] constexpr VoxelBox grown(std::int32_t cells) const {
     return {lo - VoxelIndex{cells, cells, cells}, hi + VoxelIndex{cells, cells, cells}};
+  }
+
+ private:
+  // Unsigned, because the difference of two coordinates may need 32 bits and a sign.
+  static constexpr std::int32_t length(std::int32_t from, std::int32_t to) {
+    constexpr std::uint32_t kMost = std::numeric_limits<std::int32_t>::max();
+    const std::uint32_t difference = static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from);
+    return static_cast<std::int32_t>(difference < kMost ? difference : kMost);
   }
 };
 

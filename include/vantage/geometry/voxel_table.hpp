@@ -38,7 +38,7 @@ class VoxelTable {
     if (T* known = find(key)) {
       return *known;
     }
-    if (4 * (size_ + 1) > 3 * entries_.size()) {
+    if (is_full()) {
       grow();
     }
     ++size_;
@@ -55,6 +55,10 @@ class VoxelTable {
   }
   /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const { return entries_.capacity() * sizeof(Entry); }
+  /// What `memory_bytes` will be after one more entry.
+  [[nodiscard]] std::size_t memory_with_another() const {
+    return is_full() ? slots_after_growth() * sizeof(Entry) : memory_bytes();
+  }
 
  private:
   // marks an unused entry; no valid address has this value
@@ -74,8 +78,10 @@ class VoxelTable {
     }
     return entries_[at];
   }
+  [[nodiscard]] bool is_full() const { return 4 * (size_ + 1) > 3 * entries_.size(); }
+  [[nodiscard]] std::size_t slots_after_growth() const { return entries_.empty() ? 16 : 2 * entries_.size(); }
   void grow() {
-    std::vector<Entry> entries(entries_.empty() ? 16 : 2 * entries_.size());
+    std::vector<Entry> entries(slots_after_growth());
     std::swap(entries, entries_);
     for (const Entry& entry : entries) {
       if (entry.key.x != kUnused) {

@@ -36,12 +36,17 @@ class BrickDirectory {
     return numbers_[tile][offset_in_tile(brick)];
   }
   /// Memory in use, in bytes.
-  [[nodiscard]] std::size_t memory_bytes() const {
-    return numbers_.size() * (sizeof(Tile) + sizeof(void*)) + tiles_.memory_bytes();
+  [[nodiscard]] std::size_t memory_bytes() const { return numbers_.size() * kBytesOfTile + tiles_.memory_bytes(); }
+  /// What `memory_bytes` will be after `place(brick)`.
+  [[nodiscard]] std::size_t memory_with(const VoxelIndex& brick) const {
+    return tiles_.find(tile_of(brick)) != nullptr
+               ? memory_bytes()
+               : (numbers_.size() + 1) * kBytesOfTile + tiles_.memory_with_another();
   }
 
  private:
   using Tile = std::array<Number, 512>;
+  static constexpr std::size_t kBytesOfTile = sizeof(Tile) + sizeof(void*);
 
   static VoxelIndex tile_of(const VoxelIndex& brick) { return {brick.x >> 3, brick.y >> 3, brick.z >> 3}; }
   static std::size_t offset_in_tile(const VoxelIndex& brick) {

@@ -32,9 +32,9 @@ struct OccupancyMapOptions {
   /// a surface fills only a part of its cells, and rays at a grazing angle pass the free part. If all of them count
   /// (false, as in OctoMap), they erase the surface and open false frontiers behind it.
   bool keep_grazed_cells = true;
-  /// Memory limit in bytes, as counted by `memory_bytes`; 0: no limit. An update that would need a new brick beyond
-  /// the limit is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and its cell stays
-  /// unknown. Existing bricks are still updated. The work space of a scan comes on top: at most 1 GB.
+  /// Most bytes that the map may use, as counted by `memory_bytes`; 0: no limit. An update that would need a new
+  /// brick beyond the limit is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and its
+  /// cell stays unknown. Existing bricks are still updated. The work space of a scan comes on top: at most 1 GB.
   std::size_t max_bytes = 0;
 
   /// Options that reproduce `octomap::OcTree::insertPointCloud` update for update.
@@ -255,6 +255,7 @@ class OccupancyMap {
     BrickDirectory::Number newer = BrickDirectory::kNone;  // links of the list sorted by `changed`
     BrickDirectory::Number older = BrickDirectory::kNone;
   };
+  static constexpr std::size_t kBytesOfBrick = sizeof(Stored) + sizeof(void*) + sizeof(Revision);
   friend class ScanInserter;
 
   // Whether these log-odds of a free cell cannot result from misses alone.

@@ -106,11 +106,14 @@ struct RunRecord {
   std::size_t collisions = 0;                ///< motions in which the body touched a true surface
   std::uint64_t integration_operations = 0;  ///< cells updated by all scans
   std::uint64_t planning_operations = 0;     ///< sum of PlanStatistics::ray_operations
-  double peak_memory_mb = 0.0;               ///< peak memory of the whole process, MiB
-  std::optional<PathBound> path_bound;       ///< lower bound with full knowledge of the world; none if not asked for
-  std::optional<AuditRecord> audit;          ///< brute-force check of the end; none if not asked for
-  std::vector<ViewRecord> views;             ///< one per scan
-  std::vector<Eigen::Vector3d> travelled;    ///< successive sensor positions, the start first; world frame, metres
+  /// Updates of cells that the map refused because it was full (OccupancyMap::cells_refused). If there are any, a run
+  /// whose planner found nothing left ends as Budget, because not all that was seen could be stored.
+  std::size_t cells_refused = 0;
+  double peak_memory_mb = 0.0;             ///< peak memory of the whole process, MiB
+  std::optional<PathBound> path_bound;     ///< lower bound with full knowledge of the world; none if not asked for
+  std::optional<AuditRecord> audit;        ///< brute-force check of the end; none if not asked for
+  std::vector<ViewRecord> views;           ///< one per scan
+  std::vector<Eigen::Vector3d> travelled;  ///< successive sensor positions, the start first; world frame, metres
 
   /// Length of the whole path, metres; 0 without a scan.
   [[nodiscard]] double path_length_m() const { return views.empty() ? 0.0 : views.back().path_length_m; }

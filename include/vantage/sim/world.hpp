@@ -59,7 +59,8 @@ struct World {
   /// Reads a mesh file; the region is the bounds of the mesh. Throws as read_mesh_file.
   [[nodiscard]] static World from_mesh_file(const std::filesystem::path& path, const MeshFileOptions& options = {});
   /// Makes a world of a map: free cells are free; everything else, occupied or unknown, is solid, so that the
-  /// world is closed. Throws std::invalid_argument if no cell is free.
+  /// world is closed. Throws std::invalid_argument if no cell is free or the bounds of the known cells hold more than
+  /// 10^9 cells.
   [[nodiscard]] static World from_map(std::string name, const OccupancyMap& map);
   /// Makes a world that is a plane, for a GroundRobot and a sensor of `in_plane`. A cell is occupied if any solid
   /// pixel reaches into it. Throws as GroundPlan::validate.

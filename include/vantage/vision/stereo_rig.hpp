@@ -14,7 +14,8 @@ namespace VANTAGE_EXPORT vantage {
 /// A camera of an unrectified pair.
 struct LensModel {
   Eigen::Matrix3d k = Eigen::Matrix3d::Identity();  ///< camera matrix: focal lengths and principal point, pixels
-  std::vector<double> distortion = {};              ///< k1, k2, p1, p2[, k3[, k4, k5, k6]], in OpenCV's order
+  /// k1, k2, p1, p2[, k3[, k4, k5, k6[, s1, s2, s3, s4[, tx, ty]]]], in OpenCV's order; empty: no distortion
+  std::vector<double> distortion = {};
 };
 
 /// Calibration of an unrectified pair.
@@ -59,7 +60,8 @@ struct StereoRig {
 /// Reads calibration files written by OpenCV (YAML or XML): M1, D1, M2, D2 from `intrinsics`, and R, T (from the left
 /// to the right camera) from `extrinsics`, which may be the same file. The rectified focal length and centre are
 /// computed for images of width x height without blank borders, as in OpenCV's example. `unit_m` is the unit of T in
-/// metres. Throws std::runtime_error with the file and the reason, and std::invalid_argument unless `unit_m` is > 0.
+/// metres. Throws std::runtime_error with the file and the reason, and std::invalid_argument unless `unit_m` is > 0
+/// and both sides are in [1, 2^26] pixels.
 [[nodiscard]] StereoRig read_opencv_calibration(const std::filesystem::path& intrinsics,
                                                 const std::filesystem::path& extrinsics, std::size_t width,
                                                 std::size_t height, double unit_m = 1.0);

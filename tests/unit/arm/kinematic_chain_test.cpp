@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <random>
 #include <string>
 #include <vantage/arm/kinematic_chain.hpp>
@@ -272,6 +273,20 @@ TEST(KinematicChain, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(with(here, here), "");
   EXPECT_EQ(with({0.0, std::nan(""), 0.0}, here), "Capsule::from_m is nan, must be finite");
   EXPECT_EQ(with(here, {0.0, 0.0, INFINITY}), "Capsule::to_m is inf, must be finite");
+  const std::vector<std::pair<double DhRow::*, std::string>> numbers{
+      {&DhRow::a_m, "a_m"}, {&DhRow::alpha_rad, "alpha_rad"}, {&DhRow::d_m, "d_m"}, {&DhRow::theta_rad, "theta_rad"}};
+  for (const auto& [number, name] : numbers) {
+    for (const double value : {std::nan(""), -std::numeric_limits<double>::infinity()}) {
+      std::vector<DhRow> bad = rows;
+      bad.front().*number = value;
+      EXPECT_EQ(complaint([&] { (void)KinematicChain::from_dh(bad); }),
+                "DhRow::" + name + " is " + (std::isnan(value) ? "nan" : "-inf") + ", must be finite");
+    }
+  }
+  Pose no_pose = Pose::Identity();
+  no_pose.linear() *= 2.0;
+  EXPECT_EQ(complaint([&] { (void)KinematicChain::from_dh(rows, no_pose); }),
+            "KinematicChain::from_dh: last_from_sensor is not a rigid transform");
 }
 
 // A URDF with one moving joint, followed by `links` links with fixed joints.

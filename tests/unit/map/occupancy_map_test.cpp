@@ -437,31 +437,76 @@ TEST(OccupancyMap, FarRaysCostNothingOutsideItsRegion) {
   EXPECT_LT(map.memory_bytes(), 100'000U);
 }
 
-TEST(OccupancyMap, RefusesWhatItsLimitHasNoRoomFor) {
-  std::mt19937 engine(5);
-  OccupancyMap unlimited({.resolution_m = 0.05});
-  OccupancyMap map({.resolution_m = 0.05, .max_bytes = 600'000});
-  std::size_t refused = 0;
-  for (int i = 0; i < 12; ++i) {
-    const Scan scan = random_scan(engine, 60);
-    const ScanReport whole = unlimited.insert(scan);
-    const ScanReport report = map.insert(scan);
-    EXPECT_EQ(report.cells_hit + report.cells_cleared + report.cells_refused, whole.cells_hit + whole.cells_cleared);
-    EXPECT_EQ(whole.cells_refused, 0U);
-    refused += report.cells_refused;
+// Writes the same to a map in one of four ways, drawn by `kind`. Returns the number of updates that were refused.
+std::size_t write_one_way(OccupancyMap& map, std::uint32_t kind, const Scan& scan, const VoxelIndex& at) {
+  const std::size_t before = map.cells_refused();
+  const VoxelBox box{at, at + VoxelIndex{5, 3, 9}};
+  switch (kind % 4) {
+    case 0: {
+      const ScanReport report = map.insert(scan);
+      EXPECT_EQ(report.cells_refused, map.cells_refused() - before);
+      break;
+    }
+    case 1:
+      map.set(at, kind % 3 == 0 ? Occupancy::Unknown : Occupancy::Occupied);
+      break;
+    case 2:
+      map.set_log_odds(box, kind % 3 == 0 ? 1.0 : -1.0);
+      break;
+    default:
+      map.assume_free(map.frame().box_of(box));
   }
-  EXPECT_GT(refused, 1000U);
-  EXPECT_EQ(map.cells_refused(), refused);
-  EXPECT_LT(map.memory_bytes(), 610'000U);
-  std::size_t same = 0;
-  map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
-    EXPECT_EQ(unlimited.at(cell), state);
-    ++same;
-  });
-  EXPECT_GT(same, 1000U);
-  map.set({4000, 0, 0}, Occupancy::Free);
-  EXPECT_EQ(map.at({4000, 0, 0}), Occupancy::Unknown);
-  EXPECT_EQ(map.cells_refused(), refused + 1);
+  return map.cells_refused() - before;
+}
+
+// The oracle is a map without a limit, of which the limited one holds whole bricks: all of them until the limit, and
+// those that it has had room for after it.
+TEST(OccupancyMap, EqualsAMapWithoutALimitUntilTheLimitAndThenLosesNothing) {
+  std::size_t refused = 0;
+  std::size_t writes_before = 0;
+  std::size_t bricks_compared = 0;
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    std::mt19937 engine(seed);
+    OccupancyMapOptions options = OccupancyMapOptions::octomap(0.05);  // a brick then depends on no other brick
+    OccupancyMap unlimited(options);
+    options.max_bytes = 20'000 + 90'000 * seed;
+    OccupancyMap map(options);
+    for (int step = 0; step < 60; ++step) {
+      const Scan scan = random_scan(engine, 20);
+      const auto cell = [&] { return static_cast<std::int32_t>(engine() % 400) - 200; };
+      const VoxelIndex at{cell(), cell(), cell()};
+      const auto kind = static_cast<std::uint32_t>(engine());
+      EXPECT_EQ(write_one_way(unlimited, kind, scan, at), 0U);
+      refused += write_one_way(map, kind, scan, at);
+      ASSERT_LE(map.memory_bytes(), options.max_bytes);
+      ASSERT_EQ(map.revision(), unlimited.revision());
+      const OccupancyMap::Revision since = map.revision() - engine() % 2;
+      std::set<VoxelIndex> changed;
+      for (const VoxelIndex& address : unlimited.changed_since(since)) {
+        if (map.find_brick(address) != nullptr) {
+          changed.insert(address);
+        }
+      }
+      const std::vector<VoxelIndex> told = map.changed_since(since);
+      ASSERT_EQ(std::set<VoxelIndex>(told.begin(), told.end()), changed);
+      if (map.cells_refused() == 0) {
+        ASSERT_EQ(map.brick_count(), unlimited.brick_count());
+        ASSERT_EQ(map.bounds(), unlimited.bounds());
+        ++writes_before;
+      }
+    }
+    map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+      const Brick* const whole = unlimited.find_brick(address);
+      ASSERT_NE(whole, nullptr);
+      EXPECT_TRUE(brick.known == whole->known && brick.occupied == whole->occupied &&
+                  brick.log_odds == whole->log_odds);
+      ++bricks_compared;
+    });
+    EXPECT_LT(map.brick_count(), unlimited.brick_count());
+  }
+  EXPECT_GT(refused, 20'000U);
+  EXPECT_GT(writes_before, 50U);
+  EXPECT_GT(bricks_compared, 2'000U);
 }
 
 TEST(OccupancyMap, MovedFromIsEmptyWithTheSameOptions) {

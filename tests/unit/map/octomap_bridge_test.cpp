@@ -392,6 +392,46 @@ TEST(OctomapFollower, TellsItsReadersWhatChanged) {
   EXPECT_EQ(follower.map().changed_since(then), std::vector<VoxelIndex>{VoxelIndex{}});
 }
 
+TEST(OctomapFollower, AFullMapKeepsWhatItHasHadRoomFor) {
+  std::mt19937 engine(11);
+  octomap::OcTree tree(0.1);
+  const auto grow = [&](int cells) {
+    for (int i = 0; i < cells; ++i) {
+      const auto coordinate = [&] { return static_cast<std::int32_t>(engine() % 160) - 80; };
+      tree.updateNode(key_of({coordinate(), coordinate(), coordinate()}), engine() % 3 == 0);
+    }
+  };
+  grow(40);
+  OctomapFollower follower(tree, {.map = {.max_bytes = 120'000}});
+  EXPECT_EQ(follower.map().cells_refused(), 0U);
+  std::size_t known = 0;
+  for (int step = 0; step < 20; ++step) {
+    grow(40);
+    follower.update();
+    std::size_t now = 0;
+    follower.map().for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+      EXPECT_EQ(state, state_in(tree, cell));
+      ++now;
+    });
+    EXPECT_GE(now, known);
+    EXPECT_EQ(follower.resync(), 0U) << "nothing that is known may be lost, and nothing else fits";
+    EXPECT_LE(follower.map().memory_bytes(), 120'000U);
+    known = now;
+  }
+  EXPECT_GT(follower.map().cells_refused(), 100U);
+  EXPECT_GT(known, 60U);
+  // An edit that change detection misses, in a cell that the map holds.
+  VoxelIndex held{};
+  follower.map().for_each_known([&](const VoxelIndex& cell, Occupancy) { held = cell; });
+  const bool was_free = follower.map().at(held) == Occupancy::Free;
+  tree.search(key_of(held))->setLogOdds(was_free ? 3.0F : -2.0F);
+  EXPECT_EQ(follower.resync(), 1U);
+  EXPECT_EQ(follower.map().at(held), was_free ? Occupancy::Occupied : Occupancy::Free);
+  const OctomapImport import = from_octree(tree, {.map = {.max_bytes = 120'000}});
+  EXPECT_LE(import.map.memory_bytes(), 120'000U);
+  EXPECT_EQ(import.map.counts().free + import.map.counts().occupied + import.map.cells_refused(), known_cells(tree));
+}
+
 TEST(OctomapFollower, ResyncSeesWhatChangeDetectionMissesAndAnotherResolutionIsRefused) {
   octomap::OcTree tree(0.1);
   tree.updateNode(key_of({0, 0, 0}), false);

@@ -70,6 +70,7 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
                                                        "leftover",
                                                        "collisions",
                                                        "ray_operations",
+                                                       "cells_refused",
                                                        "time_ms",
                                                        "peak_memory_mb",
                                                        "cycles"}));

@@ -193,6 +193,9 @@ TEST(World, AMapIsAClosedTruth) {
   EXPECT_NEAR(*scene.hit_distance({0.55, 0.55, 0.15}, {0, 0, 1}, 5.0), 0.355, 1e-5);
   EXPECT_NEAR(*scene.hit_distance({0.15, 0.55, 0.15}, {0, 0, 1}, 5.0), 0.855, 1e-5);
   EXPECT_THROW((void)World::from_map("nothing", OccupancyMap()), std::invalid_argument);
+  map.set({30'000, 30'000, 30'000}, Occupancy::Occupied);  // two cells, and a box that fits into no memory
+  EXPECT_NE(complaint([&] { (void)World::from_map("wide", map); }).find("World::from_map: count of cells"),
+            std::string::npos);
 }
 
 TEST(World, ReadsARealHouse) {

@@ -189,6 +189,29 @@ TEST(StereoRig, CalibrationsAreRead) {
   EXPECT_NEAR(seen.depth.at(120, 60), 2.0F, 0.02F);
 }
 
+TEST(StereoRig, LensesThatOpencvDoesNotKnowAreRefused) {
+  std::size_t refused = 0;
+  for (std::size_t count = 0; count < 16; ++count) {
+    StereoRig of_count = rig();
+    of_count.rectification = Rectification{};
+    of_count.rectification->right.distortion.assign(count, 0.0);
+    const std::string said = message_of<std::invalid_argument>([&] { of_count.validate(); });
+    refused += said.empty() ? 0U : 1U;
+    EXPECT_TRUE(said.empty() || said == "count of Rectification::right.distortion is " + std::to_string(count) +
+                                            ", must be 0, 4, 5, 8, 12 or 14")
+        << said;
+  }
+  EXPECT_EQ(refused, 10U);
+  StereoRig not_finite = rig();
+  not_finite.rectification = Rectification{};
+  not_finite.rectification->left.distortion = {0.0, 0.0, std::nan(""), 0.0};
+  EXPECT_THROW(not_finite.validate(), std::invalid_argument);
+  not_finite.rectification->left.distortion.clear();
+  EXPECT_NO_THROW(not_finite.validate());
+  not_finite.rectification->left.k(0, 2) = INFINITY;
+  EXPECT_THROW(not_finite.validate(), std::invalid_argument);
+}
+
 TEST(StereoRig, BadCalibrationsAreRefusedByName) {
   const test::TemporaryFolder folder;
   const auto said = [&](const std::string& text, const std::function<StereoRig(const std::string&)>& read) {
@@ -206,6 +229,11 @@ TEST(StereoRig, BadCalibrationsAreRefusedByName) {
       << "left and right the wrong way round";
   EXPECT_NE(said("width=9\nheight=nine\n", middlebury).find("line 2 is not key=value"), std::string::npos);
   EXPECT_NE(said("width=9\nheight=9\n", middlebury).find("there is no 'focal_px'"), std::string::npos);
+  for (const char* count : {"-1", "1e30", "nan", "inf", "2.5"}) {
+    EXPECT_NE(said(std::string("width=") + count + "\nheight=9\n", middlebury).find("'width' is no number of pixels"),
+              std::string::npos)
+        << count;
+  }
   EXPECT_NE(said("%YAML:1.0\n---\nM1: 3\n", opencv).find("calib.txt: "), std::string::npos);
   EXPECT_NE(said("{[:", opencv).find("calib.txt: "), std::string::npos);
   const auto matrix = [](const char* name, int rows, int columns, const char* numbers) {
