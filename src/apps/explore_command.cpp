@@ -137,9 +137,13 @@ int explore(const ExploreRequest& request) {
   const RangeSensor sensor =
       is_world_file(request, World::FileKind::Plan) ? in_plane(sensor_of(request)) : sensor_of(request);
   const std::shared_ptr<const Platform> platform = platform_of(request);
-  const auto planner = make_planner(
-      request.planner, {.sensor = sensor, .platform = platform, .seed = request.seed, .threads = request.threads},
-      settings_of(request));
+  const auto planner = make_planner(request.planner,
+                                    {.sensor = sensor,
+                                     .platform = platform,
+                                     .seed = request.seed,
+                                     .threads = request.threads,
+                                     .motion = motion_of(request)},
+                                    settings_of(request));
   const std::optional<Box> asked_region = region_of(request);
   const World world = world_of(request);
   tell_doubts(request, world.mesh.bounds());
