@@ -41,6 +41,7 @@ constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
     {"harmonic", "down the steepest way of a harmonic field (Shade & Newman 2011)"},
     {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},
     {"next-best-view", "the view of most unknown cells, nearness counted (Vasquez-Gomez et al. 2013)"},
+    {"tour", "a tour over all frontiers known to be left, in seconds or metres"},
 };
 
 void print(std::string_view name, std::string_view about) {

@@ -58,10 +58,13 @@ SensorCarrier carrier_of(const ExploreRequest& request) {
 }
 
 std::unique_ptr<ExplorationPlanner> planner_of(const ExploreRequest& request, const SensorCarrier& carrier) {
-  return make_planner(
-      request.planner,
-      {.sensor = carrier.sensor, .platform = carrier.platform, .seed = request.seed, .threads = request.threads},
-      settings_of(request));
+  return make_planner(request.planner,
+                      {.sensor = carrier.sensor,
+                       .platform = carrier.platform,
+                       .seed = request.seed,
+                       .threads = request.threads,
+                       .motion = motion_of(request)},
+                      settings_of(request));
 }
 
 ExploredWorld explored_world(const ExploreRequest& request) {

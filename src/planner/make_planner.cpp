@@ -10,6 +10,7 @@
 #include <vantage/planner/nearest_frontier_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/planner/object_planner.hpp>
+#include <vantage/planner/tour_planner.hpp>
 
 #include "planner/planner_tables.hpp"
 
@@ -82,6 +83,11 @@ const std::vector<Maker>& makers() {
          return made_next_best_view(setup, settings);
        },
        [] { return detail::next_best_view_settings().list(); }},
+      {"tour",
+       [](const PlannerSetup& setup, const PlannerSettings& settings) {
+         return made<TourPlanner>(setup, "tour", settings, detail::tour_settings());
+       },
+       [] { return detail::tour_settings().list(); }},
   };
   return all;
 }

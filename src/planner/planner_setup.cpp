@@ -16,6 +16,9 @@ void PlannerSetup::validate() const {
                          goal_tolerance_m, ">= 0");
   detail::require_option(std::isfinite(goal_tolerance_rad) && goal_tolerance_rad >= 0.0,
                          "PlannerSetup::goal_tolerance_rad", goal_tolerance_rad, ">= 0");
+  if (motion) {
+    motion->validate();
+  }
   sensor.validate();
 }
 

@@ -207,4 +207,21 @@ const SettingTable<NextBestViewOptions>& next_best_view_settings() {
   return table;
 }
 
+const SettingTable<TourOptions>& tour_settings() {
+  using O = TourOptions;
+  static const auto table =
+      with_survey<O>("TourOptions", [](O& o) -> FrontierSurveyOptions& { return o.survey; })
+          .choice(
+              "cost", "what a tour is to save: seconds or metres",
+              std::vector<std::pair<std::string_view, TourCost>>{{"time", TourCost::Time}, {"path", TourCost::Path}},
+              [](O & o) -> auto& { return o.cost; })
+          .number(
+              "site_m", "m", "largest extent of a part of the frontier that one view is to cover", more_than(0),
+              [](O & o) -> auto& { return o.site_m; })
+          .number(
+              "most_sites", "", "the nearest parts that a tour leads over", within(1, 200),
+              [](O & o) -> auto& { return o.most_sites; });
+  return table;
+}
+
 }  // namespace vantage::detail

@@ -5,6 +5,7 @@
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/planner/tour_planner.hpp>
 
 #include "planner/setting_table.hpp"
 
@@ -17,5 +18,6 @@ namespace vantage::detail {
 [[nodiscard]] const SettingTable<FrontierVoidOptions>& frontier_void_settings();
 [[nodiscard]] const SettingTable<HarmonicOptions>& harmonic_settings();
 [[nodiscard]] const SettingTable<NextBestViewOptions>& next_best_view_settings();
+[[nodiscard]] const SettingTable<TourOptions>& tour_settings();
 
 }  // namespace vantage::detail

@@ -461,7 +461,7 @@ INSTANTIATE_TEST_SUITE_P(Every, ExplorationContract,
                          });
 
 TEST(ExplorationContractSuite, HoldsEveryPlannerToEveryHostInEveryKindOfWorld) {
-  EXPECT_EQ(planners().size(), 5U);
+  EXPECT_EQ(planners().size(), 6U);
   EXPECT_EQ(hosts().size(), kHosts);
   std::set<std::tuple<Building, std::size_t, double, bool>> kinds;
   for (std::uint32_t number = 0; number < 90; ++number) {

@@ -236,7 +236,7 @@ TEST_F(Program, HelpsAndLists) {
   const Ran list = run("list");
   EXPECT_EQ(list.code, 0);
   for (const char* name : {"rooms", "office", "maze", "two-storey", "table", "crates-open", "crates-closed",
-                           "harmonic", "frontier-gain", "nearest-frontier", "kinect", "panoramic"}) {
+                           "harmonic", "frontier-gain", "nearest-frontier", "tour", "kinect", "panoramic"}) {
     EXPECT_NE(list.out.find(name), std::string::npos) << name;
   }
 }

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
+#include <vantage/robot/motion_model.hpp>
 #include <vantage/robot/platform.hpp>
 
 namespace VANTAGE_EXPORT vantage {
@@ -20,6 +22,8 @@ struct PlannerSetup {
   double goal_tolerance_m = 0.3;
   /// Allowed angle between the optical axes of the sensor and of the goal, radians, >= 0.
   double goal_tolerance_rad = 0.35;
+  /// How fast the robot moves and turns. Used by planners that save time (TourPlanner, which states its default).
+  std::optional<MotionModel> motion = std::nullopt;
 
   /// Throws std::invalid_argument, which names the missing or invalid part.
   void validate() const;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "planner/unknown_ways.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace vantage::detail {
+namespace {
+
+// Ways are long where they count, so blocks may be large.
+constexpr std::int32_t kSide = 8;
+constexpr double kFurthestM = 1e3;
+
+VoxelBox in_both(const VoxelBox& a, const VoxelBox& b) {
+  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+}
+
+// The cells of a brick inside `box` that are not known to be occupied.
+BrickPlane open_cells(const OccupancyMap& map, const VoxelIndex& address, const VoxelBox& box) {
+  const Brick* const brick = map.find_brick(address);
+  const VoxelIndex first = Brick::first_cell(address);
+  const bool inside = box.contains(first) && box.contains(first + VoxelIndex{7, 7, 7});
+  BrickPlane open;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    open[word] = brick == nullptr ? ~std::uint64_t{0} : ~brick->occupied[word];
+    std::uint64_t outside = 0;
+    for_each_offset(inside ? 0 : open[word], word, [&](std::size_t offset) {
+      const bool is_in = box.contains(first + Brick::cell_at(offset));
+      outside |= std::uint64_t{!is_in} << (offset & 63U);
+    });
+    open[word] &= ~outside;
+  }
+  return open;
+}
+
+}  // namespace
+
+UnknownWays::UnknownWays(const OccupancyMap& map, double beyond_m) : ways_(map.frame(), kSide) {
+  VoxelBox box = map.bounds().grown(map.frame().cells_up_to(std::min(beyond_m, kFurthestM)));
+  box = map.region() ? in_both(box, *map.region()) : box;
+  const VoxelBox bricks{Brick::of_cell(box.lo), Brick::of_cell(box.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  for_each_cell(bricks, [&](const VoxelIndex& brick) { ways_.add(brick, open_cells(map, brick, box)); });
+  ways_.link();
+  for (BlockWays::Piece piece = 0; piece < ways_.size(); ++piece) {
+    const Brick* const brick = map.find_brick(ways_.brick_of(piece));
+    int cells = 0;
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      cells += std::popcount(ways_.cells_of(piece)[word] & ~(brick == nullptr ? 0 : brick->known[word]));
+    }
+    unknown_.push_back(cells);
+  }
+}
+
+double UnknownWays::mean_m(const VoxelIndex& cell) const {
+  const std::vector<double> lengths = ways_.lengths_from(cell);
+  double sum = 0.0;
+  double cells = 0.0;
+  for (std::size_t piece = 0; piece < lengths.size(); ++piece) {
+    if (lengths[piece] != BlockWays::kNoWay) {
+      sum += unknown_[piece] * lengths[piece];
+      cells += unknown_[piece];
+    }
+  }
+  return cells > 0.0 ? sum / cells : 0.0;
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vantage/geometry/raster_order.hpp>
+#include <vantage/map/brick_set.hpp>
+#include <vector>
+
+#include "planner/block_ways.hpp"
+#include "planner/frontier_sites.hpp"
+#include "planner/open_tour.hpp"
+
+namespace vantage {
+namespace {
+
+using detail::BlockWays;
+using detail::FrontierSite;
+using detail::OpenTourProblem;
+
+// Sites in a plane, with prices and falling weights like those of TourPlanner, or a plain tour.
+OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) {
+  std::uniform_real_distribution<double> place(0.0, 10.0);
+  std::vector<std::pair<double, double>> at(n + 1);
+  for (auto& [x, y] : at) {
+    x = place(engine);
+    y = place(engine);
+  }
+  OpenTourProblem problem;
+  for (std::size_t from = 0; from <= n; ++from) {
+    for (std::size_t to = 0; to < n; ++to) {
+      // asymmetric: turning costs differ by direction
+      const double turn = plain ? 0.0 : 0.3 * place(engine);
+      problem.legs.push_back(std::hypot(at[from].first - at[to].first, at[from].second - at[to].second) + turn);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    problem.prices.push_back(place(engine));
+    problem.leg_weights.push_back(plain ? 1.0 : 0.1 * place(engine));
+    problem.price_weights.push_back(plain ? 0.0 : 0.1 * place(engine) - 0.5);
+  }
+  return problem;
+}
+
+double cost_of_all_orders(const OpenTourProblem& problem) {
+  std::vector<std::size_t> order(problem.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  double least = std::numeric_limits<double>::infinity();
+  do {
+    least = std::min(least, problem.cost(order));
+  } while (std::next_permutation(order.begin(), order.end()));
+  return least;
+}
+
+void expect_all_once(const std::vector<std::size_t>& tour, std::size_t n) {
+  std::vector<std::size_t> sorted = tour;
+  std::sort(sorted.begin(), sorted.end());
+  ASSERT_EQ(sorted.size(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(sorted[i], i);
+  }
+}
+
+TEST(OpenTour, CostsAreThoseOfTheDefinition) {
+  OpenTourProblem problem;
+  problem.legs = {0, 3, 5, 0, 7, 2};  // 0->1: 3, 1->0: 5, start->0: 7, start->1: 2
+  problem.prices = {10, 20};
+  problem.leg_weights = {1.0, 0.5};
+  problem.price_weights = {0.0, 0.1};
+  EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 7 + 0.5 * 3 + 0.1 * 20);
+  EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 2 + 0.5 * 5 + 0.1 * 10);
+  EXPECT_EQ(detail::open_tour(problem), (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(OpenTour, IsTheBestOfAllOrdersOfAFewSites) {
+  std::mt19937 engine(1);
+  std::size_t cases = 0;
+  for (std::size_t n = 1; n <= 7; ++n) {
+    for (int seed = 0; seed < 40; ++seed) {
+      const OpenTourProblem problem = random_problem(n, engine, seed % 2 == 0);
+      const std::vector<std::size_t> tour = detail::open_tour(problem);
+      expect_all_once(tour, n);
+      EXPECT_NEAR(problem.cost(tour), cost_of_all_orders(problem), 1e-9);
+      ++cases;
+    }
+  }
+  EXPECT_EQ(cases, 280U);
+}
+
+// The optimum over more sites than all orders allow, by sets of sites and the last of them.
+double cost_by_sets(const OpenTourProblem& problem) {
+  std::map<std::pair<std::set<std::size_t>, std::size_t>, double> known;
+  std::vector<std::pair<std::set<std::size_t>, std::size_t>> layer;
+  for (std::size_t site = 0; site < problem.size(); ++site) {
+    layer.push_back({{site}, site});
+    known[layer.back()] = problem.step(problem.size(), site, 0);
+  }
+  for (std::size_t position = 1; position < problem.size(); ++position) {
+    std::map<std::pair<std::set<std::size_t>, std::size_t>, double> next;
+    for (const auto& [state, cost] : known) {
+      for (std::size_t site = 0; site < problem.size(); ++site) {
+        if (state.first.count(site) == 0) {
+          std::set<std::size_t> visited = state.first;
+          visited.insert(site);
+          const double reached = cost + problem.step(state.second, site, position);
+          const auto [place, is_new] = next.try_emplace({std::move(visited), site}, reached);
+          place->second = std::min(place->second, reached);
+        }
+      }
+    }
+    known = std::move(next);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [state, cost] : known) {
+    least = std::min(least, cost);
+  }
+  return least;
+}
+
+TEST(OpenTour, OverMoreSitesIsNearlyTheOptimum) {
+  std::mt19937 engine(2);
+  double sum = 0.0;
+  double optimum = 0.0;
+  for (int seed = 0; seed < 12; ++seed) {
+    const OpenTourProblem problem = random_problem(detail::kExactSites + 1, engine, true);
+    const std::vector<std::size_t> tour = detail::open_tour(problem);
+    expect_all_once(tour, problem.size());
+    const double least = cost_by_sets(problem);
+    EXPECT_GE(problem.cost(tour), least - 1e-9);
+    sum += problem.cost(tour);
+    optimum += least;
+  }
+  EXPECT_LE(sum, 1.02 * optimum);
+}
+
+TEST(OpenTour, OfManySitesVisitsEachOnce) {
+  std::mt19937 engine(3);
+  for (const std::size_t n : {24U, 60U}) {
+    const OpenTourProblem problem = random_problem(n, engine, false);
+    expect_all_once(detail::open_tour(problem), n);
+  }
+}
+
+// --- lengths of ways
+
+constexpr double kCellM = 0.2;
+
+// A random set of cells in a box, with walls one cell thick that have few gaps.
+std::set<VoxelIndex> random_rooms(std::mt19937& engine, std::int32_t height) {
+  std::set<VoxelIndex> cells;
+  std::set<std::int32_t> walls_x;
+  std::set<std::int32_t> walls_y;
+  for (int i = 0; i < 4; ++i) {
+    walls_x.insert(static_cast<std::int32_t>(engine() % 60) - 20);
+    walls_y.insert(static_cast<std::int32_t>(engine() % 40) - 10);
+  }
+  std::bernoulli_distribution gap(0.06);
+  for_each_cell({{-20, -10, 0}, {40, 30, height}}, [&](const VoxelIndex& cell) {
+    const bool in_wall = walls_x.count(cell.x) > 0 || walls_y.count(cell.y) > 0;
+    if (!in_wall || gap(engine)) {
+      cells.insert(cell);
+    }
+  });
+  return cells;
+}
+
+BlockWays ways_of(const std::set<VoxelIndex>& cells, std::int32_t side) {
+  BrickSet set;
+  for (const VoxelIndex& cell : cells) {
+    set.insert(cell);
+  }
+  BlockWays ways(VoxelFrame{kCellM}, side);
+  set.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& plane) { ways.add(brick, plane); });
+  ways.link();
+  return ways;
+}
+
+// Through faces, edges and corners of cells, around corners only where both sides are free.
+std::map<VoxelIndex, double> fine_lengths(const std::set<VoxelIndex>& cells, const VoxelIndex& from) {
+  std::map<VoxelIndex, double> lengths{{from, 0.0}};
+  using Entry = std::pair<double, VoxelIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  open.emplace(0.0, from);
+  while (!open.empty()) {
+    const auto [length, cell] = open.top();
+    open.pop();
+    if (length > lengths.at(cell)) {
+      continue;
+    }
+    for (const VoxelIndex& step : kAllNeighbours) {
+      bool free = true;
+      for (int part = 1; part < 8; ++part) {
+        free = free && cells.count(cell + VoxelIndex{(part & 1) != 0 ? step.x : 0, (part & 2) != 0 ? step.y : 0,
+                                                     (part & 4) != 0 ? step.z : 0}) > 0;
+      }
+      const double reached = length + kCellM * Eigen::Vector3d(step.x, step.y, step.z).norm();
+      const auto known = lengths.find(cell + step);
+      if (free && (known == lengths.end() || reached < known->second - 1e-9)) {
+        lengths[cell + step] = reached;
+        open.emplace(reached, cell + step);
+      }
+    }
+  }
+  return lengths;
+}
+
+TEST(BlockWays, DoNotLeakThroughWallsAndAreAboutAsLongAsThoseOverCells) {
+  std::mt19937 engine(5);
+  std::size_t joined = 0;
+  std::size_t apart = 0;
+  double sum = 0.0;
+  double fine_sum = 0.0;
+  for (int seed = 0; seed < 12; ++seed) {
+    const std::set<VoxelIndex> cells = random_rooms(engine, seed % 2 == 0 ? 1 : 7);
+    const std::vector<VoxelIndex> list(cells.begin(), cells.end());
+    const BlockWays ways = ways_of(cells, seed % 4 < 2 ? 4 : 8);
+    const VoxelIndex from = list[engine() % list.size()];
+    const std::vector<double> lengths = ways.lengths_from(from);
+    const std::map<VoxelIndex, double> fine = fine_lengths(cells, from);
+    for (int i = 0; i < 50; ++i) {
+      const VoxelIndex to = list[engine() % list.size()];
+      const double length = ways.length_to(to, from, lengths);
+      const auto exact = fine.find(to);
+      ASSERT_EQ(length == BlockWays::kNoWay, exact == fine.end());
+      if (exact == fine.end()) {
+        ++apart;
+        continue;
+      }
+      ++joined;
+      const double straight = (VoxelFrame{kCellM}.centre_of(to) - VoxelFrame{kCellM}.centre_of(from)).norm();
+      EXPECT_GE(length, straight - 1e-9);
+      EXPECT_LE(std::abs(length - exact->second), 0.35 * exact->second + 2.5);
+      sum += length;
+      fine_sum += exact->second;
+    }
+  }
+  EXPECT_GT(joined, 200U);
+  EXPECT_GT(apart, 20U);
+  EXPECT_NEAR(sum / fine_sum, 1.0, 0.12);
+}
+
+TEST(BlockWays, KnowNoWayToOrFromACellOutside) {
+  const BlockWays ways = ways_of({{0, 0, 0}, {1, 0, 0}}, 4);
+  EXPECT_EQ(ways.piece_of({9, 0, 0}), BlockWays::kNone);
+  const std::vector<double> lengths = ways.lengths_from({0, 0, 0});
+  EXPECT_EQ(ways.length_to({9, 0, 0}, {0, 0, 0}, lengths), BlockWays::kNoWay);
+  EXPECT_NEAR(ways.length_to({1, 0, 0}, {0, 0, 0}, lengths), kCellM, 1e-12);
+  EXPECT_EQ(ways.length_to({0, 0, 0}, {9, 0, 0}, ways.lengths_from({9, 0, 0})), BlockWays::kNoWay);
+}
+
+// --- sites
+
+TEST(FrontierSites, HoldEveryTargetOnceAndAreNoLargerThanAllowed) {
+  std::mt19937 engine(7);
+  std::size_t sites_seen = 0;
+  for (int seed = 0; seed < 20; ++seed) {
+    std::set<VoxelIndex> cells;
+    VoxelIndex walk{0, 0, 0};
+    for (int i = 0; i < 300; ++i) {
+      walk = walk + kAllNeighbours[engine() % 26];
+      cells.insert(walk);
+      walk = engine() % 60 == 0 ? walk + VoxelIndex{9, -4, 0} : walk;
+    }
+    std::vector<VoxelIndex> sorted(cells.begin(), cells.end());
+    std::sort(sorted.begin(), sorted.end(), RasterOrder{});
+    std::vector<FrontierTarget> targets;
+    for (const VoxelIndex& cell : sorted) {
+      targets.push_back({cell, cell + VoxelIndex{1, 0, 0}, cell});
+    }
+    const std::int32_t most = 3 + seed % 6;
+    std::set<VoxelIndex> held;
+    for (const FrontierSite& site : detail::frontier_sites(targets, most)) {
+      ++sites_seen;
+      bool holds_middle = false;
+      for (const FrontierTarget& a : site.targets) {
+        EXPECT_TRUE(held.insert(a.frontier).second);
+        holds_middle = holds_middle || a.frontier == site.middle.frontier;
+        for (const FrontierTarget& b : site.targets) {
+          const VoxelIndex apart = a.frontier - b.frontier;
+          EXPECT_LT(std::max({apart.x, apart.y, apart.z}), most);
+        }
+      }
+      EXPECT_TRUE(holds_middle);
+    }
+    EXPECT_EQ(held, cells);
+  }
+  EXPECT_GT(sites_seen, 100U);
+}
+
+TEST(FrontierSites, APartThatIsSmallEnoughIsNotDividedAndItsMiddleIsInTheMiddle) {
+  std::vector<FrontierTarget> targets;
+  for (std::int32_t x = 0; x < 7; ++x) {
+    targets.push_back({{x, 0, 0}, {x, 1, 0}, {x, -1, 0}});
+  }
+  const std::vector<FrontierSite> whole = detail::frontier_sites(targets, 7);
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_EQ(whole.front().middle.frontier, (VoxelIndex{3, 0, 0}));
+  EXPECT_EQ(detail::frontier_sites(targets, 6).size(), 2U);
+  EXPECT_TRUE(detail::frontier_sites({}, 6).empty());
+}
+
+}  // namespace
+}  // namespace vantage
