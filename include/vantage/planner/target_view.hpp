@@ -20,8 +20,8 @@ struct TargetView {
 };
 
 /// The targets of the survey that the sensor sees from `pose` (world_from_sensor), within its range and within the
-/// range in which it resolves cells of the map (RangeSensor::resolving_range_m); none if the place rests (TriedViews).
-/// Adds the number of visited cells to `operations`.
+/// range in which it resolves cells of the map (RangeSensor::resolving_range_m); none if the place rests
+/// (TriedViews). Adds the number of visited cells to `operations`.
 [[nodiscard]] TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::uint64_t& operations);
 
 /// A view from the viewpoint of `wanted` that sees `wanted` and, among the orientations tried, the largest number of
