@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <vantage/geometry/raster_order.hpp>
 
 namespace vantage::detail {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 // Ways are long where they count, so blocks may be large.
 constexpr std::int32_t kSide = 8;
 constexpr double kFurthestM = 1e3;
+// A box of more bricks is large, if it holds more than so many for each known one.
+constexpr double kManyBricks = 20'000.0;
+constexpr double kPerKnownBrick = 8.0;
 
 VoxelBox in_both(const VoxelBox& a, const VoxelBox& b) {
   return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
@@ -35,13 +39,39 @@ BrickPlane open_cells(const OccupancyMap& map, const VoxelIndex& address, const 
   return open;
 }
 
+double count(const VoxelBox& box) {
+  const VoxelIndex extent = box.extent();
+  return static_cast<double>(extent.x) * static_cast<double>(extent.y) * static_cast<double>(extent.z);
+}
+
+// The bricks of the box; only the known ones and those that touch them, if the box is large beside these.
+std::vector<VoxelIndex> bricks_in(const OccupancyMap& map, const VoxelBox& bricks) {
+  std::vector<VoxelIndex> found;
+  if (count(bricks) <= std::max(kManyBricks, kPerKnownBrick * static_cast<double>(map.brick_count()))) {
+    for_each_cell(bricks, [&](const VoxelIndex& brick) { found.push_back(brick); });
+    return found;
+  }
+  map.for_each_brick([&](const VoxelIndex& address, const Brick&) {
+    for_each_cell(VoxelBox{address, address + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& brick) {
+      if (bricks.contains(brick)) {
+        found.push_back(brick);
+      }
+    });
+  });
+  std::sort(found.begin(), found.end(), RasterOrder{});
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 }  // namespace
 
 UnknownWays::UnknownWays(const OccupancyMap& map, double beyond_m) : ways_(map.frame(), kSide) {
   VoxelBox box = map.bounds().grown(map.frame().cells_up_to(std::min(beyond_m, kFurthestM)));
   box = map.region() ? in_both(box, *map.region()) : box;
   const VoxelBox bricks{Brick::of_cell(box.lo), Brick::of_cell(box.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-  for_each_cell(bricks, [&](const VoxelIndex& brick) { ways_.add(brick, open_cells(map, brick, box)); });
+  for (const VoxelIndex& brick : bricks_in(map, bricks)) {
+    ways_.add(brick, open_cells(map, brick, box));
+  }
   ways_.link();
   for (BlockWays::Piece piece = 0; piece < ways_.size(); ++piece) {
     const Brick* const brick = map.find_brick(ways_.brick_of(piece));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
@@ -9,7 +10,8 @@
 namespace vantage::detail {
 
 /// How far the unknown is from places, by ways through everything that is not known to be occupied: free and unknown
-/// cells of the region, up to a distance beyond the known ones.
+/// cells of the region, up to a distance beyond the known ones. If the box of these cells is large beside what is
+/// known, only cells in known bricks and in those that touch them count, so that the cost follows the known space.
 class UnknownWays {
  public:
   /// For the map as it is now. `beyond_m`: how far around the known cells unknown ones count, metres, >= 0.
@@ -18,6 +20,8 @@ class UnknownWays {
   /// The mean length of the ways from all unknown cells to `cell`, metres; those without a way do not count. 0 if
   /// there are none.
   [[nodiscard]] double mean_m(const VoxelIndex& cell) const;
+  /// The number of pieces of space that were linked.
+  [[nodiscard]] std::size_t size() const { return ways_.size(); }
 
  private:
   BlockWays ways_;
