@@ -72,8 +72,8 @@ TEST(TimedRun, EveryPlannerExploresInTime) {
     ASSERT_TRUE(record.duration_s) << planner;
     EXPECT_LE(*record.duration_s, *record.views.back().time_s);
     EXPECT_GT(*record.duration_s, record.path_length_m() / kMotion.max_speed_m_s * 0.5);
-    // It does not stop for every scan: on the way it is at more than a third of its speed on average.
-    EXPECT_GT(record.path_length_m() / *record.views.back().time_s, kMotion.max_speed_m_s / 3.0) << planner;
+    // It does not stop for every scan: its mean speed is more than a quarter of the highest.
+    EXPECT_GT(record.path_length_m() / *record.views.back().time_s, kMotion.max_speed_m_s / 4.0) << planner;
   }
 }
 
