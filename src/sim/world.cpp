@@ -108,9 +108,10 @@ World World::from_map(std::string name, const OccupancyMap& map) {
   if (map.counts().free == 0) {
     throw std::invalid_argument("World::from_map: the map has no free cell");
   }
-  constexpr std::size_t kMostCells = 1'000'000'000;  // of a byte each
-  detail::require_option(map.bounds().size() <= kMostCells, "World::from_map: count of cells in the map's bounds",
-                         map.bounds().size(), "at most 1000000000");
+  constexpr std::size_t kMostWorldCells = 1'000'000'000;  // of a byte each
+  detail::require_option(map.bounds().size() <= kMostWorldCells,
+                         "World::from_map: count of cells in the map's bounds", map.bounds().size(),
+                         "at most 1000000000");
   VoxelGrid<std::uint8_t> solid(map.bounds(), 1);
   map.for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
     if (occupancy == Occupancy::Free) {
