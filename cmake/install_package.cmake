@@ -42,15 +42,7 @@ install(FILES "${vantage_package_build_dir}/vantageConfig.cmake"
         DESTINATION "${vantage_package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
-# vantage.pc: core for projects without CMake. A static library also lists what it is linked with.
-set(vantage_pc_requires "eigen3 octomap")
-set(vantage_pc_requires_private "")
-get_target_property(vantage_core_type vantage_core TYPE)
-if(vantage_core_type STREQUAL "STATIC_LIBRARY")
-  string(APPEND vantage_pc_requires " qhull_r")
-else()
-  set(vantage_pc_requires_private "qhull_r")
-endif()
+# vantage.pc: core for projects without CMake.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
   set(vantage_pc_prefix "${CMAKE_INSTALL_PREFIX}")
   set(vantage_pc_includedir "${CMAKE_INSTALL_FULL_INCLUDEDIR}")

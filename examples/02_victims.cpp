@@ -135,7 +135,7 @@ std::unique_ptr<vantage::ExplorationPlanner> planner_of(const Setup& setup, cons
   std::istringstream parts(text);
   std::string name;
   std::getline(parts, name, ',');
-  vantage::PlannerSettings settings;
+  vantage::Settings settings;
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t is = std::min(part.find('='), part.size() - 1);
     settings[part.substr(0, is)] = part.substr(is + 1);

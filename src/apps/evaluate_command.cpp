@@ -100,7 +100,7 @@ TrialJson result_of(const Trial& trial, const ExploreRequest& shared, std::size_
   ExplorationRunOptions options = object_run_options(request, scene, object);
   options.measure_coverage = false;
   ExplorationRun run(scene.world, sensor, platform, options);
-  PlannerSettings settings = planner_settings(scene);
+  Settings settings = planner_settings(scene);
   for (const auto& [name, value] : settings_of(shared)) {
     settings.insert_or_assign(name, value);
   }

@@ -27,8 +27,8 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/simulated_run.hpp"
-#include "map/option_rule.hpp"
 #include "map/whole_file.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {

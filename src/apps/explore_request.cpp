@@ -13,7 +13,7 @@
 #include <utility>
 #include <vantage/report/sensor_file.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -271,8 +271,8 @@ RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string
           .sensor = sensor};
 }
 
-PlannerSettings settings_of(const ExploreRequest& request) {
-  PlannerSettings settings;
+Settings settings_of(const ExploreRequest& request) {
+  Settings settings;
   for (const std::string& setting : request.settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {

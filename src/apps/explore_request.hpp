@@ -72,7 +72,7 @@ struct ExploreRequest {
 [[nodiscard]] std::optional<Pose> start_of(const ExploreRequest& request);
 [[nodiscard]] RunRecorderSetup recorder_setup(const ExploreRequest& request, const std::string& command,
                                               const std::string& world, const RangeSensor& sensor);
-[[nodiscard]] PlannerSettings settings_of(const ExploreRequest& request);
+[[nodiscard]] Settings settings_of(const ExploreRequest& request);
 /// The numbers of a list "1,2.5,-3" given to `flag`, each within +-10^6.
 [[nodiscard]] std::vector<double> numbers_of(const char* flag, const std::string& text);
 /// `--memory-limit` in bytes; 0: none.

@@ -69,7 +69,7 @@ void list() {
 
 void list_settings(const std::string& planner) {
   std::cout << "settings of " << planner << " (--set name=value): name, default, unit, meaning\n";
-  for (const PlannerSetting& setting : planner_settings(planner)) {
+  for (const Setting& setting : planner_settings(planner)) {
     char text[96];
     std::snprintf(text, sizeof text, "  %-22s %-14s %-9s ", setting.name.c_str(), setting.default_value.c_str(),
                   setting.unit.c_str());

@@ -25,7 +25,7 @@ std::string doubt_about_world_unit(const std::string& file, const Box& bounds) {
 }
 
 std::string doubt_about_object_unit(const std::string& file, const Box& bounds) {
-  return doubt_about_unit(file, bounds, 100.0);
+  return doubt_about_unit(file, bounds, 5.0);
 }
 
 std::string doubt_about_axis(const std::string& file, const Box& bounds) {

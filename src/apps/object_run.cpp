@@ -23,7 +23,7 @@ ExplorationRunOptions object_run_options(const ExploreRequest& request, const Ob
 
 ObjectRunPlanner object_run_planner(const ExploreRequest& request, const PlannerSetup& setup,
                                     const ObjectScene& scene, const ExplorationRun& run,
-                                    const std::vector<SurfaceSample>& samples, const PlannerSettings& settings) {
+                                    const std::vector<SurfaceSample>& samples, const Settings& settings) {
   const auto peers = object_peer_names();
   if (std::find(peers.begin(), peers.end(), request.planner) == peers.end()) {
     return {make_planner(request.planner, setup, settings), std::nullopt};

@@ -32,6 +32,6 @@ struct ObjectRunPlanner {
 [[nodiscard]] ObjectRunPlanner object_run_planner(const ExploreRequest& request, const PlannerSetup& setup,
                                                   const ObjectScene& scene, const ExplorationRun& run,
                                                   const std::vector<SurfaceSample>& samples,
-                                                  const PlannerSettings& settings);
+                                                  const Settings& settings);
 
 }  // namespace vantage::apps

@@ -20,7 +20,7 @@
 #include "apps/run_printer.hpp"
 #include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -104,13 +104,13 @@ std::vector<Eigen::Vector3d> points_in(const std::string& path) {
 
 // If the number of candidates is 20 * 4^n, they are the faces of an icosahedron; any other number is drawn at
 // random.
-PlannerSettings settings_for(const ReconstructRequest& request, const ObjectScene& scene) {
+Settings settings_for(const ReconstructRequest& request, const ObjectScene& scene) {
   int subdivisions = 0;
   std::uint64_t faces = 20;
   for (; subdivisions < 6 && faces < request.candidates; faces *= 4) {
     ++subdivisions;
   }
-  PlannerSettings settings = planner_settings(scene);
+  Settings settings = planner_settings(scene);
   settings.insert_or_assign("method", request.method);
   settings.insert_or_assign("subdivisions", faces == request.candidates ? std::to_string(subdivisions) : "-1");
   settings.insert_or_assign("random_candidates",

@@ -44,6 +44,16 @@ std::string frame_line(const ReplayRecord& record, const Recording& recording, c
   return lines;
 }
 
+// Which axis was taken to point up, where the format says another.
+std::string doubt_about_up(const ReplayRequest& request, const Recording& recording) {
+  return !request.up.empty() || recording.up() == recording.up_of_format()
+             ? ""
+             : recording.up() +
+                   " of the poses is up in the images and was taken to point up; if it does not, say so: "
+                   "--up " +
+                   recording.up_of_format() + '\n';
+}
+
 void print_summary(std::ostream& out, const ReplayRecord& record, const Recording& recording, bool after_bar) {
   char text[128];
   std::snprintf(text, sizeof text, "%s\n  %-12s %zu, over a path of %.1f m\n", after_bar ? "\n" : "", "frames",
@@ -87,7 +97,8 @@ int replay(const ReplayRequest& request) {
   ProgressStream told(request.run);
   std::ostream& progress = told.stream();
   progress << request.dataset << ": " << recording.frames().size() << " frames, cells of " << request.run.resolution_m
-           << " m, range " << recording.camera().trusted_range_m() << " m\n";
+           << " m, range " << recording.camera().trusted_range_m() << " m\n"
+           << doubt_about_up(request, recording);
   if (request.select) {
     return select_views(request, recording, told);
   }
@@ -147,6 +158,14 @@ void add_recording_options(CLI::App& command, ReplayRequest& request) {
   option("--max-range", request.max_range_m, "M", "Returns further than this only clear, metres; 0: by the format")
       ->check(a_number())
       ->capture_default_str();
+  option("--disparities", request.disparities_px, "N",
+         "Of a stereo pair, searched, pixels, a multiple of 16; what is nearer has no match. Down to 4 baselines "
+         "unless given")
+      ->check(a_whole_number());
+  option("--window", request.window_px, "N", "Edge of the window that is matched, pixels, odd; 5 unless given")
+      ->check(a_whole_number());
+  option("--up", request.up, "x|-x|y|-y|z|-z",
+         "Axis of the poses that points up; unless given the one that is up in the images");
   option("--region", request.run.region, "x0,y0,z0,x1,y1,z1", "What to map, metres; all that is seen unless given");
 }
 

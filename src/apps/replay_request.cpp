@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/planner/make_planner.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 
@@ -28,6 +28,12 @@ Recording recording_of(const ReplayRequest& request) {
   options.cell_m = request.run.resolution_m;
   if (request.max_range_m > 0.0) {
     options.max_range_m = request.max_range_m;
+  }
+  options.up = request.up;
+  if (request.disparities_px || request.window_px) {
+    options.stereo.emplace();
+    options.stereo->disparities_px = request.disparities_px.value_or(options.stereo->disparities_px);
+    options.stereo->window_px = request.window_px.value_or(options.stereo->window_px);
   }
   if (!request.intrinsics.empty()) {
     const std::vector<double> n = numbers_of("--intrinsics", request.intrinsics);

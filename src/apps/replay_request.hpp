@@ -20,6 +20,9 @@ struct ReplayRequest {
   std::string format;
   std::string intrinsics;
   double max_range_m = 0.0;  // metres; 0: as the format says
+  std::optional<int> disparities_px;
+  std::optional<int> window_px;
+  std::string up;
   std::size_t every = 1;
   std::string object_box;
   bool select = false;

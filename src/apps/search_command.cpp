@@ -26,7 +26,7 @@
 #include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
 #include "apps/tracked_arm.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -115,8 +115,8 @@ Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pos
   return box;
 }
 
-PlannerSettings settings_for(const SearchRequest& request) {
-  PlannerSettings settings;
+Settings settings_for(const SearchRequest& request) {
+  Settings settings;
   if (request.run.planner == "frontier-void") {  // a search ends where no view sees a void
     settings = {{"mode", "searching"}, {"views", "400"}, {"least_view_m3", std::to_string(kLeastViewM3)}};
   }

@@ -9,7 +9,7 @@
 #include "arm/postures.hpp"
 #include "arm/rrt_connect.hpp"
 #include "arm/segment_distance.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include <vantage/arm/kinematic_chain.hpp>
 
 #include "arm/chain_parts.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

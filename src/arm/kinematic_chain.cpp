@@ -8,7 +8,7 @@
 
 #include "arm/chain_parts.hpp"
 #include "arm/segment_distance.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

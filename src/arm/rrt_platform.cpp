@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "arm/ompl_quiet.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

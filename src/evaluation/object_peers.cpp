@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 #include <vantage/evaluation/object_peers.hpp>
-#include <vantage/planner/way_around.hpp>
+#include <vantage/robot/way_around.hpp>
 #include <vantage/view/candidate_views.hpp>
 
 #include "geometry/dice.hpp"

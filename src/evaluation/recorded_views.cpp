@@ -85,14 +85,15 @@ class CellNumbers {
 // Calls `visit(VoxelIndex)` for all cells inside the hull of the occupied ones, known or not.
 template <class Visit>
 void for_each_cell_in_hull(const OccupancyMap& map, const Visit& visit) {
-  const ConvexHull hull = occupied_hull(map);
+  const LatticeHull hull = occupied_hull(map);
   if (hull.empty()) {
     return;
   }
+  const std::vector<HullPlane> planes = detail::planes_of(hull);
   const VoxelBox box = map.bounds();
   for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
     for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
-      const auto [first, last] = detail::row_in_hull(hull, box, y, z);
+      const auto [first, last] = detail::row_in_hull(planes, box, y, z);
       for (std::int32_t x = first; x < last; ++x) {
         visit(VoxelIndex{x, y, z});
       }

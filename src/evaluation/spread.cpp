@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/evaluation/spread.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 

@@ -13,7 +13,7 @@
 #include "field/brick_solver.hpp"
 #include "field/mirror_solver.hpp"
 #include "field/refinement.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

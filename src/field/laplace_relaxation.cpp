@@ -7,7 +7,7 @@
 #include <string>
 #include <vantage/field/laplace_relaxation.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -38,11 +38,11 @@ struct PointBox {
   explicit PointBox(const VoxelBox& cells)
       : middle(0.5 * (lattice_point(cells.lo) + lattice_point(cells.hi - VoxelIndex{1, 1, 1}))),
         half(0.5 * lattice_point(cells.hi - cells.lo - VoxelIndex{1, 1, 1})) {}
-  [[nodiscard]] double reach(const ConvexHull::Plane& plane) const { return plane.normal.cwiseAbs().dot(half); }
+  [[nodiscard]] double reach(const HullPlane& plane) const { return plane.normal.cwiseAbs().dot(half); }
 };
 
 // The cells of a sub-brick on the inner side of a plane.
-std::uint64_t within(const ConvexHull::Plane& plane, const VoxelIndex& first) {
+std::uint64_t within(const HullPlane& plane, const VoxelIndex& first) {
   std::uint64_t cells = 0;
   for (std::int32_t row = 0; row < 16; ++row) {
     const double start = distance_from(plane, lattice_point(first + VoxelIndex{0, row & 3, row >> 2})) - kOnFacet;
@@ -70,7 +70,7 @@ HullChange::HullChange(const Hull& before, const Hull& now) {
     }
   }
   // An empty hull is represented by a plane that has every cell beyond it.
-  const ConvexHull::Plane none{Eigen::Vector3d::Zero(), 1.0};
+  const HullPlane none{Eigen::Vector3d::Zero(), 1.0};
   if (before.planes.empty()) {
     gone_.push_back(none);
   }
@@ -118,7 +118,7 @@ HullChange::Cutting HullChange::narrow(Planes& planes, const Cutting& from, cons
   const PointBox box({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
   Cutting cutting{planes.size(), planes.size()};
   for (std::size_t i = from.first; i < from.last; ++i) {
-    const ConvexHull::Plane plane = planes[i];
+    const HullPlane plane = planes[i];
     const double distance = distance_from(plane, box.middle) - kOnFacet;
     const double reach = box.reach(plane) + kOnFacet;  // adds a margin for rounding
     if (distance > -reach) {
@@ -136,7 +136,7 @@ BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutting& common, co
     const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
     const PointBox box({first, first + VoxelIndex{4, 4, 4}});
     inside[word] = ~std::uint64_t{0};
-    const auto cut_by = [&](const ConvexHull::Plane& plane) {
+    const auto cut_by = [&](const HullPlane& plane) {
       if (inside[word] != 0 && distance_from(plane, box.middle) + box.reach(plane) > 0.0) {
         inside[word] &= within(plane, first);
       }

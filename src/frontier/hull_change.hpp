@@ -39,7 +39,7 @@ class HullChange {
 
     [[nodiscard]] bool empty() const { return first == last; }
   };
-  using Planes = std::vector<ConvexHull::Plane>;
+  using Planes = std::vector<HullPlane>;
 
   void visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone, const Cutting& added,
                  const Visit& visit);

@@ -4,22 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
-#include <vantage/geometry/convex_hull.hpp>
+#include <vantage/geometry/lattice_hull.hpp>
 #include <vantage/geometry/voxel.hpp>
+#include <vector>
 
 #include "frontier/on_facet.hpp"
 #include "geometry/plane_distance.hpp"
 
 namespace vantage::detail {
 
-/// The cells [first, last) of the row (., y, z) of a box whose centre lies in the hull. The row is clipped with the
-/// plane of every facet. An empty hull clips nothing.
-[[nodiscard]] inline std::pair<std::int32_t, std::int32_t> row_in_hull(const ConvexHull& hull, const VoxelBox& box,
-                                                                       std::int32_t y, std::int32_t z) {
+/// The cells [first, last) of the row (., y, z) of a box whose centre lies inside all planes of a hull.
+[[nodiscard]] inline std::pair<std::int32_t, std::int32_t> row_in_hull(std::span<const HullPlane> planes,
+                                                                       const VoxelBox& box, std::int32_t y,
+                                                                       std::int32_t z) {
   double lo = box.lo.x;
   double hi = box.hi.x - 1;
-  for (const ConvexHull::Plane& plane : hull.planes()) {
+  for (const HullPlane& plane : planes) {
     const double slope = plane.normal.x();
     const double rest = distance_from(plane, {0.0, static_cast<double>(y), static_cast<double>(z)}) - kOnFacet;
     if (std::abs(slope) < 1e-12) {
@@ -34,6 +36,15 @@ namespace vantage::detail {
   }
   return lo <= hi ? std::pair(static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi) + 1)
                   : std::pair(box.lo.x, box.lo.x);
+}
+
+/// The planes of a hull, for row_in_hull.
+[[nodiscard]] inline std::vector<HullPlane> planes_of(const LatticeHull& hull) {
+  std::vector<HullPlane> planes;
+  for (const LatticeHull::Plane& plane : hull.planes()) {
+    planes.push_back(plane.plane());
+  }
+  return planes;
 }
 
 }  // namespace vantage::detail

@@ -6,13 +6,12 @@
 #include <vantage/frontier/void_tiles.hpp>
 
 #include "frontier/hull_row.hpp"
-#include "frontier/lattice_point.hpp"
 #include "geometry/box_overlap.hpp"
 
 namespace vantage {
 namespace {
 
-VoxelBox box_around(const ConvexHull& hull, const OccupancyMap& map) {
+VoxelBox box_around(const LatticeHull& hull, const OccupancyMap& map) {
   VoxelBox box = map.bounds();
   if (hull.empty()) {
     return {};
@@ -41,11 +40,12 @@ TileRows tile_rows(const OccupancyMap& map) {
 template <class Visit>
 void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
   constexpr std::int32_t kTile = 8 * Brick::kSide;
-  const ConvexHull hull = occupied_hull(map);
+  const LatticeHull hull = occupied_hull(map);
   const VoxelBox box = box_around(hull, map);
   if (box.empty()) {
     return;
   }
+  const std::vector<HullPlane> planes = detail::planes_of(hull);
   const auto visit_row = [&](std::int32_t first, std::int32_t last, std::int32_t y, std::int32_t z) {
     const Brick* brick = nullptr;
     for (std::int32_t x = first; x < last; ++x) {
@@ -62,7 +62,7 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
     for (std::int32_t z = std::max(tile_z * kTile, box.lo.z); z < std::min((tile_z + 1) * kTile, box.hi.z); ++z) {
       for (const auto& [tile_y, xs] : ys) {
         for (std::int32_t y = std::max(tile_y * kTile, box.lo.y); y < std::min((tile_y + 1) * kTile, box.hi.y); ++y) {
-          const auto [first, last] = detail::row_in_hull(hull, box, y, z);
+          const auto [first, last] = detail::row_in_hull(planes, box, y, z);
           for (const std::int32_t tile_x : xs) {
             visit_row(std::max(tile_x * kTile, first), std::min((tile_x + 1) * kTile, last), y, z);
           }
@@ -74,7 +74,7 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
 
 }  // namespace
 
-ConvexHull occupied_hull(const OccupancyMap& map) {
+LatticeHull occupied_hull(const OccupancyMap& map) {
   // Only the first and the last occupied cell of a row can be corners of the hull.
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>> ends;
   map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
@@ -86,14 +86,14 @@ ConvexHull occupied_hull(const OccupancyMap& map) {
       });
     }
   });
-  std::vector<Eigen::Vector3d> points;
+  std::vector<VoxelIndex> points;
   for (const auto& [row, xs] : ends) {
-    points.push_back(detail::lattice_point({xs.first, row.second, row.first}));
+    points.push_back({xs.first, row.second, row.first});
     if (xs.second != xs.first) {
-      points.push_back(detail::lattice_point({xs.second, row.second, row.first}));
+      points.push_back({xs.second, row.second, row.first});
     }
   }
-  return ConvexHull(points);
+  return LatticeHull(points);
 }
 
 std::vector<VoxelIndex> void_cells(const OccupancyMap& map) {

@@ -20,7 +20,7 @@
 #include "geometry/dice.hpp"
 #include "geometry/prefetch.hpp"
 #include "map/instruction_set.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -78,7 +78,7 @@ struct LatticeHull::Outside {
   }
 };
 
-ConvexHull::Plane LatticeHull::Plane::plane() const {
+HullPlane LatticeHull::Plane::plane() const {
   const Eigen::Vector3d outward(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
                                 static_cast<double>(normal[2]));
   const Eigen::Vector3d unit = outward.normalized();

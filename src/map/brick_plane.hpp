@@ -9,6 +9,8 @@
 #include <vantage/map/brick.hpp>
 #include <vector>
 
+#include "geometry/box_overlap.hpp"
+
 namespace vantage::detail {
 
 /// The bit layout of a sub-brick (4 x 4 x 4 cells, x fastest) along one axis. Cells at coordinate 3 lie `3 * stride`
@@ -41,6 +43,21 @@ inline std::uint64_t from_above(const BrickPlane& plane, const BrickPlane& above
 /// Whether a plane has a set bit.
 inline bool any(const BrickPlane& plane) {
   return std::any_of(plane.begin(), plane.end(), [](std::uint64_t word) { return word != 0; });
+}
+
+/// The cells of a brick that lie in a box.
+inline BrickPlane plane_of(const VoxelIndex& brick, const VoxelBox& box) {
+  const VoxelIndex first = Brick::first_cell(brick);
+  BrickPlane plane{};
+  if (box.contains(first) && box.contains(first + VoxelIndex{7, 7, 7})) {
+    plane.fill(~std::uint64_t{0});
+    return plane;
+  }
+  for_each_cell(box_overlap({first, first + VoxelIndex{8, 8, 8}}, box), [&](const VoxelIndex& cell) {
+    const std::size_t offset = Brick::offset_of(cell);
+    plane[offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
+  });
+  return plane;
 }
 
 /// A plane dilated by one cell in both directions along an axis, within the brick.

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vantage/map/height_band.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

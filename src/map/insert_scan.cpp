@@ -21,7 +21,7 @@ class ScanInserter {
   explicit ScanInserter(OccupancyMap& map)
       : map_(map), model_{map.hit_steps_, map.miss_steps_, map.min_steps_, map.max_steps_} {}
 
-  ScanReport insert(const Scan& scan, RayPolicy policy) {
+  ScanReport insert(const ScanView& scan, RayPolicy policy) {
     const ScanRays rays(scan, map_.frame_);
     report_ = rays.report();
     map_.begin_revision();
@@ -125,7 +125,9 @@ class ScanInserter {
   ScanReport report_;
 };
 
-ScanReport OccupancyMap::insert(const Scan& scan, RayPolicy policy) {
+ScanReport OccupancyMap::insert(const Scan& scan, RayPolicy policy) { return insert(scan.view(), policy); }
+
+ScanReport OccupancyMap::insert(const ScanView& scan, RayPolicy policy) {
   return ScanInserter(*this).insert(scan, policy);
 }
 

@@ -6,7 +6,7 @@
 #include <vantage/map/occupancy_map.hpp>
 
 #include "geometry/box_overlap.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vantage/map/brick_set.hpp>
 #include <vantage/map/octomap_bridge.hpp>
 #include <vector>
 
@@ -107,6 +109,25 @@ void for_each_leaf_of(const octomap::OcTree& tree, const Visit& visit) {
     visit(OctomapLeaf{cell_of(leaf.getIndexKey()), level, leaf->getLogOdds(), tree.isNodeOccupied(*leaf)});
   }
 }
+
+// The log-odds of a tree, as the map is to hold them.
+class OctreeLookup {
+ public:
+  OctreeLookup(const octomap::OcTree& tree, const OccupancyMapOptions& options)
+      : tree_(tree), options_(options), model_(beam_model_of(tree, options)) {}
+
+  [[nodiscard]] std::optional<double> log_odds(const VoxelIndex& cell) const {
+    const octomap::OcTreeNode* node = tree_.search(key_of(cell));
+    return node == nullptr ? std::nullopt
+                           : std::optional(log_odds_of({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)},
+                                                       model_, options_));
+  }
+
+ private:
+  const octomap::OcTree& tree_;
+  const OccupancyMapOptions& options_;
+  BeamModel model_;
+};
 
 enum class Keep : std::uint8_t { LogOdds, States };
 
@@ -211,7 +232,7 @@ OctomapImport from_octree(const octomap::OcTree& tree, const OctomapImportOption
 }
 
 OctomapFollower::OctomapFollower(octomap::OcTree& tree, const OctomapImportOptions& options)
-    : tree_(tree), options_(options), map_(from_octree(tree, options).map) {
+    : tree_(tree), options_(options), follower_(from_octree(tree, options).map) {
   tree_.enableChangeDetection(true);
   tree_.resetChangeDetection();
 }
@@ -221,63 +242,37 @@ std::size_t OctomapFollower::update() {
   if (tree_.size() == 0) {
     return resync();
   }
-  std::size_t changed = 0;
+  BrickSet cells;
   for (auto entry = tree_.changedKeysBegin(); entry != tree_.changedKeysEnd(); ++entry) {
-    const VoxelIndex cell = cell_of(entry->first);
-    const Occupancy before = map_.at(cell);
-    if (const octomap::OcTreeNode* node = tree_.search(entry->first)) {
-      write_leaf({cell, 0, node->getLogOdds(), tree_.isNodeOccupied(node)}, beam_model_of(tree_, map_.options()),
-                 map_);
-    } else {
-      map_.set(cell, Occupancy::Unknown);
-    }
-    changed += map_.at(cell) != before ? 1U : 0U;
+    cells.insert(cell_of(entry->first));
   }
+  const std::size_t changed = follower_.update(OctreeLookup(tree_, map().options()), cells);
   tree_.resetChangeDetection();
   return changed;
 }
 
-// Compares with the tree itself: another map with a limit would hold other cells than this one.
+// Asks for all cells of the bricks that the map or the tree holds.
 std::size_t OctomapFollower::resync() {
   check_resolution();
   const auto for_each_leaf = [this](const auto& visit) { for_each_leaf_of(tree_, visit); };
   check_leaves(options_, "from_octree", for_each_leaf);
-  std::vector<VoxelIndex> gone;
-  map_.for_each_known([&](const VoxelIndex& cell, Occupancy) {
-    if (tree_.search(key_of(cell)) == nullptr) {
-      gone.push_back(cell);
-    }
-  });
-  for (const VoxelIndex& cell : gone) {
-    map_.set(cell, Occupancy::Unknown);
-  }
-  std::size_t changed = gone.size();
-  const BeamModel model = beam_model_of(tree_, map_.options());
-  OccupancyMapOptions one_cell = map_.options();  // of a map that clamps and rounds in the same way
-  one_cell.region.reset();
-  one_cell.max_bytes = 0;
-  OccupancyMap rounded(one_cell);
+  BrickSet cells;
+  const auto add = [&](const VoxelIndex& brick) { cells.plane(brick).fill(~std::uint64_t{0}); };
+  map().for_each_brick([&](const VoxelIndex& brick, const Brick& /*cells*/) { add(brick); });
   for_each_leaf([&](const OctomapLeaf& leaf) {
-    const double log_odds = log_odds_of(leaf, model, map_.options());
-    rounded.set_log_odds(VoxelIndex{}, log_odds);
-    const std::optional<double> expected = rounded.log_odds(VoxelIndex{});
-    for_each_cell(box_of(leaf), [&](const VoxelIndex& cell) {
-      if (map_.in_region(cell) && map_.log_odds(cell) != expected) {
-        const Occupancy before = map_.at(cell);
-        map_.set_log_odds(cell, log_odds);
-        changed += map_.at(cell) != before ? 1U : 0U;
-      }
-    });
+    const VoxelIndex last = box_of(leaf).hi - VoxelIndex{1, 1, 1};
+    for_each_cell(VoxelBox{Brick::of_cell(leaf.first), Brick::of_cell(last) + VoxelIndex{1, 1, 1}}, add);
   });
+  const std::size_t changed = follower_.update(OctreeLookup(tree_, map().options()), cells);
   tree_.resetChangeDetection();
   return changed;
 }
 
 void OctomapFollower::check_resolution() const {
-  if (tree_.getResolution() != map_.resolution_m()) {
+  if (tree_.getResolution() != map().resolution_m()) {
     std::ostringstream message;
     message << "OctomapFollower: the octree's resolution is now " << tree_.getResolution() << " m, the map's is "
-            << map_.resolution_m() << " m";
+            << map().resolution_m() << " m";
     throw std::runtime_error(message.str());
   }
 }

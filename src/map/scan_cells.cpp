@@ -63,7 +63,7 @@ class Walker {
 }  // namespace
 
 ScanCells scan_cells(const Scan& scan, const OccupancyMap& map, RayPolicy policy) {
-  detail::validate(scan);
+  detail::validate(scan.view());
   const VoxelFrame& frame = map.frame();
   ScanCells cells;
   ScanReport& report = cells.report;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <map/scan_rays.hpp>
 #include <map/validate_scan.hpp>
@@ -9,15 +10,15 @@ namespace {
 
 std::size_t divided_up(std::size_t count, std::size_t by) { return (count + by - 1) / by; }
 
-// Copies every `stride`-th point to the rays of a block, starting at `ray`.
-void put(const Eigen::Vector3f* points, std::size_t count, std::size_t stride, std::size_t ray, RayBlock& block) {
-  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  if (stride == 1) {
-    std::copy_n(points->data(), 3 * count, &block.point[3 * ray]);
+// Copies every `stride`-th point from `first` on to the rays of a block, starting at `ray`.
+void put(const PointsView& points, std::size_t first, std::size_t count, std::size_t stride, std::size_t ray,
+         RayBlock& block) {
+  if (stride * points.stride_bytes() == PointsView::kBytes) {
+    std::memcpy(&block.point[3 * ray], points.at(first), count * PointsView::kBytes);
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    std::copy_n(points[i * stride].data(), 3, &block.point[3 * (ray + i)]);
+    std::memcpy(&block.point[3 * (ray + i)], points.at(first + i * stride), PointsView::kBytes);
   }
 }
 
@@ -28,9 +29,9 @@ void put_none(std::size_t first, std::size_t end, RayBlock& block) {
 }
 
 // Fills a block with the rays of a list from `first` on.
-void gather(const std::vector<Eigen::Vector3f>& rays, std::size_t first, RayBlock& block) {
+void gather(const PointsView& rays, std::size_t first, RayBlock& block) {
   const std::size_t count = std::min(rays.size() - first, RayBlock::kRays);
-  put(rays.data() + first, count, 1, 0, block);
+  put(rays, first, count, 1, 0, block);
   put_none(count, RayBlock::kRays, block);
 }
 
@@ -72,7 +73,7 @@ class Bounds {
 
 }  // namespace
 
-ScanRays::ScanRays(const Scan& scan, const VoxelFrame& frame)
+ScanRays::ScanRays(const ScanView& scan, const VoxelFrame& frame)
     : scan_((detail::validate(scan), scan)),
       origin_(scan.world_from_sensor.translation()),
       placer_{SensorFrame(scan.world_from_sensor), scan.max_range_m,
@@ -119,7 +120,7 @@ void ScanRays::gather_tile(std::size_t number, std::size_t stride, RayBlock& blo
     const std::size_t row = first_row + i * stride;
     const std::size_t count = row < scan_.height ? std::min(left_in_row, kTileSide) : 0;
     if (count > 0) {
-      put(scan_.points.data() + row * scan_.width + first_column, count, stride, i * kTileSide, block);
+      put(scan_.points, row * scan_.width + first_column, count, stride, i * kTileSide, block);
     }
     put_none(i * kTileSide + count, (i + 1) * kTileSide, block);
   }

@@ -12,8 +12,8 @@ namespace vantage {
 class ScanRays {
  public:
   /// Classifies and counts the rays. Throws std::invalid_argument if the pose is not rigid or the range is not
-  /// positive. `scan` must outlive this object.
-  ScanRays(const Scan& scan, const VoxelFrame& frame);
+  /// positive. The points of the scan must outlive this object.
+  ScanRays(const ScanView& scan, const VoxelFrame& frame);
 
   /// The common start of all rays.
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
@@ -46,7 +46,7 @@ class ScanRays {
   void gather_tile(std::size_t number, std::size_t stride, RayBlock& block) const;
   void count(const RayBlock& block);
 
-  const Scan& scan_;
+  ScanView scan_;
   Eigen::Vector3d origin_;
   RayPlacer placer_;
   std::size_t point_blocks_;

@@ -4,13 +4,13 @@
 #include <stdexcept>
 #include <vantage/map/scan.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::detail {
 
 /// Throws std::invalid_argument, which names the field, if the pose is not rigid or the range is not positive. Shared
 /// by insertion and its reference implementation.
-inline void validate(const Scan& scan) {
+inline void validate(const ScanView& scan) {
   if (!is_rigid(scan.world_from_sensor)) {
     throw std::invalid_argument(
         "Scan::world_from_sensor is not a rigid transform (finite, orthonormal, determinant +1)");

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vantage/planner/assume_free.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
-#include <vantage/robot/grid_path.hpp>
 
 #include "geometry/dice.hpp"
 #include "planner/planner_tables.hpp"
@@ -52,9 +51,7 @@ std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
   if (!best) {  // no random pose sees a target, and the aimed ones are beyond the resolving range
     best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
   }
-  std::vector<VoxelIndex> way =
-      GridPaths(reachable).to(situation().map().frame().cell_of(best->view.pose.translation()));
-  return ChosenView{std::move(*best), std::move(way)};
+  return ChosenView{std::move(*best)};
 }
 
 }  // namespace vantage

@@ -7,21 +7,30 @@
 #include "planner/stopwatch.hpp"
 
 namespace vantage {
-namespace {
-
-std::optional<std::vector<Pose>> path_of(const Situation& situation, ChosenView& choice) {
-  if (!choice.path.empty()) {
-    return std::move(choice.path);
-  }
-  if (situation.reachable().only_turns()) {
-    return std::vector<Pose>{situation.current(), choice.view.view.pose};
-  }
-  return poses_along(situation.map(), situation.platform(), situation.current(), choice.way, choice.view.view.pose);
+ChosenView nearest_view(const Situation& situation, std::uint64_t& operations) {
+  const FrontierSurvey& survey = situation.survey();
+  std::vector<VoxelIndex> way = GridPaths(situation.reachable()).to_nearest(survey.viewpoints());
+  const std::optional<FrontierTarget> nearest = survey.target_seen_from(way.back());
+  return {.view = view_of_target(situation, *nearest, operations), .way = std::move(way)};
 }
 
-}  // namespace
-
 void ExplorationPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult /*result*/) {}
+std::string ExplorationPlanner::memory() const { return {}; }
+void ExplorationPlanner::recall(const OccupancyMap& /*map*/, std::string_view /*memory*/) {}
+
+std::optional<std::vector<Pose>> FrontierPlanner::path_to(const Pose& view, std::span<const VoxelIndex> way) const {
+  const OccupancyMap& map = situation_.map();
+  if (situation_.reachable().only_turns()) {
+    return std::vector<Pose>{situation_.current(), view};
+  }
+  std::vector<VoxelIndex> shortest;
+  if (way.empty()) {
+    shortest = GridPaths(situation_.reachable()).to(map.frame().cell_of(view.translation()));
+    way = shortest;
+  }
+  auto path = way.empty() ? std::nullopt : poses_along(map, situation_.platform(), situation_.current(), way, view);
+  return path ? std::move(path) : situation_.platform().path(map, situation_.current(), view);
+}
 
 Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
   situation_.sync(map, current);
@@ -42,10 +51,12 @@ Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
     if (!choice) {
       return plan;
     }
-    std::optional<std::vector<Pose>> path = path_of(situation_, *choice);
-    plan.statistics.path_ms += watch.lap_ms();
     TargetView& view = choice->view;
-    if (!path) {
+    if (choice->path.empty()) {
+      choice->path = path_to(view.view.pose, choice->way).value_or(std::vector<Pose>());
+    }
+    plan.statistics.path_ms += watch.lap_ms();
+    if (choice->path.empty()) {
       if (!situation_.drop(view)) {
         return plan;
       }
@@ -55,7 +66,7 @@ Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
     plan.reason = choice->reason.empty() ? "a view of " + std::to_string(view.unknown.size()) + " unknown cells"
                                          : std::move(choice->reason);
     plan.goal = view.view;
-    plan.path = std::move(*path);
+    plan.path = std::move(choice->path);
     plan.sought = std::move(view.unknown);
     situation_.remember(plan, std::move(view.hoped));
     return plan;

@@ -2,37 +2,15 @@
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vantage/planner/frontier_void_planner.hpp>
-#include <vantage/robot/grid_path.hpp>
 
-#include "map/option_rule.hpp"
 #include "planner/planner_tables.hpp"
 #include "raytrace/shared_work.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kSparse = 4.0;  // factor on the distance between rays for the first ranking of many views
-
-void validate(const FrontierVoidOptions& options) {
-  detail::frontier_void_settings().validate(options);
-  const FrontierVoidStrategy& strategy = options.strategy;
-  detail::require_option(options.most_vectors > 0, "FrontierVoidOptions::most_vectors", options.most_vectors, "> 0");
-  detail::require_option(strategy.orientations_per_place >= 1, "FrontierVoidStrategy::orientations_per_place",
-                         strategy.orientations_per_place, ">= 1");
-  detail::require_option(std::isfinite(strategy.place_spacing_m) && strategy.place_spacing_m >= 0.0,
-                         "FrontierVoidStrategy::place_spacing_m", strategy.place_spacing_m, ">= 0");
-  detail::require_option(strategy.opaque_share > 0.0 && strategy.opaque_share <= 1.0,
-                         "FrontierVoidStrategy::opaque_share", strategy.opaque_share, "in (0, 1]");
-  detail::require_option(strategy.opaque_beside_surface > 0.0 && strategy.opaque_beside_surface <= 1.0,
-                         "FrontierVoidStrategy::opaque_beside_surface", strategy.opaque_beside_surface, "in (0, 1]");
-  detail::require_option(strategy.sought_chance >= 0.0 && strategy.sought_chance <= 1.0,
-                         "FrontierVoidStrategy::sought_chance", strategy.sought_chance, "in [0, 1]");
-  detail::require_option(strategy.finalists >= 1, "FrontierVoidStrategy::finalists", strategy.finalists, ">= 1");
-}
 
 std::string volume(std::size_t cells, double cell_m) {
   const double litres = static_cast<double>(cells) * std::pow(10.0 * cell_m, 3);
@@ -66,20 +44,12 @@ std::size_t least_cells(double volume_m3, double cell_m) {
 
 FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setup, const FrontierVoidOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
-  validate(options);
+  detail::frontier_void_settings().validate(options);
   options_.clusters.seed = setup.seed;
 }
 
 void FrontierVoidPlanner::prepare(Plan& plan) {
-  const OccupancyMap& map = situation().map();
-  if (followed_.is_in_place(map)) {
-    void_cells_->update();
-  } else {
-    followed_ = KnownMap();  // stays empty if the next lines throw
-    void_cells_.emplace(map);
-    sparse_rays_.emplace(situation().sensor().rays_for(kSparse * map.resolution_m()));
-    followed_ = KnownMap(map);
-  }
+  void_cells_.follow(situation().map());
   plan.statistics.void_cells = void_cells_->cell_count();
   search_ = {};
 }
@@ -110,13 +80,9 @@ std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
                   std::to_string(situation().survey().targets.size()) + " observable frontier cells are left";
     return std::nullopt;
   }
-  choice = nearest_frontier(statistics);
-  if (choice) {
-    choice->reason =
-        "no view sees a void; a view of " + std::to_string(choice->view.unknown.size()) + " unknown cells";
-  } else {
-    plan.reason = "there is no way to any place that sees a frontier";
-  }
+  choice = nearest_view(situation(), statistics.ray_operations);
+  choice->view.view.utility = 0.0;
+  choice->reason = "no view sees a void; a view of " + std::to_string(choice->view.unknown.size()) + " unknown cells";
   return choice;
 }
 
@@ -186,19 +152,6 @@ std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(std::vecto
   return candidates;
 }
 
-// Along reachable cells if the platform can follow them, else by the platform's own path search.
-std::optional<std::vector<Pose>> FrontierVoidPlanner::way_to(const Pose& view) const {
-  const OccupancyMap& map = situation().map();
-  const Platform& platform = situation().platform();
-  const ReachableSpace& reachable = situation().reachable();
-  if (reachable.only_turns()) {
-    return std::vector<Pose>{situation().current(), view};
-  }
-  const std::vector<VoxelIndex> cells = GridPaths(reachable).to(map.frame().cell_of(view.translation()));
-  auto path = cells.empty() ? std::nullopt : poses_along(map, platform, situation().current(), cells, view);
-  return path ? std::move(path) : platform.path(map, situation().current(), view);
-}
-
 // Equation (3): the best view to which a path leads. A view must also see a target, because cells that are given up
 // or rest are none.
 std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& views, Plan& plan) const {
@@ -206,7 +159,7 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
   std::vector<Candidate> candidates(views.size());
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{pose}; });
   if (views.size() > options_.strategy.finalists) {
-    candidates = rank(std::move(candidates), *sparse_rays_, plan.statistics.ray_operations);
+    candidates = rank(std::move(candidates), situation().sparse_rays(), plan.statistics.ray_operations);
     candidates.resize(options_.strategy.finalists);
   }
   candidates = rank(std::move(candidates), situation().rays(), plan.statistics.ray_operations);
@@ -221,7 +174,7 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
       continue;
     }
     TargetView view = targets_seen_from(situation(), candidate.pose, plan.statistics.ray_operations);
-    auto path = view.unknown.empty() ? std::nullopt : way_to(candidate.pose);
+    auto path = view.unknown.empty() ? std::nullopt : path_to(candidate.pose);
     if (!path) {
       continue;
     }
@@ -230,7 +183,7 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
                              : candidate.value;
     if (!best || value > best_value) {
       view.view.utility = static_cast<double>(candidate.void_cells);
-      best = ChosenView{std::move(view), {}, std::move(*path)};
+      best = ChosenView{std::move(view), std::move(*path)};
       best_value = value;
     }
   }
@@ -245,27 +198,6 @@ std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& 
     }
   }
   return best;
-}
-
-std::optional<ChosenView> FrontierVoidPlanner::nearest_frontier(PlanStatistics& statistics) const {
-  const std::vector<FrontierTarget>& targets = situation().survey().targets;
-  std::vector<VoxelIndex> viewpoints(targets.size());
-  std::transform(targets.begin(), targets.end(), viewpoints.begin(),
-                 [](const FrontierTarget& target) { return target.viewpoint; });
-  const GridPaths ways(situation().reachable());
-  for (const double detour_m : {0.0, std::numeric_limits<double>::max()}) {
-    for (const VoxelIndex& viewpoint :
-         ways.nearest_within(viewpoints, detour_m, situation().map().resolution_m()).goals) {
-      const auto target = std::find_if(targets.begin(), targets.end(),
-                                       [&](const FrontierTarget& one) { return one.viewpoint == viewpoint; });
-      TargetView view = view_of_target(situation(), *target, statistics.ray_operations);
-      if (auto path = way_to(view.view.pose)) {
-        view.view.utility = 0.0;
-        return ChosenView{std::move(view), {}, std::move(*path)};
-      }
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace vantage

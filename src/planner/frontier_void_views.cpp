@@ -162,9 +162,10 @@ std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) co
     return {};
   }
   const std::vector<const FrontierTarget*> targets = targets_of_voids(survey, search_.voids);
-  std::vector<VoxelIndex> viewpoints(targets.size());
-  std::transform(targets.begin(), targets.end(), viewpoints.begin(),
-                 [](const FrontierTarget* target) { return target->viewpoint; });
+  std::vector<VoxelIndex> viewpoints;
+  for (const FrontierTarget* target : targets) {
+    viewpoints.push_back(target->viewpoint);
+  }
   std::vector<const FrontierTarget*> near;
   for (const VoxelIndex& viewpoint :
        GridPaths(situation().reachable()).nearest_within(viewpoints, kNearM, map.resolution_m()).goals) {

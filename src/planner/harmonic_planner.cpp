@@ -5,7 +5,6 @@
 #include <iterator>
 #include <string>
 #include <utility>
-#include <vantage/field/laplace_multigrid.hpp>
 #include <vantage/field/streamline.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
@@ -17,42 +16,12 @@
 namespace vantage {
 namespace {
 
-using Position = LaplaceProblem::Position;
-
-RelaxationOptions relaxation_options(const HarmonicOptions& options) {
-  RelaxationOptions relaxation;
-  relaxation.neumann = options.neumann;
-  relaxation.order = options.solver == FieldSolver::GaussSeidel ? SweepOrder::Lexicographic : SweepOrder::RedBlack;
-  relaxation.tolerance = options.tolerance;
-  relaxation.max_sweeps = options.max_sweeps;
-  relaxation.uniform_source = options.uniform_source;
-  return relaxation;
-}
-
-MultigridOptions multigrid_options(const HarmonicOptions& options, int threads) {
-  MultigridOptions multigrid;
-  multigrid.neumann = options.neumann;
-  multigrid.uniform_source = options.uniform_source;
-  multigrid.threads = static_cast<std::size_t>(threads);
-  return multigrid;
-}
-
 // The viewpoints of all targets, without duplicates.
 std::vector<VoxelIndex> viewpoints(const FrontierSurvey& survey) {
-  std::vector<VoxelIndex> cells;
-  cells.reserve(survey.targets.size());
-  for (const FrontierTarget& target : survey.targets) {
-    cells.push_back(target.viewpoint);
-  }
+  std::vector<VoxelIndex> cells = survey.viewpoints();
   std::sort(cells.begin(), cells.end(), RasterOrder{});
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
-}
-
-std::optional<FrontierTarget> target_seen_from(const FrontierSurvey& survey, const VoxelIndex& cell) {
-  const auto found = std::find_if(survey.targets.begin(), survey.targets.end(),
-                                  [&](const FrontierTarget& target) { return target.viewpoint == cell; });
-  return found == survey.targets.end() ? std::nullopt : std::optional<FrontierTarget>(*found);
 }
 
 // Truncates the curve after its first point in this cell.
@@ -86,7 +55,6 @@ std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, const P
 HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
   detail::harmonic_settings().validate(options);
-  relaxation_options(options).validate();
 }
 
 void HarmonicPlanner::prepare(Plan& /*plan*/) { field_.reset(); }
@@ -97,9 +65,9 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   std::uint64_t& operations = plan.statistics.ray_operations;
   std::vector<VoxelIndex> way{*situation().reachable().start()};
   if (std::optional<TargetView> look = look_again(operations)) {
-    return ChosenView{std::move(*look), std::move(way)};
+    return ChosenView{.view = std::move(*look), .way = std::move(way)};
   }
-  std::optional<FrontierTarget> wanted = target_seen_from(survey, way.back());
+  std::optional<FrontierTarget> wanted = survey.target_seen_from(way.back());
   if (!wanted) {  // otherwise the sensor looks from where it is
     NearGoals drawing = sinks();
     if (strategy.shortest_way && drawing.goals.size() == 1) {  // descent would end there from everywhere
@@ -111,7 +79,7 @@ std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
         way = GridPaths(situation().reachable()).to(way.back());
       }
     }
-    wanted = strategy.look_early ? first_look(way, operations) : target_seen_from(survey, way.back());
+    wanted = strategy.look_early ? first_look(way, operations) : survey.target_seen_from(way.back());
   }
   ChosenView chosen{look_at(*wanted, operations)};
   if (field_ && field_->followed && !strategy.shortest_way) {
@@ -182,7 +150,7 @@ FrontierTarget HarmonicPlanner::first_look(const std::vector<VoxelIndex>& way, s
     target.viewpoint = cell;
     return target;
   };
-  const FrontierTarget wanted = *target_seen_from(survey, way.back());
+  const FrontierTarget wanted = *survey.target_seen_from(way.back());
   double gone_m = 0.0;
   for (std::size_t i = 0; i < way.size(); ++i) {
     gone_m += i == 0 ? 0.0 : (frame.centre_of(way[i]) - frame.centre_of(way[i - 1])).norm();
@@ -211,48 +179,6 @@ NearGoals HarmonicPlanner::sinks() const {
                                                    situation().map().resolution_m());
 }
 
-void HarmonicPlanner::solve(NearGoals drawing, PlanStatistics& statistics) {
-  field_.emplace(HarmonicField{
-      LaplaceProblem(std::move(drawing.met), drawing.goals, *situation().reachable().start()), {}, {}, {}, 0, true});
-  if (options_.solver == FieldSolver::Multigrid) {
-    solve_by_multigrid();
-  } else {
-    relax();
-  }
-  statistics.solver_sweeps += field_->report.sweeps;
-  statistics.ray_operations += field_->report.cell_updates;
-}
-
-// Only a certified field is followed: then descent from every cell ends at a sink.
-void HarmonicPlanner::solve_by_multigrid() {
-  const LaplaceMultigrid multigrid(field_->problem, multigrid_options(options_, situation().setup().threads));
-  const MultigridReport& report = multigrid.report();
-  field_->phi = multigrid.values(field_->problem);
-  field_->stuck_cells = report.stuck_cells;
-  field_->followed = report.certified;
-  field_->report.stop = report.stop == MultigridStop::Converged ? LaplaceStop::Converged : LaplaceStop::SweepLimit;
-  field_->report.sweeps = report.iterations;
-  field_->report.cell_updates = report.iterations * report.unknowns;
-  field_->report.seconds = report.setup_seconds + report.solve_seconds;
-}
-
-void HarmonicPlanner::relax() {
-  LaplaceRelaxation relaxation(field_->problem, relaxation_options(options_));
-  relaxation.run();
-  // The stopping rule of the paper does not guarantee that descent reaches a sink, so the relaxation continues until
-  // it does or max_sweeps is reached.
-  const auto arrives = [&] {
-    return descend(field_->problem, relaxation.phi(), field_->problem.source()).reaches_sink;
-  };
-  while (!(field_->followed = arrives()) && relaxation.report().sweeps < options_.max_sweeps) {
-    const std::size_t left = options_.max_sweeps - relaxation.report().sweeps;
-    relaxation.run(std::min(left, std::max<std::size_t>(relaxation.report().sweeps, 10)));
-  }
-  field_->phi.assign(relaxation.phi().begin(), relaxation.phi().end());
-  field_->report = relaxation.report();
-  field_->stuck_cells = count_stuck_cells(field_->problem, field_->phi);
-}
-
 // The cells of the streamline from the start to its sink. The shortest path if the field is not followed.
 std::vector<VoxelIndex> HarmonicPlanner::way_down() {
   const LaplaceProblem& problem = field_->problem;
@@ -276,7 +202,7 @@ std::vector<VoxelIndex> HarmonicPlanner::way_down() {
     return cells;
   }
   std::vector<VoxelIndex> cells;
-  for (const Position position : descend(problem, field_->phi, problem.source()).cells) {
+  for (const LaplaceProblem::Position position : descend(problem, field_->phi, problem.source()).cells) {
     cells.push_back(problem.cell(position));
     field_->streamline.push_back(frame.centre_of(cells.back()));
   }

@@ -16,6 +16,7 @@ namespace {
 
 // About 20 degrees between neighbours, less than half of a camera's field of view.
 constexpr std::size_t kDirections = 128;
+constexpr std::size_t kFinalists = 5;  // directions that are compared with all rays
 // Mean free path of sight in unknown space, metres.
 constexpr double kSightM = 4.0;
 // Probability that the surface continues in an unknown cell beside it.
@@ -42,20 +43,12 @@ LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d
     : situation_(situation),
       position_(position),
       place_(situation.map().frame().cell_of(position)),
+      targets_(situation, position, counted_range_m(situation.map(), situation.sensor()), operations),
       operations_(operations) {
   const OccupancyMap& map = situation.map();
   const RangeSensor& sensor = situation.sensor();
-  const double furthest_m = std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
-  for (const FrontierTarget& target : situation.survey().targets) {
-    const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
-    const double range_m = line.norm();
-    if (range_m >= sensor.min_range_m && range_m <= furthest_m &&
-        !situation.tried().tried_from(target.unknown, place_) &&
-        (target.viewpoint == place_ || in_plain_sight(map, position, target.unknown, operations))) {
-      sightings_.push_back({target.unknown, line});
-    }
-  }
-  if (!sightings_.empty()) {
+  targets_.leave_out_tried();
+  if (!targets_.all().empty()) {
     sight_.emplace(map, unknown_cells_around(map, position, sensor.max_range_m),
                    UnknownSightOptions{.opaque_share = 1.0 - std::exp(-map.resolution_m() / kSightM),
                                        .opaque_beside_surface = kOpaqueBesideSurface,
@@ -73,39 +66,37 @@ std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted
   std::vector<Look> looks;
   for (const Eigen::Vector3d& direction : spread_directions(kDirections)) {
     const Pose pose = situation_.platform().facing(position_, direction);
-    TargetView seen = targets_in_view(pose);
+    TargetView seen = targets_.in_view(pose);
     const bool serves = wanted ? std::find(seen.unknown.begin(), seen.unknown.end(), *wanted) != seen.unknown.end()
                                : !seen.unknown.empty();
     if (serves) {
       looks.push_back({std::move(seen)});
     }
   }
-  (void)situation_.caster();  // updates the caster before several threads use it
+  // Most directions are told apart by few rays.
+  if (looks.size() > kFinalists) {
+    rank(looks, situation_.sparse_rays());
+    looks.resize(kFinalists);
+  }
+  rank(looks, situation_.rays());
+  return looks.empty() ? std::nullopt : std::optional<Look>(std::move(looks.front()));
+}
+
+// Counts the expected cells of each view and sorts the views, best first.
+void LookDirections::rank(std::vector<Look>& looks, const ViewRays& rays) const {
   share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
-             [&](std::size_t i) { count_expected_cells(looks[i]); });
-  for (const Look& look : looks) {
-    operations_ += look.operations;
+             [&](std::size_t i) { count_expected_cells(looks[i], rays); });
+  for (Look& look : looks) {
+    operations_ += std::exchange(look.operations, 0);
   }
-  const auto best = std::max_element(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
-    return a.cells != b.cells ? a.cells < b.cells : a.seen.unknown.size() < b.seen.unknown.size();
+  std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
+    return a.cells != b.cells ? a.cells > b.cells : a.seen.unknown.size() > b.seen.unknown.size();
   });
-  return best == looks.end() ? std::nullopt : std::optional<Look>(std::move(*best));
 }
 
-TargetView LookDirections::targets_in_view(const Pose& pose) const {
-  TargetView seen{.view = {.pose = pose}};
-  for (const Sighting& sighting : sightings_) {
-    if (situation_.sensor().in_view(pose.linear().transpose() * sighting.line)) {
-      seen.unknown.push_back(sighting.unknown);
-    }
-  }
-  seen.view.utility = static_cast<double>(seen.unknown.size());
-  return seen;
-}
-
-void LookDirections::count_expected_cells(Look& look) const {
-  for (const SightedCell& seen :
-       sight_->look(situation_.caster(), look.seen.view.pose, situation_.rays(), look.operations)) {
+void LookDirections::count_expected_cells(Look& look, const ViewRays& rays) const {
+  look.cells = 0.0;
+  for (const SightedCell& seen : sight_->look(situation_.caster(), look.seen.view.pose, rays, look.operations)) {
     if (!situation_.tried().tried_from(seen.cell, place_) && !situation_.tried().gave_up(seen.cell) &&
         !was_in_view(seen.cell)) {
       look.cells += seen.chance;

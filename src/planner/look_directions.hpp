@@ -6,8 +6,11 @@
 #include <optional>
 #include <vantage/planner/situation.hpp>
 #include <vantage/planner/target_view.hpp>
+#include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vector>
+
+#include "planner/targets_in_sight.hpp"
 
 namespace vantage::detail {
 
@@ -35,18 +38,14 @@ class LookDirections {
   [[nodiscard]] static bool choosable(const OccupancyMap& map, const RangeSensor& sensor);
 
  private:
-  struct Sighting {
-    VoxelIndex unknown;
-    Eigen::Vector3d line;  // from position_ to the centre of the cell, metres, world
-  };
-  [[nodiscard]] TargetView targets_in_view(const Pose& pose) const;
-  void count_expected_cells(Look& look) const;
+  void rank(std::vector<Look>& looks, const ViewRays& rays) const;
+  void count_expected_cells(Look& look, const ViewRays& rays) const;
   [[nodiscard]] bool was_in_view(const VoxelIndex& cell) const;
 
   const Situation& situation_;
   Eigen::Vector3d position_;
   VoxelIndex place_;
-  std::vector<Sighting> sightings_;
+  TargetsInSight targets_;
   std::optional<UnknownSight> sight_;
   std::uint64_t& operations_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <vantage/planner/frontier_gain_planner.hpp>
@@ -17,77 +18,56 @@
 namespace vantage {
 namespace {
 
-// Makes a planner of a class from settings and the table of its options.
-template <class Planner, class Options>
-std::unique_ptr<ExplorationPlanner> made(const PlannerSetup& setup, std::string_view name,
-                                         const PlannerSettings& settings,
-                                         const detail::SettingTable<Options>& table) {
-  Options options;
-  table.read(name, settings, options);
-  return std::make_unique<Planner>(setup, options);
-}
-
-// With an object, ObjectPlanner, unless a setting of the paper's utility is given; else NextBestViewPlanner.
-std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const PlannerSettings& settings) {
-  NextBestViewOptions options;
-  detail::next_best_view_settings().read("next-best-view", settings, options);
-  detail::next_best_view_settings().validate(options);
-  if (const double furthest_m = *std::max_element(options.radii_m.begin(), options.radii_m.end()); furthest_m > 0.0) {
-    options.aimed.min_distance_m = furthest_m / 3.0;
-    options.aimed.max_distance_m = furthest_m;
+// Without an object, NextBestViewExplorer; with one, ObjectPlanner, or NextBestViewPlanner if a setting of the
+// paper's utility is given.
+std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const Settings& settings) {
+  detail::NextBestViewChoices choices;
+  detail::next_best_view_settings().read("next-best-view", settings, choices);
+  detail::next_best_view_settings().validate(choices);
+  if (settings.find("object") == settings.end()) {
+    return std::make_unique<NextBestViewExplorer>(setup, choices.exploration);
   }
+  NextBestViewOptions& options = choices.object;
+  ObjectViewOptions& candidates = options.candidates;
+  candidates.aimed.max_distance_m = *std::max_element(candidates.radii_m.begin(), candidates.radii_m.end());
+  candidates.aimed.min_distance_m = candidates.aimed.max_distance_m / 3.0;
+  options.patience = choices.exploration.survey.patience;
   constexpr std::array<std::string_view, 4> kOfThePaper{"gain", "choice", "min_unknown_cells", "min_overlap_cells"};
   const bool as_the_paper = options.method != VisibilityMethod::Exact ||
                             std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
                                         [&](std::string_view name) { return settings.find(name) != settings.end(); });
-  if (!options.object || as_the_paper) {
+  if (as_the_paper) {
     return std::make_unique<NextBestViewPlanner>(setup, options);
   }
-  return std::make_unique<ObjectPlanner>(setup, ObjectPlannerOptions{.object = *options.object,
-                                                                     .radii_m = options.radii_m,
-                                                                     .subdivisions = options.subdivisions,
-                                                                     .random_candidates = options.random_candidates,
-                                                                     .aimed = options.aimed});
+  return std::make_unique<ObjectPlanner>(setup, ObjectPlannerOptions{.candidates = candidates});
 }
 
 struct Maker {
   std::string_view name;
-  std::unique_ptr<ExplorationPlanner> (*make)(const PlannerSetup&, const PlannerSettings&);
-  std::vector<PlannerSetting> (*list)();
+  std::function<std::unique_ptr<ExplorationPlanner>(const PlannerSetup&, const Settings&)> make;
+  std::vector<Setting> settings;
 };
+
+// The maker of a planner of a class, from the table of its options.
+template <class Planner, class Options>
+Maker maker(std::string_view name, const detail::SettingTable<Options>& table) {
+  return {name,
+          [name, &table](const PlannerSetup& setup, const Settings& settings) {
+            Options options;
+            table.read(name, settings, options);
+            return std::make_unique<Planner>(setup, options);
+          },
+          table.list()};
+}
 
 const std::vector<Maker>& makers() {
   static const std::vector<Maker> all{
-      {"frontier-gain",
-       [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made<FrontierGainPlanner>(setup, "frontier-gain", settings, detail::frontier_gain_settings());
-       },
-       [] { return detail::frontier_gain_settings().list(); }},
-      {"frontier-void",
-       [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made<FrontierVoidPlanner>(setup, "frontier-void", settings, detail::frontier_void_settings());
-       },
-       [] { return detail::frontier_void_settings().list(); }},
-      {"harmonic",
-       [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made<HarmonicPlanner>(setup, "harmonic", settings, detail::harmonic_settings());
-       },
-       [] { return detail::harmonic_settings().list(); }},
-      {"nearest-frontier",
-       [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made<NearestFrontierPlanner>(setup, "nearest-frontier", settings, detail::frontier_survey_settings());
-       },
-       [] { return detail::frontier_survey_settings().list(); }},
-      {"next-best-view",
-       [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made_next_best_view(setup, settings);
-       },
-       [] { return detail::next_best_view_settings().list(); }},
-      {"tour",
-       [](const PlannerSetup& setup, const PlannerSettings& settings) {
-         return made<TourPlanner>(setup, "tour", settings, detail::tour_settings());
-       },
-       [] { return detail::tour_settings().list(); }},
+      maker<FrontierGainPlanner>("frontier-gain", detail::frontier_gain_settings()),
+      maker<FrontierVoidPlanner>("frontier-void", detail::frontier_void_settings()),
+      maker<HarmonicPlanner>("harmonic", detail::harmonic_settings()),
+      maker<NearestFrontierPlanner>("nearest-frontier", detail::frontier_survey_settings()),
+      {"next-best-view", made_next_best_view, detail::next_best_view_settings().list()},
+      maker<TourPlanner>("tour", detail::tour_settings()),
   };
   return all;
 }
@@ -108,11 +88,11 @@ const Maker& maker_of(std::string_view name) {
 }  // namespace
 
 std::unique_ptr<ExplorationPlanner> make_planner(std::string_view name, const PlannerSetup& setup,
-                                                 const PlannerSettings& settings) {
+                                                 const Settings& settings) {
   return maker_of(name).make(setup, settings);
 }
 
-std::vector<PlannerSetting> planner_settings(std::string_view name) { return maker_of(name).list(); }
+std::vector<Setting> planner_settings(std::string_view name) { return maker_of(name).settings; }
 
 const std::vector<std::string_view>& planner_names() {
   static const std::vector<std::string_view> names = [] {

@@ -3,11 +3,10 @@
 #include <numeric>
 #include <utility>
 #include <vantage/planner/next_best_view_explorer.hpp>
-#include <vantage/robot/grid_path.hpp>
 #include <vantage/view/view_utility.hpp>
 
 #include "geometry/dice.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 
@@ -60,8 +59,7 @@ std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   if (best.unknown.empty()) {
     best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
   }
-  std::vector<VoxelIndex> way = GridPaths(reachable).to(map.frame().cell_of(best.view.pose.translation()));
-  return ChosenView{std::move(best), std::move(way)};
+  return ChosenView{std::move(best)};
 }
 
 }  // namespace vantage

@@ -2,94 +2,49 @@
 // Vasquez-Gomez, Sucar, Murrieta-Cid 2013, "Hierarchical ray tracing for fast volumetric next-best-view planning",
 // Algorithm 1.
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/planner/next_best_view_planner.hpp>
-#include <vantage/planner/way_around.hpp>
 #include <vantage/raytrace/hierarchical_ray_tracer.hpp>
 #include <vantage/robot/grid_path.hpp>
-#include <vantage/view/candidate_views.hpp>
+#include <vantage/robot/way_around.hpp>
 #include <vantage/view/view_cover.hpp>
 #include <vantage/view/view_utility.hpp>
 
-#include "geometry/dice.hpp"
-#include "map/option_rule.hpp"
 #include "planner/stopwatch.hpp"
 #include "raytrace/shared_work.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
-namespace {
-
-void validate(const NextBestViewOptions& options) {
-  if (options.object &&
-      (options.object->empty() || !options.object->min.allFinite() || !options.object->max.allFinite())) {
-    throw std::invalid_argument("NextBestViewOptions::object must have min < max on every axis and be finite");
-  }
-  if (options.radii_m.empty()) {
-    throw std::invalid_argument("NextBestViewOptions::radii_m is empty, must have at least one radius");
-  }
-  for (const double radius_m : options.radii_m) {
-    detail::require_option(std::isfinite(radius_m) && radius_m > 0.0, "NextBestViewOptions::radii_m", radius_m,
-                           "> 0");
-  }
-  detail::require_option(options.subdivisions >= -1 && options.subdivisions <= 6, "NextBestViewOptions::subdivisions",
-                         options.subdivisions, "in [-1, 6]");
-  detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
-                         options.min_unknown_cells, ">= 1");
-  detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
-                         "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
-  detail::require_option(options.hypotheses >= 1, "NextBestViewOptions::hypotheses", options.hypotheses, ">= 1");
-  validate(options.aimed);
-  validate(options.sensing);
-}
-
-// The cells in which candidates are drawn: the region, or the known cells and their neighbours.
-VoxelBox cells_of_interest(const OccupancyMap& map) { return map.region() ? *map.region() : map.bounds().grown(1); }
-
-}  // namespace
 
 NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options)
     : setup_(setup),
       options_(options),
-      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.survey.patience}),
-      explorer_(setup, {options.hypotheses, options.survey}) {
-  validate(options);
-}
-
-Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& current) {
-  return options_.object ? reconstruct(map, orthonormalised(current)) : explorer_.plan(map, current);
+      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.patience}) {
+  setup.validate();
+  validate(options.candidates);
+  detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
+                         options.min_unknown_cells, ">= 1");
+  detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
+                         "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
+  validate(options.sensing);
 }
 
 // Line 8: the candidates that the platform admits, in orientations that it can take.
-std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, const VoxelBox& object) const {
-  const Eigen::Vector3d middle = options_.object->centre();
-  std::vector<Pose> views;
-  const auto add = [&](const std::vector<Pose>& more) { views.insert(views.end(), more.begin(), more.end()); };
-  if (options_.subdivisions >= 0) {
-    add(views_around(middle, options_.radii_m, options_.subdivisions));
-  }
-  if (options_.random_candidates > 0 && !cells_of_interest(map).empty()) {
-    const Box workspace = map.frame().box_of(cells_of_interest(map));
-    add(random_views_of(middle, workspace, options_.random_candidates, setup_.seed));
-  }
-  if (options_.aimed.count > 0) {
+std::vector<Pose> NextBestViewPlanner::views(const OccupancyMap& map, const VoxelBox& object) const {
+  std::vector<Pose> aimed;
+  if (options_.candidates.aimed.count > 0) {
     CellSet sought(object);
     for_each_cell(object, [&](const VoxelIndex& cell) {
       if (looking_.caster().at(cell) == Occupancy::Unknown && !tried_.gave_up(cell)) {
         sought.insert(cell);
       }
     });
-    add(aimed_views(looking_.caster(), sought, options_.aimed, setup_.seed));
+    aimed = aimed_views(looking_.caster(), sought, options_.candidates.aimed, setup_.seed);
   }
-  for (Pose& view : views) {
-    view = setup_.platform->facing(view.translation(), optical_axis(view));
-  }
-  std::erase_if(views, [&](const Pose& view) {
-    return !setup_.platform->admits(map, view) || tried_.rests(map.frame().cell_of(view.translation()));
-  });
+  std::vector<Pose> views = views_of_object(options_.candidates, map, *setup_.platform, aimed, setup_.seed);
+  std::erase_if(views, [&](const Pose& view) { return tried_.rests(map.frame().cell_of(view.translation())); });
   return views;
 }
 
@@ -97,7 +52,7 @@ std::vector<Pose> NextBestViewPlanner::views_of_object(const OccupancyMap& map, 
 std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(const OccupancyMap& map,
                                                                             const Pose& current,
                                                                             const VoxelBox& object) const {
-  const std::vector<Pose> views = views_of_object(map, object);
+  const std::vector<Pose> views = this->views(map, object);
   std::vector<CellSet> seen(views.size());
   const std::vector<ViewEvaluation> evaluations = evaluate(map, object, views, seen);
   const std::vector<ScoredView> scored = score(map, current, object, views, evaluations);
@@ -205,11 +160,12 @@ std::vector<std::size_t> NextBestViewPlanner::order_of(const std::vector<Candida
   return order;
 }
 
-Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& current) {
+Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& pose) {
   detail::Stopwatch stopwatch;
+  const Pose current = orthonormalised(pose);
   tried_.review(map, current);
   looking_.follow(map, setup_.sensor);
-  const VoxelBox object = map.frame().cells_centred_in(*options_.object);
+  const VoxelBox object = map.frame().cells_centred_in(options_.candidates.object);
   Plan plan;
   plan.statistics.survey_ms = stopwatch.lap_ms();
   const std::vector<Candidate> tried = candidates(map, current, object);
@@ -230,7 +186,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
     }
     any_worthwhile = true;
     plan.statistics.choose_ms += stopwatch.lap_ms();
-    auto path = way_around(map, *setup_.platform, current, view.pose, options_.object->centre());
+    auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
     plan.statistics.path_ms += stopwatch.lap_ms();
     if (path) {
       plan.outcome = Outcome::Move;
@@ -247,7 +203,7 @@ Plan NextBestViewPlanner::reconstruct(const OccupancyMap& map, const Pose& curre
   }
   // Lines 22 to 25: no view is taken.
   if (tried_.try_resting_again()) {
-    return reconstruct(map, current);
+    return this->plan(map, current);
   }
   const bool cut_off = any_worthwhile || tried_.any_rests();
   plan.outcome = cut_off ? Outcome::Unreachable : Outcome::Explored;

@@ -2,38 +2,24 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/planner/object_planner.hpp>
-#include <vantage/planner/way_around.hpp>
-#include <vantage/view/candidate_views.hpp>
+#include <vantage/robot/way_around.hpp>
 
-#include "map/option_rule.hpp"
 #include "planner/stopwatch.hpp"
 #include "raytrace/shared_work.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {
 
 void check(const ObjectPlannerOptions& options) {
-  if (options.object.empty() || !options.object.min.allFinite() || !options.object.max.allFinite()) {
-    throw std::invalid_argument("ObjectPlannerOptions::object must have min < max on every axis and be finite");
-  }
-  if (options.radii_m.empty()) {
-    throw std::invalid_argument("ObjectPlannerOptions::radii_m is empty, must have at least one radius");
-  }
-  for (const double radius_m : options.radii_m) {
-    detail::require_option(std::isfinite(radius_m) && radius_m > 0.0, "ObjectPlannerOptions::radii_m", radius_m,
-                           "> 0");
-  }
-  detail::require_option(options.subdivisions >= -1 && options.subdivisions <= 6,
-                         "ObjectPlannerOptions::subdivisions", options.subdivisions, "in [-1, 6]");
+  validate(options.candidates);
   detail::require_option(options.min_new_share >= 0.0 && options.min_new_share < 1.0,
                          "ObjectPlannerOptions::min_new_share", options.min_new_share, "in [0, 1)");
-  detail::require_option(options.near_share > 0.0 && options.near_share <= 1.0, "ObjectPlannerOptions::near_share",
-                         options.near_share, "in (0, 1]");
-  validate(options.aimed);
+  detail::require_option(std::isfinite(options.view_price) && options.view_price > 0.0,
+                         "ObjectPlannerOptions::view_price", options.view_price, "> 0");
 }
 
 }  // namespace
@@ -52,7 +38,7 @@ void ObjectPlanner::follow(const OccupancyMap& map, const Pose& current) {
   const bool known = map_.is_in_place(map);
   if (!known) {
     map_ = KnownMap();
-    surface_.emplace(map, map.frame().cells_centred_in(options_.object));
+    surface_.emplace(map, map.frame().cells_centred_in(options_.candidates.object));
     rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
     map_ = KnownMap(map);
   }
@@ -64,9 +50,9 @@ void ObjectPlanner::follow(const OccupancyMap& map, const Pose& current) {
 
 // Estimated path length, metres: straight, or along an arc if the object is in between.
 double ObjectPlanner::way_m(const Pose& from, const Pose& to) const {
-  const Eigen::Vector3d a = from.translation() - options_.object.centre();
-  const Eigen::Vector3d b = to.translation() - options_.object.centre();
-  const Eigen::Vector3d half = 0.5 * options_.object.extent();
+  const Eigen::Vector3d a = from.translation() - options_.candidates.object.centre();
+  const Eigen::Vector3d b = to.translation() - options_.candidates.object.centre();
+  const Eigen::Vector3d half = 0.5 * options_.candidates.object.extent();
   bool through = false;
   for (int i = 1; i < 16 && !through; ++i) {
     through = ((a + (b - a) * (i / 16.0)).cwiseAbs().array() < half.array()).all();
@@ -78,43 +64,28 @@ double ObjectPlanner::way_m(const Pose& from, const Pose& to) const {
 }
 
 std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(const OccupancyMap& map, const Pose& current) const {
-  std::vector<Pose> views;
-  const auto add = [&](const std::vector<Pose>& more) { views.insert(views.end(), more.begin(), more.end()); };
-  if (options_.subdivisions >= 0) {
-    add(views_around(options_.object.centre(), options_.radii_m, options_.subdivisions));
-  }
-  const VoxelBox cells = map.region() ? *map.region() : map.bounds().grown(1);
-  if (options_.random_candidates > 0 && !cells.empty()) {
-    add(random_views_of(options_.object.centre(), map.frame().box_of(cells), options_.random_candidates,
-                        setup_.seed));
-  }
-  if (options_.aimed.count > 0) {
-    add(aimed_views(surface_->caster(), surface_->left(), options_.aimed, setup_.seed));
+  std::vector<Pose> aimed;
+  if (options_.candidates.aimed.count > 0) {
+    aimed = aimed_views(surface_->caster(), surface_->left(), options_.candidates.aimed, setup_.seed);
   }
   std::vector<Candidate> admitted;
-  for (const Pose& view : views) {
-    const Pose pose = setup_.platform->facing(view.translation(), optical_axis(view));
-    if (setup_.platform->admits(map, pose)) {
-      admitted.push_back({pose, {}, way_m(current, pose)});
-    }
+  for (const Pose& pose : views_of_object(options_.candidates, map, *setup_.platform, aimed, setup_.seed)) {
+    admitted.push_back({pose, {}, way_m(current, pose)});
   }
   detail::share_work(admitted.size(), static_cast<std::size_t>(setup_.threads),
                      [&](std::size_t i) { admitted[i].faces = surface_->expected(admitted[i].pose, *rays_); });
   return admitted;
 }
 
-// The nearest of the good ones first, then the others as they are good.
+// Those of most faces for their cost first.
 std::vector<std::size_t> ObjectPlanner::order_of(const std::vector<Candidate>& tried) const {
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return tried[a].faces.size() > tried[b].faces.size(); });
-  const auto good = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
-    return static_cast<double>(tried[i].faces.size()) <
-           options_.near_share * static_cast<double>(tried[order.front()].faces.size());
+  const double view_m = options_.view_price * options_.candidates.radii_m.front();
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return static_cast<double>(tried[a].faces.size()) * (view_m + tried[b].way_m) >
+           static_cast<double>(tried[b].faces.size()) * (view_m + tried[a].way_m);
   });
-  std::stable_sort(order.begin(), good,
-                   [&](std::size_t a, std::size_t b) { return tried[a].way_m < tried[b].way_m; });
   return order;
 }
 
@@ -126,7 +97,7 @@ bool ObjectPlanner::take_first(const OccupancyMap& map, const Pose& current, con
     if (tried_.rests(map.frame().cell_of(candidate.pose.translation()))) {
       continue;
     }
-    if (auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.object.centre())) {
+    if (auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.candidates.object.centre())) {
       plan.outcome = Outcome::Move;
       plan.goal = {candidate.pose, static_cast<double>(candidate.faces.size())};
       plan.path = std::move(*path);

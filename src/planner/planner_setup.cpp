@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <vantage/planner/planner_setup.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 

@@ -7,17 +7,15 @@
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/situation.hpp>
 
-#include "map/option_rule.hpp"
+#include "planner/planner_tables.hpp"
 #include "planner/stopwatch.hpp"
 
 namespace vantage {
 namespace {
 
-const PlannerSetup& checked(const PlannerSetup& setup, const FrontierSurveyOptions& options) {
+const PlannerSetup& valid(const PlannerSetup& setup, const FrontierSurveyOptions& options) {
   setup.validate();
-  detail::require_option(options.patience >= 1, "FrontierSurveyOptions::patience", options.patience, ">= 1");
-  detail::require_option(options.sight_directions >= 6, "FrontierSurveyOptions::sight_directions",
-                         options.sight_directions, ">= 6");
+  detail::frontier_survey_settings().validate(options);
   return setup;
 }
 
@@ -37,7 +35,7 @@ std::string reason_of(const FrontierSurvey& survey) {
 }  // namespace
 
 Situation::Situation(const PlannerSetup& setup, const FrontierSurveyOptions& options)
-    : setup_(checked(setup, options)),
+    : setup_(valid(setup, options)),
       options_(options),
       tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.patience}),
       surveyor_(setup.platform, setup.sensor, options) {}
@@ -45,13 +43,7 @@ Situation::Situation(const PlannerSetup& setup, const FrontierSurveyOptions& opt
 void Situation::sync(const OccupancyMap& map, const Pose& current) {
   detail::Stopwatch watch;
   current_ = orthonormalised(current);
-  if (followed_.is_in_place(map)) {
-    frontier_->update();
-  } else {
-    followed_ = KnownMap();  // stays empty if the next lines throw
-    frontier_.emplace(map);
-    followed_ = KnownMap(map);
-  }
+  frontier_.follow(map);
   map_ = &map;
   looking_follows_ = false;
   if (tried_.review(map, current_)) {
@@ -234,6 +226,11 @@ const RayCaster& Situation::caster() const {
 const ViewRays& Situation::rays() const {
   follow_rays();
   return looking_.rays();
+}
+
+const ViewRays& Situation::sparse_rays() const {
+  follow_rays();
+  return looking_.sparse_rays();
 }
 
 }  // namespace vantage

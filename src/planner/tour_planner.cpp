@@ -142,8 +142,8 @@ std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const std::size_t first =
       stops.size() == 1 ? 0 : detail::open_tour(problem_of(situation(), stops, ways, cost)).front();
   const FrontierTarget wanted = nearest_target(stops[first].site, ways, *reachable.start(), lengths);
-  ChosenView chosen{view_of_target(situation(), wanted, plan.statistics.ray_operations),
-                    GridPaths(reachable).to(wanted.viewpoint)};
+  ChosenView chosen{.view = view_of_target(situation(), wanted, plan.statistics.ray_operations),
+                    .way = GridPaths(reachable).to(wanted.viewpoint)};
   // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
   TargetView& view = chosen.view;
   chosen.reason = "the first of " + std::to_string(stops.size()) + " places of a tour, a view of " +

@@ -5,8 +5,8 @@
 #include <vantage/raytrace/evaluate_view.hpp>
 
 #include "geometry/box_overlap.hpp"
-#include "map/option_rule.hpp"
 #include "raytrace/shared_work.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

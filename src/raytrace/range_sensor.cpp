@@ -8,7 +8,7 @@
 #include <utility>
 #include <vantage/raytrace/range_sensor.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "geometry/box_overlap.hpp"
 #include "geometry/prefetch.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

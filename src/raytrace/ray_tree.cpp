@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vantage/raytrace/ray_tree.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vantage/raytrace/view_rays.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

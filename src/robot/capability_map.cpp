@@ -9,7 +9,7 @@
 #include <vantage/robot/capability_map.hpp>
 
 #include "geometry/dice.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -3,9 +3,9 @@
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/grid_path.hpp>
 
-#include "map/option_rule.hpp"
 #include "robot/body_cells.hpp"
 #include "robot/swept_sphere.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 FreeFlyer::FreeFlyer(const FreeFlyerOptions& options) : options_(options) {

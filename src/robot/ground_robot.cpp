@@ -4,9 +4,9 @@
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/robot/ground_robot.hpp>
 
-#include "map/option_rule.hpp"
 #include "robot/body_cells.hpp"
 #include "robot/swept_sphere.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 

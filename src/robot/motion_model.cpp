@@ -3,7 +3,7 @@
 #include <limits>
 #include <vantage/robot/motion_model.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -9,8 +9,8 @@
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/sim/audit.hpp>
 
-#include "map/option_rule.hpp"
 #include "raytrace/shared_work.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/sim/ground_plan.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

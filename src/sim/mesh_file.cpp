@@ -18,7 +18,7 @@
 #include <vantage/sim/mesh_file.hpp>
 #include <vector>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 #include "sim/ply_check.hpp"
 
 namespace vantage {

@@ -59,7 +59,7 @@ ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, 
   return scene;
 }
 
-PlannerSettings planner_settings(const ObjectScene& scene) {
+Settings planner_settings(const ObjectScene& scene) {
   const Box& box = scene.box;
   return {{"object", comma_separated({box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()})},
           {"radii_m", comma_separated(scene.radii_m)},

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vantage/sim/simulated_sensor.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

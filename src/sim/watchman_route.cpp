@@ -8,8 +8,8 @@
 #include <vantage/robot/reachable_space.hpp>
 #include <vantage/sim/watchman_route.hpp>
 
-#include "map/option_rule.hpp"
 #include "raytrace/shared_work.hpp"
+#include "settings/option_rule.hpp"
 #include "sim/shortest_visit.hpp"
 #include "sim/sight.hpp"
 

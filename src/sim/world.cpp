@@ -5,7 +5,7 @@
 #include <utility>
 #include <vantage/sim/world.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 #include "sim/cell_worlds.hpp"
 #include "sim/crate_worlds.hpp"
 

@@ -4,7 +4,7 @@
 #include <vantage/view/aimed_views.hpp>
 
 #include "geometry/dice.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -7,7 +7,7 @@
 #include <vantage/view/candidate_views.hpp>
 
 #include "geometry/dice.hpp"
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -274,19 +274,28 @@ FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const Tri
   return survey;
 }
 
+std::vector<VoxelIndex> FrontierSurvey::viewpoints() const {
+  std::vector<VoxelIndex> cells(targets.size());
+  std::transform(targets.begin(), targets.end(), cells.begin(),
+                 [](const FrontierTarget& target) { return target.viewpoint; });
+  return cells;
+}
+
+std::optional<FrontierTarget> FrontierSurvey::target_seen_from(const VoxelIndex& viewpoint) const {
+  const auto found = std::find_if(targets.begin(), targets.end(),
+                                  [&](const FrontierTarget& target) { return target.viewpoint == viewpoint; });
+  return found == targets.end() ? std::nullopt : std::optional(*found);
+}
+
 FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                                 const Pose& current, const FrontierSurveyOptions& options, const TriedViews& tried) {
   const std::shared_ptr<const Platform> borrowed(std::shared_ptr<void>(), &platform);
   return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried, frontier_cells(map));
 }
 
-// Starts at the target, because most blocked lines are blocked near it.
 bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                     std::uint64_t& operations) {
-  return VoxelRay(map.frame(), from, map.frame().centre_of(target)).all_from_the_end([&](const VoxelIndex& cell) {
-    ++operations;
-    return cell == target || map.is_clear(cell);
-  });
+  return in_plain_sight(map, map.frame(), from, target, operations);
 }
 
 bool sees(const OccupancyMap& map, const RangeSensor& sensor, const Pose& pose, const VoxelIndex& unknown,

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vantage/view/information_gain.hpp>
 
-#include "map/option_rule.hpp"
 #include "raytrace/shared_work.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

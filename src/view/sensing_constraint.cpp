@@ -4,7 +4,7 @@
 #include <memory>
 #include <vantage/view/sensing_constraint.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 

@@ -5,7 +5,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/tried_views.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {
@@ -125,11 +125,15 @@ bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
   }
   reported_.reset();
   rest_now();
+  remember_scan(current);
+  return same_map;
+}
+
+void TriedViews::remember_scan(const Pose& pose) {
   if (scanned_from_.size() == kMostScans) {
     scanned_from_.pop_front();
   }
-  scanned_from_.push_back(current);
-  return same_map;
+  scanned_from_.push_back(pose);
 }
 
 // Deletes evidence by the number of known neighbours, not by their states: a surface may change between free and

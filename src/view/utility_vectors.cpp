@@ -7,7 +7,7 @@
 #include <vantage/map/brick_grid.hpp>
 #include <vantage/view/utility_vectors.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vantage/vision/depth_camera.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/vision/depth_image.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 #include "vision/canvas.hpp"
 #include "vision/image_file.hpp"
 

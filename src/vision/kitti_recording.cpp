@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vantage/vision/stereo_matcher.hpp>
 
 #include "vision/pose_text.hpp"
@@ -13,11 +13,18 @@
 namespace vantage {
 namespace {
 
-std::pair<std::filesystem::path, std::filesystem::path> image_folders(const std::filesystem::path& folder) {
-  for (const auto& [left, right] :
-       {std::pair("image_l", "image_r"), std::pair("image_0", "image_1"), std::pair("image_2", "image_3")}) {
+struct ImageFolders {
+  std::filesystem::path left;
+  std::filesystem::path right;
+  std::size_t left_camera = 0;  // its number in the calibration
+};
+
+ImageFolders image_folders(const std::filesystem::path& folder) {
+  for (const auto& [left, right, camera] :
+       {std::tuple("image_l", "image_r", 0U), std::tuple("image_0", "image_1", 0U),
+        std::tuple("image_2", "image_3", 2U)}) {
     if (std::filesystem::is_directory(folder / left) && std::filesystem::is_directory(folder / right)) {
-      return {folder / left, folder / right};
+      return {folder / left, folder / right, camera};
     }
   }
   throw std::runtime_error(folder.string() +
@@ -53,9 +60,11 @@ std::map<std::string, std::filesystem::path> images_in(const std::filesystem::pa
 }  // namespace
 
 Recording open_kitti_stereo(RecordingReader reader) {
-  const auto [left, right] = image_folders(reader.folder());
+  const auto [left, right, left_camera] = image_folders(reader.folder());
   const auto poses = poses_in(reader.folder() / "poses.txt");
-  const auto matcher = std::make_shared<const StereoMatcher>(read_kitti_calibration(reader.folder() / "calib.txt"));
+  const auto matcher =
+      std::make_shared<const StereoMatcher>(read_kitti_calibration(reader.folder() / "calib.txt", left_camera),
+                                            reader.options().stereo.value_or(StereoOptions{}));
   std::size_t row = 0;
   for (const auto& [name, file] : images_in(left, reader)) {
     const std::size_t number = row++;
@@ -67,7 +76,7 @@ Recording open_kitti_stereo(RecordingReader reader) {
       reader.skip(name, "there is no " + (right / file.filename()).string());
     } else {
       reader.add({.name = name,
-                  .world_from_posed = detail::upright_from_camera_axes() * *poses[number],
+                  .world_from_posed = *poses[number],
                   .depth = file,
                   .right = right / file.filename(),
                   .colour = file});
@@ -75,6 +84,7 @@ Recording open_kitti_stereo(RecordingReader reader) {
   }
   reader.read_depth_by(
       [matcher](const RecordedFrame& frame) { return matcher->match(frame.depth, frame.right).depth; });
+  reader.set_up("-y");
   return reader.finish(matcher->camera(reader.options().cell_m), reader.folder() / "calib.txt");
 }
 

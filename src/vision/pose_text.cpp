@@ -77,10 +77,4 @@ std::optional<Pose> pose_of_quaternion(const Eigen::Matrix<double, 7, 1>& number
   return Eigen::Translation3d(numbers.head<3>()) * turn.normalized();
 }
 
-Pose upright_from_camera_axes() {
-  Pose turn = Pose::Identity();
-  turn.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return turn;
-}
-
 }  // namespace vantage::detail

@@ -32,8 +32,4 @@ struct TextLine {
 /// 0.001.
 [[nodiscard]] std::optional<Pose> pose_of_quaternion(const Eigen::Matrix<double, 7, 1>& numbers, bool& was_off);
 
-/// Rotation from the axes of a level camera (x right, y down, z forward), which some recordings use as their world,
-/// to axes with x forward, y left and z up.
-[[nodiscard]] Pose upright_from_camera_axes();
-
 }  // namespace vantage::detail

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vantage/vision/recording.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 #include "vision/recording_reader.hpp"
 
 namespace vantage {
@@ -21,7 +23,32 @@ const std::vector<std::pair<std::string_view, Opener>>& openers() {
   return all;
 }
 
+// The axes that may point up, and the rotations that make them +z.
+struct UpAxis {
+  std::string_view name;
+  std::array<double, 9> rotation;  // row by row
+};
+constexpr std::array<UpAxis, 6> kUpAxes{{{"x", {0, 1, 0, 0, 0, 1, 1, 0, 0}},
+                                         {"-x", {0, -1, 0, 0, 0, 1, -1, 0, 0}},
+                                         {"y", {1, 0, 0, 0, 0, -1, 0, 1, 0}},
+                                         {"-y", {0, 0, 1, -1, 0, 0, 0, -1, 0}},
+                                         {"z", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+                                         {"-z", {1, 0, 0, 0, -1, 0, 0, 0, -1}}}};
+
+const UpAxis* up_axis(std::string_view name) {
+  const auto* found =
+      std::find_if(kUpAxes.begin(), kUpAxes.end(), [&](const UpAxis& axis) { return axis.name == name; });
+  return found == kUpAxes.end() ? nullptr : found;
+}
+
+Eigen::Matrix3d rotation_of(const UpAxis& axis) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(axis.rotation.data());
+}
+
 void check(const RecordingOptions& options) {
+  if (!options.up.empty() && up_axis(options.up) == nullptr) {
+    throw std::invalid_argument("RecordingOptions::up is '" + options.up + "', must be x, -x, y, -y, z or -z");
+  }
   detail::require_option(std::isfinite(options.max_stamp_gap_s) && options.max_stamp_gap_s > 0.0,
                          "RecordingOptions::max_stamp_gap_s", options.max_stamp_gap_s, "> 0");
   detail::require_option(std::isfinite(options.cell_m) && options.cell_m > 0.0, "RecordingOptions::cell_m",
@@ -57,6 +84,10 @@ Recording Recording::open(std::string_view format, const std::filesystem::path& 
       if (options.intrinsics && name != "tum" && name != "7scenes") {
         throw std::invalid_argument("RecordingOptions::intrinsics: the files of a recording '" + std::string(name) +
                                     "' tell them");
+      }
+      if (options.stereo && name != "kitti-stereo") {
+        throw std::invalid_argument("RecordingOptions::stereo: a recording '" + std::string(name) +
+                                    "' has no pairs to match");
       }
       return open(RecordingReader(folder, options));
     }
@@ -128,6 +159,32 @@ void RecordingReader::set_ranges(DepthCamera& camera) const {
   }
 }
 
+// Cameras are held upright: the mean of what is up in the images points to the axis that is up.
+void RecordingReader::turn_upright() {
+  recording_.up_of_format_ = recording_.up_;
+  if (!options_.up.empty()) {
+    recording_.up_ = options_.up;
+  } else {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < recording_.frames_.size(); ++i) {
+      // A negative fy: the rows of the images count upwards.
+      mean += std::copysign(1.0, recording_.camera_.fy) * -recording_.pose(i).linear().col(1);
+    }
+    mean /= static_cast<double>(recording_.frames_.size());
+    for (const UpAxis& axis : kUpAxes) {
+      constexpr double kAgreeing = 0.75;  // clearly nearer to this axis than to any other
+      if (rotation_of(axis).row(2).dot(mean) > kAgreeing) {
+        recording_.up_ = axis.name;
+      }
+    }
+  }
+  Pose turn = Pose::Identity();
+  turn.linear() = rotation_of(*up_axis(recording_.up_));
+  for (RecordedFrame& frame : recording_.frames_) {
+    frame.world_from_posed = turn * frame.world_from_posed;
+  }
+}
+
 Recording RecordingReader::finish(DepthCamera camera, const std::filesystem::path& file, bool sized) {
   if (recording_.frames_.empty()) {
     const std::string why = recording_.skipped_.empty()
@@ -153,6 +210,7 @@ Recording RecordingReader::finish(DepthCamera camera, const std::filesystem::pat
   }
   set_ranges(camera);
   recording_.camera_ = camera;
+  turn_upright();
   return std::move(recording_);
 }
 

@@ -23,6 +23,8 @@ class RecordingReader {
     recording_.skipped_.push_back({std::move(name), std::move(reason)});
   }
   void count_normalised() { ++recording_.normalised_; }
+  /// Sets the axis of the poses' world that points up in this format, unless options or the poses say otherwise.
+  void set_up(std::string axis) { recording_.up_ = std::move(axis); }
   /// Sets how a frame is read, if it is not a depth image.
   void read_by(std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read) {
     recording_.read_ = std::move(read);
@@ -38,6 +40,7 @@ class RecordingReader {
  private:
   void set_size(DepthCamera& camera) const;
   void set_ranges(DepthCamera& camera) const;
+  void turn_upright();
 
   std::filesystem::path folder_;
   RecordingOptions options_;

@@ -16,7 +16,7 @@
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/vision/registration.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -70,7 +70,7 @@ Recording open_seven_scenes(RecordingReader reader) {
       reader.skip(frame.name, frame.name + ".pose.txt is not a rigid transform of 4 rows of 4 numbers");
       continue;
     }
-    frame.world_from_posed = detail::upright_from_camera_axes() * *pose;  // the y axis of this world points down
+    frame.world_from_posed = *pose;
     for (const char* ending : {".color.png", ".color.jpg"}) {
       if (std::filesystem::exists(beside(ending))) {
         frame.colour = beside(ending);
@@ -84,6 +84,7 @@ Recording open_seven_scenes(RecordingReader reader) {
       reader.skip(name, "there is no " + name + kDepth);
     }
   }
+  reader.set_up("-y");
   reader.read_depth_png_as({.units_per_m = 1000.0});
   const std::filesystem::path intrinsics = reader.folder() / "camera-intrinsics.txt";
   return reader.finish(camera_in(intrinsics), intrinsics);

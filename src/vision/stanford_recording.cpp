@@ -30,13 +30,6 @@ Pose scan_from_sensor() {
   return pose;
 }
 
-// Rotation from the +y up axes of the scans to +z up.
-Pose upright_from_scans() {
-  Pose pose = Pose::Identity();
-  pose.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  return pose;
-}
-
 // Reads a file that may be compressed.
 std::string unpacked_text(const std::filesystem::path& file) {
   gzFile_s* const in = gzopen(file.c_str(), "rb");
@@ -174,9 +167,10 @@ Recording open_stanford(RecordingReader reader) {
     // to object.
     Pose object_from_scan = *listed;
     object_from_scan.linear() = listed->linear().transpose();
-    frame.world_from_posed = upright_from_scans() * object_from_scan * scan_from_sensor();
+    frame.world_from_posed = object_from_scan * scan_from_sensor();
     reader.add(std::move(frame));
   }
+  reader.set_up("y");
   reader.read_by(reading_of);
   const double focal = 0.5 * static_cast<double>(kPixels) / std::tan(0.5 * kAngleRad);
   const double middle = 0.5 * static_cast<double>(kPixels - 1);

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vantage/vision/stereo_matcher.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 #include "vision/image_file.hpp"
 #include "vision/rectify.hpp"
 
@@ -24,8 +24,8 @@ constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::min();
 void check(const StereoOptions& options) {
   require_option(std::abs(options.least_disparity_px) <= 1024, "StereoOptions::least_disparity_px",
                  options.least_disparity_px, "in [-1024, 1024]");
-  require_option(options.disparities_px > 0 && options.disparities_px % 16 == 0 && options.disparities_px <= 1024,
-                 "StereoOptions::disparities_px", options.disparities_px, "a multiple of 16 in [16, 1024]");
+  require_option(options.disparities_px >= 0 && options.disparities_px % 16 == 0 && options.disparities_px <= 1024,
+                 "StereoOptions::disparities_px", options.disparities_px, "a multiple of 16 in [16, 1024], or 0");
   require_option(options.window_px > 0 && options.window_px % 2 == 1 && options.window_px <= 255,
                  "StereoOptions::window_px", options.window_px, "odd, in [1, 255]");
   require_option(options.uniqueness_percent >= 0 && options.uniqueness_percent <= 100,
@@ -37,6 +37,13 @@ void check(const StereoOptions& options) {
                  options.least_texture, ">= 0");
   require_option(std::isfinite(options.sigma_d_px) && options.sigma_d_px > 0.0, "StereoOptions::sigma_d_px",
                  options.sigma_d_px, "> 0");
+}
+
+// Enough disparities for a surface so many baselines away.
+int disparities_for(const StereoRig& rig, int least_disparity_px) {
+  constexpr double kNearestBaselines = 4.0;
+  const double most_px = rig.focal_px / kNearestBaselines - rig.offset_px - least_disparity_px;
+  return static_cast<int>(16.0 * std::clamp(std::ceil(most_px / 16.0), 1.0, 64.0));
 }
 
 cv::Ptr<cv::StereoMatcher> matcher_of(const StereoOptions& options) {
@@ -64,11 +71,13 @@ cv::Mat disparities(const cv::Mat& left, const cv::Mat& right, const StereoOptio
   cv::Mat wide;
   matcher_of(options)->compute(wide_left, wide_right, wide);
   cv::Mat result = wide.colRange(border, wide.cols).clone();
+  const int first = options.least_disparity_px * kSubpixel;
+  const int last = first + (options.disparities_px - 1) * kSubpixel;
   for (int row = 0; row < result.rows; ++row) {
     auto* values = result.ptr<std::int16_t>(row);
     for (int column = 0; column < result.cols; ++column) {
       const bool in_the_border = column * kSubpixel < values[column];
-      if (values[column] < options.least_disparity_px * kSubpixel || in_the_border) {
+      if (values[column] <= first || values[column] >= last || in_the_border) {
         values[column] = kNone;
       }
     }
@@ -123,6 +132,9 @@ void check_pair(const StereoRig& rig, const cv::Mat& left, const cv::Mat& right,
 StereoMatcher::StereoMatcher(const StereoRig& rig, const StereoOptions& options) : rig_(rig), options_(options) {
   rig.validate();
   check(options);
+  if (options_.disparities_px == 0) {
+    options_.disparities_px = disparities_for(rig_, options_.least_disparity_px);
+  }
 }
 
 StereoDepth StereoMatcher::match(const std::filesystem::path& left_file,

@@ -10,7 +10,7 @@
 #include <string>
 #include <vantage/vision/stereo_rig.hpp>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 #include "vision/pose_text.hpp"
 #include "vision/rectify.hpp"
 
@@ -107,8 +107,8 @@ void StereoRig::validate() const {
   }
 }
 
-StereoRig read_kitti_calibration(const std::filesystem::path& file) {
-  std::vector<std::vector<double>> rows;
+StereoRig read_kitti_calibration(const std::filesystem::path& file, std::size_t left) {
+  std::map<std::size_t, std::vector<double>> rows;  // by the number of the camera
   for (const detail::TextLine& line : detail::lines_of(file)) {
     const std::size_t colon = line.text.find(':');
     const std::string_view text = line.text;
@@ -116,14 +116,23 @@ StereoRig read_kitti_calibration(const std::filesystem::path& file) {
     if (!numbers || numbers->size() != 12) {
       refuse(file, "line " + std::to_string(line.number) + " is not a projection matrix of 12 numbers");
     }
-    rows.push_back(*numbers);
+    const auto label = colon == std::string::npos || text.front() != 'P'
+                           ? std::nullopt
+                           : detail::numbers_in(text.substr(1, colon - 1));
+    if (colon == std::string::npos) {
+      rows.emplace(rows.size(), *numbers);
+    } else if (label && label->size() == 1 && label->front() >= 0.0 && label->front() < 100.0) {
+      rows.emplace(static_cast<std::size_t>(label->front()), *numbers);
+    }  // else the place of another sensor
   }
-  if (rows.size() < 2) {
-    refuse(file, "has " + std::to_string(rows.size()) + " projection matrices, must have two");
+  const auto l = rows.find(left);
+  const auto r = rows.find(left + 1);
+  if (l == rows.end() || r == rows.end()) {
+    refuse(file, "has no projection matrices P" + std::to_string(left) + " and P" + std::to_string(left + 1));
   }
-  StereoRig rig{.focal_px = rows[0][0], .cx = rows[0][2], .cy = rows[0][6]};
-  rig.baseline_m = (rows[0][3] - rows[1][3]) / rig.focal_px;  // the last column is -f b
-  rig.offset_px = rows[1][2] - rows[0][2];
+  StereoRig rig{.focal_px = l->second[0], .cx = l->second[2], .cy = l->second[6]};
+  rig.baseline_m = (l->second[3] - r->second[3]) / rig.focal_px;  // the last column is -f b
+  rig.offset_px = r->second[2] - l->second[2];
   return checked(rig, file);
 }
 

@@ -49,7 +49,7 @@ RangeSensor thin_stereo() {
 // A benchmark case: planner, run and the maximum number of scans.
 struct PlanCase {
   std::string planner;
-  PlannerSettings settings = {};
+  Settings settings = {};
   std::string explorer = "harmonic";  // planner of the run
   RangeSensor sensor = RangeSensor::preset("panoramic");
   std::size_t most_scans = 100;
@@ -68,7 +68,7 @@ RoomsRun explore_rooms(const PlanCase& what) {
   SimulatedSensor sensor(TriangleScene(run.world.mesh), run.sensor);
   OccupancyMap map = run.map_at_start();
   const auto planner =
-      make_planner(what.explorer, run.setup(), what.explorer == what.planner ? what.settings : PlannerSettings{});
+      make_planner(what.explorer, run.setup(), what.explorer == what.planner ? what.settings : Settings{});
   Pose pose = run.start;
   while (run.scans.size() < what.most_scans) {
     run.scans.push_back(sensor.scan(pose));

@@ -316,7 +316,7 @@ void cycle_vantage(benchmark::State& state, const Stage& stage) {
     state.PauseTiming();
     if (plan.outcome != Outcome::Move) {
       map.emplace(stage.scene().map);
-      planner.emplace(setup, NextBestViewOptions{.object = object});
+      planner.emplace(setup, NextBestViewOptions{.candidates = {.object = object}});
       plan = planner->plan(*map, stage.view(0));  // constructs the caster before timing
     }
     const Pose here = plan.goal.pose;

@@ -267,7 +267,7 @@ TEST_F(ProgramOutput, OptionsThatWouldDoNothingAreRefused) {
   refused("--world table --scan-spacing inf", "--scan-spacing is inf, must be in [0, 1e6] metres");
   refused("--world table --start 1e7,0,0", "--start: '1e7'");
   refused("--world table --planner next-best-view --set radii_m=nan",
-          "setting 'radii_m' is 'nan', must be numbers, with commas between them");
+          "setting 'radii_m' is 'nan', must be numbers > 0, with commas between them");
   refused("--world table --planner harmonic --set tolerance=inf", "setting 'tolerance' is 'inf'");
 }
 

@@ -76,19 +76,20 @@ bool anything_observable(const OccupancyMap& map, const Platform& platform, cons
   return false;
 }
 
-struct Setting {
+struct ContractCase {
   std::string planner;
   bool narrow = false;
 };
 
-void PrintTo(const Setting& setting, std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest's name
+void PrintTo(const ContractCase& setting,
+             std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest's name
   *out << setting.planner << (setting.narrow ? ", camera" : ", all round");
 }
 
 /// A robot in a world, with a minimal host.
 class Robot {
  public:
-  Robot(const Setting& setting, Furniture furniture, std::uint32_t seed, std::size_t max_bytes = 0)
+  Robot(const ContractCase& setting, Furniture furniture, std::uint32_t seed, std::size_t max_bytes = 0)
       : world_(testing::make_cell_world(furniture, seed)),
         sensor_(setting.narrow ? camera() : all_round()),
         platform_(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1})),
@@ -119,7 +120,7 @@ class Robot {
   Pose pose_;
 };
 
-class PlannerContract : public ::testing::TestWithParam<Setting> {
+class PlannerContract : public ::testing::TestWithParam<ContractCase> {
  protected:
   /// Runs to the end in each world and calls `check(robot, planner, plan)` after each plan. Returns the number of
   /// plans.
@@ -200,6 +201,19 @@ TEST_P(PlannerContract, APlannerMadeNowAgreesWithOneThatFollowedAnotherMap) {
     const OccupancyMap copy = rebuilt(robot.map());
     EXPECT_TRUE(same(follower->plan(copy, robot.pose()),
                      make_planner(GetParam().planner, robot.setup())->plan(copy, robot.pose())));
+  });
+  EXPECT_GE(plans, 3U * kSeeds * 2U);
+}
+
+// A robot that starts again from its saved map: the copy has the cells and the revision of the map.
+TEST_P(PlannerContract, APlannerMadeNowGoesOnWithTheMemoryOfAnother) {
+  const std::size_t plans = in_every_world([&](const Robot& robot, ExplorationPlanner& planner, const Plan& plan) {
+    const OccupancyMap copy(robot.map());
+    const auto now = make_planner(GetParam().planner, robot.setup());
+    now->recall(copy, planner.memory());
+    EXPECT_FALSE(now->memory().empty());
+    EXPECT_EQ(now->memory(), planner.memory());
+    EXPECT_TRUE(same(now->plan(copy, robot.pose()), plan));
   });
   EXPECT_GE(plans, 3U * kSeeds * 2U);
 }
@@ -350,8 +364,8 @@ TEST_P(PlannerContract, InAFullMapItEndsAndCountsWhatItCouldNotLearn) {
   EXPECT_EQ(runs, 4U);
 }
 
-std::vector<Setting> settings() {
-  std::vector<Setting> all;
+std::vector<ContractCase> settings() {
+  std::vector<ContractCase> all;
   for (const std::string_view name : planner_names()) {
     all.push_back({std::string(name), false});
     all.push_back({std::string(name), true});
@@ -360,7 +374,7 @@ std::vector<Setting> settings() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, PlannerContract, ::testing::ValuesIn(settings()),
-                         [](const ::testing::TestParamInfo<Setting>& setting) {
+                         [](const ::testing::TestParamInfo<ContractCase>& setting) {
                            std::string name =
                                setting.param.planner + (setting.param.narrow ? "_camera" : "_all_round");
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -369,7 +383,7 @@ INSTANTIATE_TEST_SUITE_P(Every, PlannerContract, ::testing::ValuesIn(settings())
 
 TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {
   const PlannerSetup setup{all_round(), std::make_shared<FreeFlyer>(), 1, 1};
-  const auto message = [&](std::string_view name, const PlannerSettings& settings) -> std::string {
+  const auto message = [&](std::string_view name, const Settings& settings) -> std::string {
     try {
       (void)make_planner(name, setup, settings);
     } catch (const std::invalid_argument& error) {

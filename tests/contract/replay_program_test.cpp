@@ -211,6 +211,8 @@ TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused(on_data() + "--select --memory-limit 5", "--memory-limit does not go with --select");
   expect_refused(on_data() + "--select --object-box 0,0,0,1,1", "--object-box has 5 numbers");
   expect_refused(on_data() + "--max-range -1", "--max-range is -1");
+  expect_refused(on_data() + "--up north", "RecordingOptions::up is 'north'");
+  expect_refused(on_data() + "--disparities 64", "has no pairs to match");
   expect_refused("--dataset '" + data().string() + "' --format 7scenes --resolution 0", "--resolution is 0");
   for (const auto& entry : fs::directory_iterator(data())) {
     if (entry.path().extension() == ".png") {

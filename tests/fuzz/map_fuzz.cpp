@@ -112,7 +112,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   while (!input.empty()) {
     const OccupancyMap::Revision before = map.revision();
     const Model old = model;
-    switch (input.byte() % 8) {
+    switch (input.byte() % 9) {
       case 0: {
         const VoxelIndex at = cell();
         const auto state = static_cast<Occupancy>(input.byte() % 3);
@@ -152,6 +152,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         OccupancyMap taken = std::move(map);
         require(map.revision() == 0 && map.bounds().empty());  // NOLINT(bugprone-use-after-move): it is an empty map
         map.swap(taken);
+        break;
+      }
+      case 7: {
+        const VoxelIndex brick = vantage::Brick::of_cell(cell());
+        vantage::Brick cells;
+        for (std::size_t word = 0; word < vantage::Brick::kWords; ++word) {
+          cells.known[word] = 0x0101010101010101U * input.byte();
+          cells.occupied[word] = cells.known[word] & 0x00FF00FF00FF00FFU;
+        }
+        map.assign(brick, cells.known, cells.occupied);
+        for (std::size_t offset = 0; offset < vantage::Brick::kCells; ++offset) {
+          model.set(vantage::Brick::first_cell(brick) + vantage::Brick::cell_at(offset), cells.at(offset));
+        }
         break;
       }
       default:

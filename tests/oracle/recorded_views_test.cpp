@@ -19,6 +19,7 @@
 #include <vantage/vision/recording.hpp>
 #include <vector>
 
+#include "support/qhull.hpp"
 #include "support/real_data.hpp"
 
 namespace vantage {
@@ -260,11 +261,11 @@ TEST(RecordedViews, VoidCellsAreThoseUnknownInTheHullOfAllThatIsHit) {
     for (const Scan& scan : views.scans()) {
       of_all.insert(scan);
     }
-    const ConvexHull hull = occupied_hull(of_all);
+    const test::QhullHull hull = test::qhull_of_occupied(of_all);
     const auto left = [&](const OccupancyMap& map) {
       std::size_t cells = 0;
       for_each_cell(of_all.bounds(), [&](const VoxelIndex& cell) {
-        const bool inside = hull.contains(Eigen::Vector3d(cell.x, cell.y, cell.z), 1e-6) && map.in_region(cell);
+        const bool inside = hull.contains(cell) && map.in_region(cell);
         cells += inside && map.at(cell) == Occupancy::Unknown ? 1U : 0U;
       });
       return cells;

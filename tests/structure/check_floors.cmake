@@ -5,6 +5,7 @@
 cmake_minimum_required(VERSION 3.22...3.25)
 
 set(floor_geometry 0)
+set(floor_settings 0)
 set(floor_map 1)
 set(floor_frontier 2)
 set(floor_field 3)

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vantage/compiler.hpp>
 #include <vantage/field/laplace_problem.hpp>
+#include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
@@ -97,5 +98,20 @@ class LaplaceDomain {
 /// The domain of all free cells of a map, with the frontier cells (frontiers.hpp) as sinks. It assumes a sensor
 /// without a body.
 [[nodiscard]] LaplaceDomain known_free_domain(const OccupancyMap& map);
+
+/// The same for the map of a host (any OccupancyLookup) with `region` as its region.
+template <OccupancyLookup Lookup>
+[[nodiscard]] LaplaceDomain known_free_domain(const Lookup& lookup, const VoxelBox& region) {
+  LaplaceDomain domain;
+  for_each_cell(region, [&](const VoxelIndex& cell) {
+    if (lookup.at(cell) == Occupancy::Free) {
+      domain.insert(cell);
+    }
+  });
+  for (const VoxelIndex& cell : frontier_cells(lookup, region)) {
+    domain.insert_sink(cell);
+  }
+  return domain;
+}
 
 }  // namespace vantage

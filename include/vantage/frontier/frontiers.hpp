@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel_clusters.hpp>
@@ -16,6 +17,22 @@ namespace VANTAGE_EXPORT vantage {
 
 /// All frontier cells of the map, in raster order (z, then y, then x).
 [[nodiscard]] std::vector<VoxelIndex> frontier_cells(const OccupancyMap& map);
+
+/// The frontier cells of the map of a host (any OccupancyLookup) with `region` as its region, in raster order. It
+/// asks for the cells of the region only, each up to seven times; the map of vantage is faster.
+template <OccupancyLookup Lookup>
+[[nodiscard]] std::vector<VoxelIndex> frontier_cells(const Lookup& lookup, const VoxelBox& region) {
+  std::vector<VoxelIndex> cells;
+  for_each_cell(region, [&](const VoxelIndex& cell) {
+    if (lookup.at(cell) == Occupancy::Free &&
+        std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& by) {
+          return region.contains(cell + by) && lookup.at(cell + by) == Occupancy::Unknown;
+        })) {
+      cells.push_back(cell);
+    }
+  });
+  return cells;
+}
 
 /// The number of frontier cells of the map.
 [[nodiscard]] std::size_t count_frontier_cells(const OccupancyMap& map);

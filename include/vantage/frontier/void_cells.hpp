@@ -3,15 +3,14 @@
 
 #include <cstddef>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/convex_hull.hpp>
+#include <vantage/geometry/lattice_hull.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The convex hull of the centres of the occupied cells, in units of cells: cell (x, y, z) is the point (x, y, z).
-/// Integer coordinates make the hull exact.
-[[nodiscard]] ConvexHull occupied_hull(const OccupancyMap& map);
+/// The convex hull of the centres of the occupied cells. Empty if they lie in one plane.
+[[nodiscard]] LatticeHull occupied_hull(const OccupancyMap& map);
 
 /// The void cells of the map in raster order (z, then y, then x). A void cell is unknown, lies inside the region, and
 /// has its centre inside or on `occupied_hull`. Cells outside VoidTiles, far from everything known, are left out.

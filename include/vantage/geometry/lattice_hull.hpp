@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/convex_hull.hpp>
+#include <vantage/geometry/hull_plane.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vector>
 
@@ -25,8 +25,8 @@ class LatticeHull {
     std::array<std::int64_t, 3> normal{};  ///< outward normal, divided by its greatest common divisor
     VoxelIndex point;                      ///< a point of the hull in the plane
 
-    /// The plane as a ConvexHull::Plane, in units of cells.
-    [[nodiscard]] ConvexHull::Plane plane() const;
+    /// The plane as a HullPlane, in units of cells.
+    [[nodiscard]] HullPlane plane() const;
     /// Whether the planes are equal, even if they are given by different points.
     [[nodiscard]] bool operator==(const Plane& other) const;
   };

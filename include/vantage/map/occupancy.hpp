@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
@@ -28,6 +29,25 @@ enum class Occupancy : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };
 template <class Lookup>
 concept OccupancyLookup = requires(const Lookup& lookup, const VoxelIndex& cell) {
   { lookup.at(cell) } -> std::same_as<Occupancy>;
+};
+
+/// Whether views may look through a cell and a robot may occupy it: as `lookup.is_clear(cell)` says where there is
+/// such a function (OccupancyMap: free and not contested), else whether it is free.
+template <OccupancyLookup Lookup>
+[[nodiscard]] bool is_clear(const Lookup& lookup, const VoxelIndex& cell) {
+  if constexpr (requires {
+                  { lookup.is_clear(cell) } -> std::same_as<bool>;
+                }) {
+    return lookup.is_clear(cell);
+  } else {
+    return lookup.at(cell) == Occupancy::Free;
+  }
+}
+
+/// Any type that returns the log-odds of a cell, nullopt if it is unknown. A cell with log-odds >= 0 is occupied.
+template <class Lookup>
+concept LogOddsLookup = requires(const Lookup& lookup, const VoxelIndex& cell) {
+  { lookup.log_odds(cell) } -> std::same_as<std::optional<double>>;
 };
 
 }  // namespace vantage

@@ -13,41 +13,11 @@
 #include <vantage/map/brick_directory.hpp>
 #include <vantage/map/map_identity.hpp>
 #include <vantage/map/occupancy.hpp>
+#include <vantage/map/occupancy_map_options.hpp>
 #include <vantage/map/scan.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-/// Parameters of OccupancyMap: the beam model of Shade & Newman 2011, eq. 11-13, with the clamping of OctoMap.
-struct OccupancyMapOptions {
-  double resolution_m = 0.1;    ///< edge length of a cell, > 0
-  double log_odds_hit = 0.85;   ///< added to the cell in which a ray ends, > 0 (S&N VI: l_occ)
-  double log_odds_miss = -0.4;  ///< added to the cells that a ray passes, < 0 (S&N VI: l_free)
-  double log_odds_min = -2.0;   ///< lower clamp, < 0
-  double log_odds_max = 3.5;    ///< upper clamp, > 0; a cell with log-odds >= 0 is occupied, as in OctoMap
-  /// only cells whose centre lies inside can become known; nullopt: no limit
-  std::optional<Box> region = std::nullopt;
-  /// Whether a scan must not erase surfaces that it sees at a grazing angle. If true, rays do not clear an occupied
-  /// cell that touches the end cell of a return, nor the unbroken run of occupied cells at the end of a ray. Reason:
-  /// a surface fills only a part of its cells, and rays at a grazing angle pass the free part. If all of them count
-  /// (false, as in OctoMap), they erase the surface and open false frontiers behind it.
-  bool keep_grazed_cells = true;
-  /// Most bytes that the map may use, as counted by `memory_bytes`; 0: no limit. An update that would need a new
-  /// brick beyond the limit is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and its
-  /// cell stays unknown. Existing bricks are still updated. The work space of a scan comes on top: at most 1 GB.
-  std::size_t max_bytes = 0;
-
-  /// Options that reproduce `octomap::OcTree::insertPointCloud` update for update.
-  [[nodiscard]] static OccupancyMapOptions octomap(double resolution_m) {
-    return {.resolution_m = resolution_m, .keep_grazed_cells = false};
-  }
-};
-
-/// Which rays are cast for the returns of a scan.
-enum class RayPolicy : std::uint8_t {
-  EveryReturn,  ///< one ray to each return
-  EachEndCell,  ///< one ray to the centre of each cell that holds a return (OctoMap's `discretize`); faster
-};
 
 /// How the value of a coarse cell is computed from the known finest cells inside it. Unknown cells are ignored, as in
 /// the inner nodes of OctoMap.
@@ -226,11 +196,19 @@ class OccupancyMap {
   /// octomap::OcTree::insertPointCloud. The cell of the sensor counts as passed. Rays that cannot be used are skipped
   /// and counted. Throws std::invalid_argument if the pose is not rigid or `max_range_m` is not positive.
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
+  /// The same for points that lie in the memory of the host; they are not copied. The axes of the sensor do not
+  /// matter: points may be in any frame whose pose `world_from_sensor` is.
+  ScanReport insert(const ScanView& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Creates a new revision without a change, like a scan that only confirms known states.
   void confirm() { ++revision_; }
   /// Sets the state of a cell with log-odds at the clamping limit. Unknown makes the cell unseen. No effect
   /// outside the region. Throws std::invalid_argument if the cell is not addressable (kFurthestVoxel).
   void set(const VoxelIndex& cell, Occupancy occupancy);
+  /// Sets the state of all cells of a brick in one revision: log-odds, limits and what readers are told are those of
+  /// `set` for each cell in order of its offset. `brick` is an address in units of bricks, `known` and `occupied` are
+  /// bit planes (brick.hpp). No effect if no cell of the brick is inside the region. Throws std::invalid_argument if
+  /// the brick holds a cell that is not addressable, or if an occupied cell is not known.
+  void assign(const VoxelIndex& brick, const BrickPlane& known, const BrickPlane& occupied);
   /// Sets the log-odds of a cell, clamped and rounded to a step; a negative value stays negative. No effect
   /// outside the region. Throws std::invalid_argument for NaN and for a cell that is not addressable.
   void set_log_odds(const VoxelIndex& cell, double log_odds) {
@@ -256,6 +234,7 @@ class OccupancyMap {
     BrickDirectory::Number older = BrickDirectory::kNone;
   };
   static constexpr std::size_t kBytesOfBrick = sizeof(Stored) + sizeof(void*) + sizeof(Revision);
+  friend class MapFollower;
   friend class ScanInserter;
 
   // Whether these log-odds of a free cell cannot result from misses alone.
@@ -265,11 +244,15 @@ class OccupancyMap {
   }
   void require_past(Revision revision) const;
   static void require_addressable(const VoxelIndex& cell, const char* what);
+  static void require_addressable_brick(const VoxelIndex& brick, const char* what);
+  [[nodiscard]] BrickPlane in_region(const VoxelIndex& brick, BrickPlane cells) const;
   [[nodiscard]] VoxelBox writable(const VoxelBox& cells, const char* what) const;
   // Returns kNone if the memory limit is reached.
   BrickDirectory::Number brick_for(const VoxelIndex& address);
   void mark_changed(BrickDirectory::Number number);
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
+  std::size_t write_brick(const VoxelIndex& address, const BrickPlane& which, const Brick& cells);
+  void note_unknown(const VoxelIndex& address, const BrickPlane& cells);
   void begin_revision();
   void grow_bounds(const VoxelBox& cells);
   void grow_bounds(const Stored& brick);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <vantage/compiler.hpp>
-#include <vantage/map/occupancy_map.hpp>
+#include <vantage/map/map_follower.hpp>
 
 namespace octomap {
 class OcTree;
@@ -69,10 +69,11 @@ class OctomapFollower {
   explicit OctomapFollower(octomap::OcTree& tree, const OctomapImportOptions& options = {});
 
   /// The synchronised map.
-  [[nodiscard]] const OccupancyMap& map() const { return map_; }
-  /// Applies the changes of the tree since the last call. The cost depends on the number of changes. An empty tree
-  /// triggers a `resync`. Returns the number of cells that changed their state. Throws std::runtime_error if the
-  /// resolution of the tree has changed.
+  [[nodiscard]] const OccupancyMap& map() const { return follower_.map(); }
+  /// Applies the changes of the tree since the last call. The cost depends on the number of changes. One call is one
+  /// revision of the map, also if nothing has changed: call it once after each scan (see MapFollower::update). An
+  /// empty tree triggers a `resync`. Returns the number of cells that changed their state. Throws std::runtime_error
+  /// if the resolution of the tree has changed.
   std::size_t update();
   /// Compares all cells and corrects the differences, log-odds included. Returns the number of cells that changed
   /// their state. Errors as `update` and `from_octree`.
@@ -83,7 +84,7 @@ class OctomapFollower {
 
   octomap::OcTree& tree_;
   OctomapImportOptions options_;
-  OccupancyMap map_;
+  MapFollower follower_;
 };
 
 }  // namespace vantage

@@ -3,12 +3,29 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
+#include <vantage/map/points_view.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
+
+/// A Scan whose points stay where the host has them; fields as there. OccupancyMap::insert reads them in place.
+struct ScanView {
+  Pose world_from_sensor = Pose::Identity();  ///< pose of the sensor
+  PointsView points;                          ///< returns in the sensor frame, metres
+  PointsView no_return;                       ///< directions in the sensor frame without an obstacle in the range
+  double max_range_m = std::numeric_limits<double>::infinity();  ///< range limit, metres
+  std::size_t width = 0;                                         ///< columns of the depth image, or 0
+  std::size_t height = 0;                                        ///< rows of the depth image, or 0
+
+  /// Whether `points` is a depth image.
+  [[nodiscard]] bool organised() const {
+    return width > 0 && points.size() % width == 0 && points.size() / width == height;
+  }
+};
 
 /// One measurement of a range sensor.
 ///
@@ -28,10 +45,21 @@ struct Scan {
   std::size_t width = 0;   ///< columns of the depth image, or 0
   std::size_t height = 0;  ///< rows of the depth image, or 0
 
+  /// A scan with a copy of these points, for a ScanLog or for memory that does not live on.
+  [[nodiscard]] static Scan from_points(const PointsView& points, const Pose& world_from_sensor);
+  /// A view of this scan; the scan must outlive it.
+  [[nodiscard]] ScanView view() const;
+
   /// Whether `points` is a depth image.
   [[nodiscard]] bool organised() const {
     return width > 0 && points.size() % width == 0 && points.size() / width == height;
   }
+};
+
+/// Which rays are cast for the returns of a scan.
+enum class RayPolicy : std::uint8_t {
+  EveryReturn,  ///< one ray to each return
+  EachEndCell,  ///< one ray to the centre of each cell that holds a return (OctoMap's `discretize`); faster
 };
 
 /// Statistics of an inserted scan. The first six counters classify each ray exactly once.

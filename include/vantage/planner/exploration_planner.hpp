@@ -90,8 +90,9 @@ struct Plan {
 /// - The same map, pose and seed give the same plan for any number of threads.
 /// - Planning twice without a new scan gives the same plan.
 /// - A goal to which the robot comes no nearer is given up (TriedViews).
-/// - Except for the memory of tried views, which belongs to one map, a planner keeps no state that the map cannot
-///   rebuild.
+/// - Except for the memory of tried views, which belongs to one map and can be saved with it, a planner keeps no
+/// state
+///   that the map cannot rebuild.
 ///
 /// An ObjectPlanner remembers goals that were not reached, and ends by its own rule.
 class ExplorationPlanner {
@@ -107,6 +108,11 @@ class ExplorationPlanner {
   /// next plan lies within the tolerances of PlannerSetup, and as failed if the robot came no nearer to it while the
   /// map has changed twice.
   virtual void report(const OccupancyMap& map, const Pose& current, GoalResult result);
+  /// What the planner remembers of tried views, as text, to be saved beside the map. Empty if it remembers nothing.
+  [[nodiscard]] virtual std::string memory() const;
+  /// Goes on with a memory that belongs to this map, so that a robot that starts again from its saved map does not
+  /// look again at what it looked at in vain. Throws std::runtime_error if the text is no memory for this map.
+  virtual void recall(const OccupancyMap& map, std::string_view memory);
 };
 
 }  // namespace vantage

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/situation.hpp>
@@ -14,15 +17,18 @@ namespace VANTAGE_EXPORT vantage {
 /// The choice of a strategy: a view and the path to it.
 struct ChosenView {
   TargetView view;  ///< the view and the cells that it is to resolve
-  /// The path as reachable cells, from the start of the reachable space to the cell of the view. Ignored if `path` is
-  /// not empty.
-  std::vector<VoxelIndex> way = {};
   /// The path as poses joined by admitted motions, from the current pose to the pose of the view. Empty: `way` is
   /// used.
   std::vector<Pose> path = {};
+  /// The path as reachable cells, from the start of the reachable space to the cell of the view. Empty: the shortest.
+  std::vector<VoxelIndex> way = {};
   /// One sentence for a person; empty: a default one with the number of unknown cells to resolve.
   std::string reason = {};
 };
+
+/// A view of the nearest target by way, and that way. Adds the number of visited cells to `operations`. Requires a
+/// target.
+[[nodiscard]] ChosenView nearest_view(const Situation& situation, std::uint64_t& operations);
 
 /// Base class of planners that look at frontiers. It contains everything but the choice: it updates the Situation,
 /// ends the run if no target is left, and makes a plan of the chosen view. A new strategy overrides `choose`.
@@ -38,10 +44,16 @@ class FrontierPlanner : public ExplorationPlanner {
 
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) final;
   void report(const OccupancyMap& map, const Pose& current, GoalResult result) final;
+  [[nodiscard]] std::string memory() const final { return situation_.tried().text(); }
+  void recall(const OccupancyMap& map, std::string_view memory) final { situation_.recall(map, memory); }
 
  protected:
   /// The input of the plan. Up to date in `prepare` and `choose`.
   [[nodiscard]] const Situation& situation() const { return situation_; }
+  /// A path to a view along the reachable cells of `way`, or along the shortest way if it is empty; if the platform
+  /// cannot follow it, by the platform's own path search. None if there is none.
+  [[nodiscard]] std::optional<std::vector<Pose>> path_to(const Pose& view,
+                                                         std::span<const VoxelIndex> way = {}) const;
   /// Called once per plan after the situation is up to date and before `choose`: discards results of the last plan.
   virtual void prepare(Plan& /*plan*/) {}
   /// Chooses a view. At least one target exists. May fill in candidates, statistics and reason of `plan`. Returns

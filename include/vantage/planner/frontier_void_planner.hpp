@@ -8,6 +8,7 @@
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/frontier/void_tracker.hpp>
+#include <vantage/map/following.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/unknown_sight.hpp>
@@ -22,7 +23,8 @@ struct FrontierVoidStrategy {
   FrontierShare share = FrontierShare::TouchingCells;
   /// Orientations tried per place, >= 1; one is enough for a sensor that sees all around.
   std::size_t orientations_per_place = 5;
-  /// Minimum distance between places, metres, >= 0. The places of highest utility lie side by side and see the same.
+  /// Minimum distance between places, metres, in [0, 1e6]. The places of highest utility lie side by side and see the
+  /// same.
   double place_spacing_m = 0.3;
   /// True: orientations look at a frontier cell of a void, drawn with its utility as weight. False: in random
   /// directions.
@@ -142,16 +144,11 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
                                             std::uint64_t& operations) const;
   [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
-  [[nodiscard]] std::optional<std::vector<Pose>> way_to(const Pose& view) const;
-  [[nodiscard]] std::optional<ChosenView> nearest_frontier(PlanStatistics& statistics) const;
 
   FrontierVoidOptions options_;
   VoidSearch search_;
-  // State that follows the map of the last plan:
-  KnownMap followed_;
-  std::optional<UnknownSight> sight_;
-  std::optional<VoidTracker> void_cells_;
-  std::optional<ViewRays> sparse_rays_;
+  Following<VoidTracker> void_cells_;
+  std::optional<UnknownSight> sight_;  // of this plan
 };
 
 }  // namespace vantage

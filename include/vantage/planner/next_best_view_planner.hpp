@@ -3,15 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/box.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/next_best_view_explorer.hpp>
+#include <vantage/planner/planner_setup.hpp>
 #include <vantage/raytrace/following_caster.hpp>
-#include <vantage/view/aimed_views.hpp>
 #include <vantage/view/information_gain.hpp>
+#include <vantage/view/object_views.hpp>
 #include <vantage/view/sensing_constraint.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vantage/view/view_utility.hpp>
@@ -37,21 +35,7 @@ enum class ViewChoice : std::uint8_t {
 
 /// Options of NextBestViewPlanner.
 struct NextBestViewOptions {
-  /// Box of the object to reconstruct, metres, world, min < max; none: the whole map is explored.
-  std::optional<Box> object = std::nullopt;
-
-  // Used with an object:
-  /// Radii of the candidate spheres around the centre of the object, metres, each > 0, at least one. Candidates look
-  /// at the centre (VI-A).
-  std::vector<double> radii_m = {1.5};
-  /// Candidates per sphere: 20 * 4^subdivisions, evenly distributed, in [-1, 6]; -1: none. The paper uses 320.
-  int subdivisions = 2;
-  /// Additional candidates that look at the object from random places in the region or, without a region, in the
-  /// known part of the map (VI-B).
-  std::size_t random_candidates = 0;
-  /// Additional candidates that aim at unknown cells of the object from places that can see them, computed for each
-  /// plan.
-  AimedViewOptions aimed = {};
+  ObjectViewOptions candidates;  ///< the object, and where to look at it from
   /// Minimum number of occupied cells of the object that a view must see, `h_oc` in eq. 2. Ignored while no cell of
   /// the object is occupied.
   std::size_t min_overlap_cells = 0;
@@ -67,32 +51,25 @@ struct NextBestViewOptions {
 
   VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
   int hierarchical_levels = 3;  ///< HierarchicalRayTracerOptions::levels, in [1, 16] (VI-B: start depth 14 of 16)
-
-  // Used without an object:
-  /// Poses drawn in the reachable space per plan, every other one aimed at a target, >= 1.
-  std::size_t hypotheses = 100;
-
-  /// How frontiers are surveyed without an object. `patience` applies in both cases.
-  FrontierSurveyOptions survey = {};
+  int patience = TriedViewsOptions{}.patience;  ///< TriedViewsOptions::patience
 };
 
-/// Next-best-view planning: takes the candidate view of the highest utility `u = pos reg sur dist` (eq. 1-5). By
-/// default, the visible cells are counted exactly, as distinct cells (evaluate_view), instead of by the hierarchical
-/// approximation of the paper.
-///
-/// With an object, that object is reconstructed; the run ends when no admitted candidate sees enough unknown cells of
-/// it. Without an object, the map is explored (NextBestViewExplorer). (Vasquez-Gomez et al. 2013, Algorithm 1.)
+/// Next-best-view planning for one object: takes the candidate view of the highest utility `u = pos reg sur dist`
+/// (eq. 1-5). By default, the visible cells are counted exactly, as distinct cells (evaluate_view), instead of by the
+/// hierarchical approximation of the paper. The run ends when no admitted candidate sees enough unknown cells of the
+/// object. NextBestViewExplorer explores a whole map in this way. (Vasquez-Gomez et al. 2013, Algorithm 1.)
 class NextBestViewPlanner final : public ExplorationPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.
-  explicit NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options = {});
+  NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options);
 
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
-  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) override;
-  void report(const OccupancyMap& map, const Pose& current, GoalResult result) override {
+  [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& pose) override;
+  void report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) override {
     tried_.report(result);
-    explorer_.report(map, current, result);
   }
+  [[nodiscard]] std::string memory() const override { return tried_.text(); }
+  void recall(const OccupancyMap& map, std::string_view memory) override { tried_.recall(map, memory); }
 
  private:
   struct Candidate {
@@ -101,7 +78,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
     double counted = 0.0;  // their number, as counted by the chosen VisibilityMethod
   };
 
-  [[nodiscard]] std::vector<Pose> views_of_object(const OccupancyMap& map, const VoxelBox& object) const;
+  [[nodiscard]] std::vector<Pose> views(const OccupancyMap& map, const VoxelBox& object) const;
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current,
                                                   const VoxelBox& object) const;
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,
@@ -110,12 +87,10 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::vector<ViewEvaluation> evaluate(const OccupancyMap& map, const VoxelBox& object,
                                                      std::span<const Pose> views, std::span<CellSet> seen) const;
   [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& candidates) const;
-  [[nodiscard]] Plan reconstruct(const OccupancyMap& map, const Pose& current);
 
   PlannerSetup setup_;
   NextBestViewOptions options_;
   TriedViews tried_;
-  NextBestViewExplorer explorer_;
   FollowingCaster looking_;  // follows the map of the last plan
 };
 

@@ -4,12 +4,11 @@
 #include <cstddef>
 #include <optional>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/box.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/planner/exploration_planner.hpp>
-#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/planner_setup.hpp>
 #include <vantage/raytrace/view_rays.hpp>
-#include <vantage/view/aimed_views.hpp>
+#include <vantage/view/object_views.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vantage/view/unseen_surface.hpp>
 #include <vector>
@@ -18,17 +17,12 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Options of ObjectPlanner.
 struct ObjectPlannerOptions {
-  Box object;  ///< box of the object, metres, world, min < max
-  /// Radii of the candidate spheres around the centre of the object, metres, each > 0, at least one.
-  std::vector<double> radii_m = {1.5};
-  int subdivisions = 2;  ///< candidates per sphere: 20 * 4^subdivisions, in [-1, 6]; -1: none
-  /// Number of additional candidates from random places in the region or, without one, the known space
-  std::size_t random_candidates = 0;
-  AimedViewOptions aimed = {};  ///< additional candidates that aim at surface that is not yet observed
+  ObjectViewOptions candidates;  ///< where to look from
   /// Minimum expected number of new faces of a view, as a share of the faces observed so far, in [0, 1).
   double min_new_share = 0.002;
-  /// Of the views whose expected gain is at least this share of the best one's, the nearest is taken, in (0, 1].
-  double near_share = 0.7;
+  /// What a view costs beside the way to it, in radii of the first sphere, > 0. The view of most new faces for its
+  /// cost is taken: a small price saves path, a large one saves views.
+  double view_price = 4.0;
 };
 
 /// Reconstructs one object: takes a view that is expected to observe most faces of its surface that no view has
@@ -46,6 +40,8 @@ class ObjectPlanner final : public ExplorationPlanner {
   void report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) override {
     tried_.report(result);
   }
+  [[nodiscard]] std::string memory() const override { return tried_.text(); }
+  void recall(const OccupancyMap& map, std::string_view memory) override { tried_.recall(map, memory); }
 
  private:
   struct Candidate {

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_tracker.hpp>
+#include <vantage/map/following.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/planner_setup.hpp>
 #include <vantage/planner/target_view.hpp>
@@ -75,11 +77,15 @@ class Situation {
   [[nodiscard]] const TriedViews& tried() const { return tried_; }
   /// Stores how following the last plan ended.
   void report(GoalResult result) { tried_.report(result); }
+  /// Replaces the memory of tried views, see TriedViews::recall.
+  void recall(const OccupancyMap& map, std::string_view memory) { tried_.recall(map, memory); }
   /// Casts rays through the map of the last `sync`. The first call of `caster` or `rays` after a `sync` updates the
   /// caster, which has a cost; later calls may come from several threads.
   [[nodiscard]] const RayCaster& caster() const;
   /// The rays of the sensor, as dense as the cells of the map require.
   [[nodiscard]] const ViewRays& rays() const;
+  /// About a sixteenth of them, for a first ranking of many views.
+  [[nodiscard]] const ViewRays& sparse_rays() const;
   /// A plan that contains the counts of the survey and no choice.
   [[nodiscard]] Plan open_plan() const;
 
@@ -94,8 +100,7 @@ class Situation {
   FrontierSurveyOptions options_;
   const OccupancyMap* map_ = nullptr;
   Pose current_ = Pose::Identity();
-  KnownMap followed_;
-  std::optional<FrontierTracker> frontier_;
+  Following<FrontierTracker> frontier_;
   TriedViews tried_;
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vantage/compiler.hpp>
@@ -29,6 +30,18 @@ struct RayEnd {
 template <OccupancyLookup Lookup>
 [[nodiscard]] RayEnd first_not_free(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
                                     const Eigen::Vector3d& to);
+
+/// Whether nothing stands between a point and the centre of a cell: all cells of the line are clear (`is_clear`); the
+/// target itself may be in any state. World frame, metres; both ends must be addressable in `frame`. Starts at the
+/// target, because most blocked lines are blocked near it, and adds the cells asked to `operations`.
+template <OccupancyLookup Lookup>
+[[nodiscard]] bool in_plain_sight(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
+                                  const VoxelIndex& target, std::uint64_t& operations) {
+  return VoxelRay(frame, from, frame.centre_of(target)).all_from_the_end([&](const VoxelIndex& cell) {
+    ++operations;
+    return cell == target || is_clear(map, cell);
+  });
+}
 
 /// Options of RayCaster.
 struct RayCasterOptions {

@@ -51,6 +51,6 @@ struct ObjectScene {
 
 /// Settings of the planner `next-best-view` for a scene (make_planner): the box, the shells, and the distance of
 /// aimed views, from a third of the largest radius to that radius.
-[[nodiscard]] PlannerSettings planner_settings(const ObjectScene& scene);
+[[nodiscard]] Settings planner_settings(const ObjectScene& scene);
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -54,6 +55,11 @@ struct FrontierSurvey {
   bool exhausted = true;
   Leftover leftover = {};            ///< frontier cells that are no targets, by cause
   std::uint64_t ray_operations = 0;  ///< cells visited in the search for lines of sight
+
+  /// The viewpoint of each target; several targets may share one.
+  [[nodiscard]] std::vector<VoxelIndex> viewpoints() const;
+  /// The first target with this viewpoint.
+  [[nodiscard]] std::optional<FrontierTarget> target_seen_from(const VoxelIndex& viewpoint) const;
 };
 
 /// Surveys the map once, with the sensor at `current` (world_from_sensor). Unknown cells that `tried` has given up

@@ -6,6 +6,8 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
@@ -57,7 +59,8 @@ struct TriedViewsOptions {
 ///
 /// A place rests together with all places within the goal tolerance.
 ///
-/// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first.
+/// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first. As text it can
+/// be saved with the map.
 class TriedViews {
  public:
   /// Throws std::invalid_argument, which names the invalid option.
@@ -78,6 +81,10 @@ class TriedViews {
   bool review(const OccupancyMap& map, const Pose& current);
   /// Stores evidence: the cell was in clear line of sight of `place` and near enough, and is unknown after the scan.
   void in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place);
+  /// Replaces the memory by one that `text` returned, for this map: the map of then, or one that was loaded from its
+  /// file. Throws std::runtime_error, which names the line, if the text is no such memory or is of cells of another
+  /// size; the memory is then unchanged.
+  void recall(const OccupancyMap& map, std::string_view text);
   /// Ends the rest of all places that failed fewer than three times. Returns whether there were any.
   bool try_resting_again();
 
@@ -103,6 +110,8 @@ class TriedViews {
   [[nodiscard]] std::size_t size() const { return looks_.size(); }
   /// The options of the constructor.
   [[nodiscard]] const TriedViewsOptions& options() const { return options_; }
+  /// The memory as text, to be saved beside the map. The last planned view is not part of it.
+  [[nodiscard]] std::string text() const;
 
  private:
   struct Expectation {
@@ -160,6 +169,7 @@ class TriedViews {
   void fail(const VoxelIndex& goal);
   void rest_now();
   Place& place_of(const VoxelIndex& cell);
+  void remember_scan(const Pose& pose);
   [[nodiscard]] bool arrived(const Pose& current) const;
   [[nodiscard]] bool was_in_view(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) const;
 

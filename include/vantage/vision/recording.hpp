@@ -13,6 +13,7 @@
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/vision/depth_camera.hpp>
 #include <vantage/vision/depth_image.hpp>
+#include <vantage/vision/stereo_matcher.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -41,6 +42,11 @@ struct RecordingOptions {
   std::optional<std::array<double, 4>> intrinsics = std::nullopt;
   /// largest time difference, seconds, between a depth image and its pose or picture, > 0
   double max_stamp_gap_s = 0.02;
+  /// How pairs are matched. Only for the format kitti-stereo; not allowed for other formats.
+  std::optional<StereoOptions> stereo = std::nullopt;
+  /// The axis of the poses' world that points up: x, -x, y, -y, z or -z; empty: the one that is up in the images, if
+  /// they agree, else as the format says
+  std::string up = {};
   double cell_m =
       0.1;  ///< cell size of the map, metres: stereo depth is trusted while its uncertainty is below one cell
 };
@@ -68,8 +74,7 @@ struct RecordedReading {
 ///
 /// Opening reads only lists, poses and the image size; images are read one by one. Frames without a pose, a partner
 /// image or a file are left out and listed in `skipped`. Poses are corrected for rounding so that they are rigid, and
-/// quaternions are normalised. Worlds with camera axes (7scenes, kitti-stereo) or with +y up (stanford) are rotated
-/// so that +z is up.
+/// quaternions are normalised. The world is rotated so that +z is up.
 class Recording {
  public:
   /// Throws std::runtime_error, with the folder or file and the reason, if it cannot be read, has no usable frame or
@@ -86,6 +91,10 @@ class Recording {
   [[nodiscard]] const std::vector<SkippedFrame>& skipped() const { return skipped_; }
   /// The number of poses whose quaternion had a length that differed from 1 by more than 0.001.
   [[nodiscard]] std::size_t normalised() const { return normalised_; }
+  /// The axis of the poses' world that was taken to point up, and became +z.
+  [[nodiscard]] const std::string& up() const { return up_; }
+  /// The axis that points up in this format; it differs from `up` where an option or the images say otherwise.
+  [[nodiscard]] const std::string& up_of_format() const { return up_of_format_; }
   /// The depth camera of the recording.
   [[nodiscard]] const DepthCamera& camera() const { return camera_; }
   /// The sensor model of the depth camera, for planners.
@@ -106,6 +115,8 @@ class Recording {
   std::vector<RecordedFrame> frames_;
   std::vector<SkippedFrame> skipped_;
   std::size_t normalised_ = 0;
+  std::string up_ = "z";
+  std::string up_of_format_;
   std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read_;
 };
 

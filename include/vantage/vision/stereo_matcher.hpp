@@ -23,7 +23,9 @@ enum class StereoMethod : std::uint8_t {
 struct StereoOptions {
   StereoMethod method = StereoMethod::SemiGlobal;  ///< matching algorithm
   int least_disparity_px = 0;                      ///< smallest disparity to search
-  int disparities_px = 128;                        ///< number of disparities to search, > 0, a multiple of 16
+  /// Number of disparities to search, a multiple of 16; 0: enough for surfaces 4 baselines away. A match at either
+  /// end of the range is none: a nearer or further surface is matched there as well.
+  int disparities_px = 0;
   int window_px = 5;            ///< edge of the matching window, odd, in [1, 255]; Block uses at least 5
   int uniqueness_percent = 10;  ///< margin in percent by which the best match must beat the second best, in [0, 100]
   /// Largest difference between left-to-right and right-to-left matching, pixels; negative disables the check.
@@ -63,7 +65,7 @@ class StereoMatcher {
 
   /// The rig that was passed to the constructor.
   [[nodiscard]] const StereoRig& rig() const { return rig_; }
-  /// The options that were passed to the constructor.
+  /// The options that were passed to the constructor, with the number of disparities that is searched.
   [[nodiscard]] const StereoOptions& options() const { return options_; }
   /// Matches two image files. Throws std::runtime_error, with the file and the reason, if an image cannot be read,
   /// the sizes differ from each other or from the rig, or the images are not rectified although the rig says so. The

@@ -48,9 +48,9 @@ struct StereoRig {
 };
 
 /// Reads a calibration file of KITTI's odometry data: one 3 x 4 projection matrix per line, with or without a name
-/// ("P0:"). The first is the left camera, the second the right one. Throws std::runtime_error with the file and the
-/// reason.
-[[nodiscard]] StereoRig read_kitti_calibration(const std::filesystem::path& file);
+/// ("P0:"). `left` is the number of the left camera, the next one is the right camera. Throws std::runtime_error with
+/// the file and the reason.
+[[nodiscard]] StereoRig read_kitti_calibration(const std::filesystem::path& file, std::size_t left = 0);
 
 /// Reads a calibration file of Middlebury's 2014 data with lines `key=value`: `cam0=[f 0 cx; 0 f cy; 0 0 1]`,
 /// `doffs`, `baseline` in millimetres, `width`, `height`; or, as in downscaled copies, `focal_px`, `cx_left`, `cy`,

@@ -21,13 +21,13 @@ OccupancyMap empty_map(bool with_region) {
   return OccupancyMap(options);
 }
 
-// Random changes: boxes become free, occupied or unknown, and scans are inserted.
+// Random changes: boxes become free, occupied or unknown, bricks are assigned, and scans are inserted.
 void change(OccupancyMap& map, std::mt19937& engine) {
   std::uniform_int_distribution<std::int32_t> coordinate(-kExtent, kExtent);
   std::uniform_int_distribution<std::int32_t> extent(1, 14);
   const VoxelIndex lo{coordinate(engine), coordinate(engine), coordinate(engine)};
   const VoxelBox box{lo, lo + VoxelIndex{extent(engine), extent(engine), extent(engine)}};
-  const std::size_t kind = engine() % 6;
+  const std::size_t kind = engine() % 7;
   if (kind == 0) {
     Scan scan;
     scan.world_from_sensor = pose_looking(map.frame().centre_of(lo), 0.0);
@@ -37,6 +37,13 @@ void change(OccupancyMap& map, std::mt19937& engine) {
       scan.points.emplace_back(metre(engine), metre(engine), metre(engine));
     }
     map.insert(scan);
+    return;
+  }
+  if (kind == 6) {
+    const std::uint64_t known = std::uint64_t{engine()} << 32U | engine();
+    const std::uint64_t occupied = known & std::uint64_t{engine()} << 28U;
+    map.assign(Brick::of_cell(lo), {known, known, 0, known, ~std::uint64_t{0}, known, 0, known},
+               {occupied, 0, 0, occupied, 0, occupied, 0, 0});
     return;
   }
   const Occupancy state = kind < 4 ? Occupancy::Free : kind == 4 ? Occupancy::Occupied : Occupancy::Unknown;

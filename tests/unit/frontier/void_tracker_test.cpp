@@ -2,24 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 #include <set>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/frontier/void_tracker.hpp>
 
+#include "support/qhull.hpp"
 #include "support/sanitized.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr std::int32_t kHalfExtent = 20;
-
-VoxelIndex cell_at(const Eigen::Vector3d& corner) {
-  const auto whole = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
-  return {whole(corner.x()), whole(corner.y()), whole(corner.z())};
-}
 
 // Random changes: scans from increasing distances, cells at the border of the occupied ones become free, boxes become
 // free or unknown.
@@ -37,10 +32,9 @@ void change(OccupancyMap& map, int step, std::mt19937& engine) {
     }
     map.insert(scan);
   } else if (kind == 5) {
-    const ConvexHull hull = occupied_hull(map);
+    const test::QhullHull hull = test::qhull_of_occupied(map);
     if (!hull.empty()) {
-      const Eigen::Vector3d& corner = hull.corners()[engine() % hull.corners().size()];
-      map.set(cell_at(corner), Occupancy::Free);
+      map.set(hull.corners()[engine() % hull.corners().size()], Occupancy::Free);
     }
   } else {
     const auto edge = static_cast<std::int32_t>(1 + engine() % 14);
@@ -72,9 +66,9 @@ TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
       const std::vector<VoxelIndex> expected = void_cells(map);
       ASSERT_EQ(tracker.cells(), expected) << "world " << world << ", step " << step;
       ASSERT_EQ(tracker.cell_count(), expected.size());
-      const ConvexHull expected_hull = occupied_hull(map);
-      for (const Eigen::Vector3d& corner : expected_hull.corners()) {
-        ASSERT_TRUE(tracker.hull().contains(cell_at(corner)));
+      const test::QhullHull expected_hull = test::qhull_of_occupied(map);
+      for (const VoxelIndex& corner : expected_hull.corners()) {
+        ASSERT_TRUE(tracker.hull().contains(corner));
       }
       hulls_kept += !hull_changed && !before.empty() ? 1U : 0U;
       const std::vector<VoxelIndex> corners = tracker.hull().corners();

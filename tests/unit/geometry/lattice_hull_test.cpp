@@ -2,20 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <tuple>
 #include <vantage/geometry/lattice_hull.hpp>
+
+#include "support/qhull.hpp"
 
 namespace vantage {
 namespace {
-
-std::vector<Eigen::Vector3d> as_points(const std::vector<VoxelIndex>& cells) {
-  std::vector<Eigen::Vector3d> points;
-  for (const VoxelIndex& cell : cells) {
-    points.emplace_back(cell.x, cell.y, cell.z);
-  }
-  return points;
-}
 
 // Clouds as they occur in maps: walls in one plane, edges of many cells, scattered cells and distant cells.
 std::vector<VoxelIndex> cloud(int kind, std::mt19937& engine) {
@@ -41,14 +37,14 @@ std::vector<VoxelIndex> cloud(int kind, std::mt19937& engine) {
 }
 
 // Expects each plane of one hull to be a plane of the other.
-void expect_same_planes(const LatticeHull& ours, const ConvexHull& theirs) {
+void expect_same_planes(const LatticeHull& ours, const test::QhullHull& theirs) {
   for (const LatticeHull::Plane& exact : ours.planes()) {
-    const ConvexHull::Plane plane = exact.plane();
-    EXPECT_TRUE(std::any_of(theirs.planes().begin(), theirs.planes().end(), [&](const ConvexHull::Plane& other) {
+    const HullPlane plane = exact.plane();
+    EXPECT_TRUE(std::any_of(theirs.planes().begin(), theirs.planes().end(), [&](const HullPlane& other) {
       return (plane.normal - other.normal).norm() < 1e-9 && std::abs(plane.offset - other.offset) < 1e-6;
     }));
   }
-  for (const ConvexHull::Plane& plane : theirs.planes()) {
+  for (const HullPlane& plane : theirs.planes()) {
     const std::vector<LatticeHull::Plane> planes = ours.planes();
     EXPECT_TRUE(std::any_of(planes.begin(), planes.end(), [&](const LatticeHull::Plane& exact) {
       return (exact.plane().normal - plane.normal).norm() < 1e-9;
@@ -63,16 +59,67 @@ TEST(LatticeHull, HasThePlanesThatQhullFinds) {
   for (int world = 0; world < 200; ++world) {
     const std::vector<VoxelIndex> cells = cloud(world, engine);
     const LatticeHull hull(cells);
-    const ConvexHull qhull(as_points(cells));
+    const test::QhullHull qhull(cells);
     ASSERT_EQ(hull.empty(), qhull.empty()) << "world " << world;
     expect_same_planes(hull, qhull);
     for (const VoxelIndex& corner : hull.corners()) {
-      const Eigen::Vector3d point(corner.x, corner.y, corner.z);
-      EXPECT_TRUE(std::find(qhull.corners().begin(), qhull.corners().end(), point) != qhull.corners().end());
+      EXPECT_TRUE(std::find(qhull.corners().begin(), qhull.corners().end(), corner) != qhull.corners().end());
     }
     ++compared;
   }
   EXPECT_EQ(compared, 200U);
+}
+
+// Six times the volume of the tetrahedron of four points, with sign.
+std::int64_t volume(const VoxelIndex& a, const VoxelIndex& b, const VoxelIndex& c, const VoxelIndex& d) {
+  const auto wide = [&](const VoxelIndex& p) { return std::array<std::int64_t, 3>{p.x - a.x, p.y - a.y, p.z - a.z}; };
+  const auto [u, v, w] = std::tuple(wide(b), wide(c), wide(d));
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+// Independent definition of a hull: it contains a point exactly if one of the tetrahedra of its points does
+// (Caratheodory). A tetrahedron contains a point if no corner can be replaced by it with a change of orientation.
+bool in_some_tetrahedron(const std::vector<VoxelIndex>& points, const VoxelIndex& p) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      for (std::size_t k = j + 1; k < points.size(); ++k) {
+        for (std::size_t l = k + 1; l < points.size(); ++l) {
+          const VoxelIndex &a = points[i], &b = points[j], &c = points[k], &d = points[l];
+          const std::int64_t whole = volume(a, b, c, d);
+          const std::int64_t sign = whole > 0 ? 1 : -1;
+          if (whole != 0 && sign * volume(p, b, c, d) >= 0 && sign * volume(a, p, c, d) >= 0 &&
+              sign * volume(a, b, p, d) >= 0 && sign * volume(a, b, c, p) >= 0) {
+            return true;
+          }
+        }
+      }
+    }
+  }
+  return false;
+}
+
+TEST(LatticeHull, HoldsWhatSomeTetrahedronOfItsPointsHolds) {
+  std::mt19937 engine(21);
+  std::uniform_int_distribution<std::int32_t> coordinate(-6, 6);
+  const auto draw = [&] { return VoxelIndex{coordinate(engine), coordinate(engine), coordinate(engine)}; };
+  std::size_t compared = 0;
+  std::size_t inside = 0;
+  for (int world = 0; world < 120; ++world) {
+    std::vector<VoxelIndex> points;
+    for (int i = 0; i < 4 + world % 9; ++i) {
+      points.push_back(draw());
+    }
+    const LatticeHull hull(points);
+    for (int probe = 0; probe < 60; ++probe) {
+      const VoxelIndex point = draw();
+      const bool expected = in_some_tetrahedron(points, point);
+      ASSERT_EQ(hull.contains(point), expected);
+      inside += expected ? 1U : 0U;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 7200U);
+  EXPECT_GT(inside, 600U);
 }
 
 // Growing in any order gives the hull of all points, and the hull of its corners is the same.

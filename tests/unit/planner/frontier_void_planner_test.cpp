@@ -234,12 +234,12 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
   };
   EXPECT_EQ(message({}), "");
   EXPECT_EQ(message({.clusters = {.min_score = -1.0}}), "FrontierVoidOptions::min_score is -1, must be > 0");
-  EXPECT_EQ(message({.most_vectors = 0}), "FrontierVoidOptions::most_vectors is 0, must be > 0");
+  EXPECT_EQ(message({.most_vectors = 0}), "FrontierVoidOptions::most_vectors is 0, must be >= 1");
   EXPECT_EQ(message({.views = 0}), "FrontierVoidOptions::views is 0, must be in [1, 1e+06]");
   EXPECT_EQ(message({.strategy = {.orientations_per_place = 0}}),
             "FrontierVoidStrategy::orientations_per_place is 0, must be >= 1");
   EXPECT_EQ(message({.strategy = {.place_spacing_m = -1.0}}),
-            "FrontierVoidStrategy::place_spacing_m is -1, must be >= 0");
+            "FrontierVoidStrategy::place_spacing_m is -1, must be in [0, 1e+06]");
   EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidOptions::cost_per_m is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.opaque_share = 0.0}}),
             "FrontierVoidStrategy::opaque_share is 0, must be in (0, 1]");

@@ -80,7 +80,8 @@ double best_utility(const RobotAtTable& run, const NextBestViewOptions& options)
   const ViewRays rays(run.sensor.rays_for(0.05));
   const UniformRayTracer uniform(run.map);
   double best = 0.0;
-  for (const Pose& view : views_around(kObject.centre(), options.radii_m, options.subdivisions)) {
+  for (const Pose& view :
+       views_around(kObject.centre(), options.candidates.radii_m, options.candidates.subdivisions)) {
     if (run.platform->admits(run.map, view)) {
       const ViewEvaluation seen = uniform.evaluate(view, rays, run.map.frame().cells_centred_in(kObject));
       const double rho_m = run.platform->distance_m(run.pose, view);
@@ -95,9 +96,7 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
   std::size_t plans = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     RobotAtTable run(seed);
-    const NextBestViewOptions options{.object = kObject,
-                                      .radii_m = {0.8},
-                                      .subdivisions = 1,
+    const NextBestViewOptions options{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
                                       .min_overlap_cells = 5,
                                       .min_unknown_cells = 5,
                                       .choice = ViewChoice::Greedy};
@@ -133,8 +132,9 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
 
 TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
   RobotAtTable run(2);
-  NextBestViewOptions options{
-      .object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_overlap_cells = 5, .min_unknown_cells = 5};
+  NextBestViewOptions options{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
+                              .min_overlap_cells = 5,
+                              .min_unknown_cells = 5};
   const Plan exact = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
   options.method = VisibilityMethod::Uniform;
   const Plan uniform = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
@@ -157,12 +157,12 @@ TEST(NextBestViewPlanner, CountsByTheMethodAskedFor) {
 }
 
 // Runs to the end and returns the number of views.
-std::size_t reconstruct(RobotAtTable& run, const PlannerSettings& settings) {
-  PlannerSettings all = settings;
-  all.merge(PlannerSettings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"},
-                            {"radii_m", "0.8"},
-                            {"subdivisions", "1"},
-                            {"min_unknown_cells", "5"}});
+std::size_t reconstruct(RobotAtTable& run, const Settings& settings) {
+  Settings all = settings;
+  all.merge(Settings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"},
+                     {"radii_m", "0.8"},
+                     {"subdivisions", "1"},
+                     {"min_unknown_cells", "5"}});
   const auto planner = make_planner("next-best-view", run.setup(), all);
   Plan plan = planner->plan(run.map, run.pose);
   std::size_t views = 0;
@@ -197,7 +197,7 @@ TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
   std::size_t views_of_one_shell = 0;
   std::size_t views_aimed = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    const auto seen_by = [&](double& coverage, const PlannerSettings& settings) {
+    const auto seen_by = [&](double& coverage, const Settings& settings) {
       RobotAtTable run(seed);
       const std::size_t views = reconstruct(run, settings);
       coverage += run.coverage() / 4.0;
@@ -215,9 +215,9 @@ TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
 
 TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
   RobotAtTable run(2);
-  NextBestViewOptions options{.object = kObject, .subdivisions = -1, .min_unknown_cells = 5};
+  NextBestViewOptions options{.candidates = {.object = kObject, .subdivisions = -1}, .min_unknown_cells = 5};
   EXPECT_EQ(NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose).outcome, Outcome::Explored);
-  options.aimed = {.count = 100, .min_distance_m = 0.4, .max_distance_m = 0.9};
+  options.candidates.aimed = {.count = 100, .min_distance_m = 0.4, .max_distance_m = 0.9};
   NextBestViewPlanner follower(run.setup(), options);
   std::size_t plans = 0;
   for (Plan plan = follower.plan(run.map, run.pose); plans < 3 && plan.outcome == Outcome::Move; ++plans) {
@@ -236,13 +236,15 @@ TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
 
 TEST(NextBestViewPlanner, TakesAViewOfTheCover) {
   RobotAtTable run(4);
-  const NextBestViewOptions options{.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_unknown_cells = 5};
+  const NextBestViewOptions options{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
+                                    .min_unknown_cells = 5};
   const Plan plan = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
   const ViewRays rays(run.sensor.rays_for(0.05));
   const RayCaster caster(run.map);
   std::vector<Pose> poses;
   std::vector<CellSet> seen;
-  for (const Pose& view : views_around(kObject.centre(), options.radii_m, options.subdivisions)) {
+  for (const Pose& view :
+       views_around(kObject.centre(), options.candidates.radii_m, options.candidates.subdivisions)) {
     if (run.platform->admits(run.map, view)) {
       CellSet cells;
       (void)evaluate_view(caster, view, rays, run.map.frame().cells_centred_in(kObject), &cells);
@@ -277,7 +279,8 @@ TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
 
 TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
   RobotAtTable run(2);
-  const NextBestViewOptions any{.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .min_unknown_cells = 5};
+  const NextBestViewOptions any{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
+                                .min_unknown_cells = 5};
   NextBestViewOptions steep = any;
   steep.sensing = {.max_incidence_rad = 0.9, .min_depth_m = 0.5, .max_depth_m = 1.0};
   const Plan plan = NextBestViewPlanner(run.setup(), steep).plan(run.map, run.pose);
@@ -296,7 +299,7 @@ TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
 
 TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   const RobotAtTable run(1);
-  const auto complaint = [&](const PlannerSettings& settings) -> std::string {
+  const auto complaint = [&](const Settings& settings) -> std::string {
     try {
       (void)make_planner("next-best-view", run.setup(), settings);
     } catch (const std::invalid_argument& error) {
@@ -308,15 +311,20 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
   EXPECT_NE(complaint({{"object", "1,2,3"}}).find("must be six numbers"), std::string::npos);
   EXPECT_NE(complaint({{"object", "0,0,0,1,1,1,1"}}).find("must be six numbers"), std::string::npos);
   EXPECT_EQ(complaint({{"object", "0,0,0,1,-1,1"}}),
-            "ObjectPlannerOptions::object must have min < max on every axis and be finite");
-  EXPECT_EQ(complaint({{"radii_m", "1,0"}}), "NextBestViewOptions::radii_m is 0, must be > 0");
-  EXPECT_NE(complaint({{"radii_m", "1,,2"}}).find("must be numbers, with commas between them"), std::string::npos);
-  EXPECT_THROW(NextBestViewPlanner(run.setup(), {.aimed = {.min_distance_m = 0.5, .max_distance_m = 0.1}}),
-               std::invalid_argument);
+            "ObjectViewOptions::object must have min < max on every axis and be finite");
+  EXPECT_NE(complaint({{"radii_m", "1,0"}}).find("must be numbers > 0, with commas between them"), std::string::npos);
+  EXPECT_NE(complaint({{"radii_m", "1,,2"}}).find("must be numbers > 0, with commas between them"),
+            std::string::npos);
+  EXPECT_THROW(
+      NextBestViewPlanner(
+          run.setup(), {.candidates = {.object = kObject, .aimed = {.min_distance_m = 0.5, .max_distance_m = 0.1}}}),
+      std::invalid_argument);
   EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [-1, 6]");
   EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
   EXPECT_NE(complaint({{"gain", "entropy"}}).find("unknown-cells, occlusion-aware"), std::string::npos);
-  EXPECT_THROW(NextBestViewPlanner(run.setup(), {.sensing = {.max_incidence_rad = 2.1}}), std::invalid_argument);
+  EXPECT_THROW(
+      NextBestViewPlanner(run.setup(), {.candidates = {.object = kObject}, .sensing = {.max_incidence_rad = 2.1}}),
+      std::invalid_argument);
   EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be in [1, 1e+06]");
 }
 

@@ -52,7 +52,7 @@ RunRecord reconstructed(const Stack& stack, const SensorNoise& noise, std::uint6
   options.surface_gap_m = 0.04;
   ExplorationRun run(stack.world, sensor, platform, options);
   NextBestViewPlanner planner({.sensor = sensor, .platform = platform},
-                              {.object = kObject, .subdivisions = 1, .min_unknown_cells = 10});
+                              {.candidates = {.object = kObject, .subdivisions = 1}, .min_unknown_cells = 10});
   return run.run(planner, pose_looking_along({-1.5, 0.0, 0.7}, {1.0, 0.0, 0.0}));
 }
 

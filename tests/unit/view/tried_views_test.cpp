@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <vantage/view/tried_views.hpp>
 #include <vector>
 
@@ -339,6 +341,119 @@ TEST(TriedViews, IsBoundedWhateverHappens) {
   EXPECT_LE(largest, kMost + 90'000);
   EXPECT_TRUE(tried.gave_up({latest, 0, 0}));
   EXPECT_FALSE(tried.gave_up({100, 0, 0}));
+}
+
+// Random histories: what is saved as text and recalled answers every question as before, also after more history.
+TEST(TriedViews, IsTheSameAfterItWasText) {
+  std::mt19937 engine(11);
+  std::uniform_int_distribution<std::int32_t> coordinate(-9, 12);
+  const auto draw = [&] { return VoxelIndex{coordinate(engine), coordinate(engine), coordinate(engine)}; };
+  std::size_t asked = 0;
+  std::size_t given_up = 0;
+  std::size_t at_rest = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    OccupancyMap map = free_before_the_hidden();
+    const RangeSensor sensor = sees_all_around();
+    TriedViews tried(sensor, {.goal_tolerance_m = 0.1});
+    const auto go_on = [&](TriedViews& with, std::uint32_t seed) {
+      std::mt19937 steps(seed);
+      const auto step = [&] {
+        return VoxelIndex{static_cast<std::int32_t>(steps() % 14) - 9, static_cast<std::int32_t>(steps() % 9),
+                          static_cast<std::int32_t>(steps() % 9)};
+      };
+      for (int i = 0; i < 12; ++i) {
+        const Pose here = at(map, step(), 0.1 * i);
+        with.review(map, here);
+        with.in_vain(map, {5 + static_cast<std::int32_t>(steps() % 4), 5, 5}, step());
+        with.expect(map, at(map, step()), 1.0 + i, {kHidden, {6, 5, 5}}, {{7, 5, 5}});
+        with.report(std::array{GoalResult::Failed, GoalResult::Reached, GoalResult::Preempted}[steps() % 3]);
+        map.confirm();
+      }
+      with.review(map, at(map, step()));
+    };
+    go_on(tried, static_cast<std::uint32_t>(engine()));
+    TriedViews recalled(sensor, {.goal_tolerance_m = 0.1});
+    const OccupancyMap copy(map);
+    recalled.recall(copy, tried.text());
+    EXPECT_EQ(recalled.text(), tried.text());
+    const auto answer_alike = [&] {
+      EXPECT_EQ(recalled.size(), tried.size());
+      EXPECT_EQ(recalled.places_given_up(), tried.places_given_up());
+      EXPECT_EQ(recalled.any_rests(), tried.any_rests());
+      ASSERT_EQ(recalled.scanned_from().size(), tried.scanned_from().size());
+      for (std::size_t i = 0; i < tried.scanned_from().size(); ++i) {
+        EXPECT_EQ(recalled.scanned_from()[i].matrix(), tried.scanned_from()[i].matrix());
+      }
+      for (int i = 0; i < 300; ++i) {
+        const VoxelIndex cell = i % 2 == 0 ? VoxelIndex{5 + i % 4, 5, 5} : draw();
+        const VoxelIndex place = i % 3 == 0 ? map.frame().cell_of(tried.scanned_from().back().translation()) : draw();
+        EXPECT_EQ(recalled.tried(cell), tried.tried(cell));
+        EXPECT_EQ(recalled.tried_from(cell, place), tried.tried_from(cell, place));
+        EXPECT_EQ(recalled.hoped_in_vain(cell, place), tried.hoped_in_vain(cell, place));
+        EXPECT_EQ(recalled.gave_up(cell), tried.gave_up(cell));
+        EXPECT_EQ(recalled.rests(place), tried.rests(place));
+        given_up += tried.gave_up(cell) ? 1U : 0U;
+        at_rest += tried.rests(place) ? 1U : 0U;
+        ++asked;
+      }
+    };
+    answer_alike();
+    const auto more = static_cast<std::uint32_t>(engine());
+    const OccupancyMap before(map);
+    go_on(tried, more);
+    map = before;
+    go_on(recalled, more);
+    answer_alike();
+  }
+  EXPECT_EQ(asked, 36'000U);
+  EXPECT_GT(given_up, 1'000U);
+  EXPECT_GT(at_rest, 50U);
+}
+
+TEST(TriedViews, RefusesTextThatIsNoMemoryAndKeepsItsOwn) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  view_in_vain(tried, map, at(map, {3, 5, 5}), at(map, {3, 5, 5}));
+  const std::string whole = tried.text();
+  std::size_t refused = 0;
+  const auto complaint = [&](const std::string& text) -> std::string {
+    TriedViews other = tried;
+    try {
+      other.recall(map, text);
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(other.text(), whole);
+      ++refused;
+      return error.what();
+    }
+    return "";
+  };
+  const std::string head = "tried-views 1 0.2 7\n";
+  EXPECT_EQ(complaint(whole), "");
+  EXPECT_EQ(complaint(head), "");
+  EXPECT_EQ(complaint(""), "a memory of tried views is empty");
+  EXPECT_EQ(complaint("tried-views 2 0.2 7\n"), "line 1 of a memory of tried views: the version is not 1");
+  EXPECT_NE(complaint("tried-views 1 0.1 7\n").find("cells of 0.100000 m, the map has"), std::string::npos);
+  EXPECT_NE(complaint("tried-views 1 0.2 -7\n").find("a whole number was expected"), std::string::npos);
+  EXPECT_NE(complaint(head + head).find("line 2 of"), std::string::npos);
+  EXPECT_NE(complaint("cell 1 2 3 4 5\n").find("starts with 'tried-views'"), std::string::npos);
+  EXPECT_NE(complaint(head + "cell 1 2 3 4\n").find("line 2 of a memory of tried views: 'cell' takes 5 numbers"),
+            std::string::npos);
+  EXPECT_NE(complaint(head + "cell 1 2 3 7 5\n").find("not above 6"), std::string::npos);
+  EXPECT_NE(complaint(head + "cell 1 2 3.5 4 5\n").find("a whole number was expected"), std::string::npos);
+  EXPECT_NE(complaint(head + "cell 1 2 2e9 4 5\n").find("a whole number was expected"), std::string::npos);
+  EXPECT_NE(complaint(head + "missed 1 2 3\n").find("a look without a cell"), std::string::npos);
+  EXPECT_NE(complaint(head + "place 1 2 3 nan 0 0 0\n").find("'nan' is not a finite number"), std::string::npos);
+  EXPECT_NE(complaint(head + "scan 1 0 0 0 0 1 0 0 0 0 2 0\n").find("not a rigid transform"), std::string::npos);
+  EXPECT_NE(complaint(head + "glass 1 2 3\n").find("'glass' is not an entry"), std::string::npos);
+  EXPECT_NE(complaint(head + "\n").find("'' is not an entry"), std::string::npos);
+  EXPECT_EQ(refused, 15U);
+  // Any cut, and any changed byte, is a memory or is refused.
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    (void)complaint(whole.substr(0, i));
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] + 1);
+    (void)complaint(changed);
+  }
 }
 
 TEST(TriedViews, RefusesOptionsByName) {

@@ -271,6 +271,83 @@ TEST(KittiStereo, LeavesOutWhatIsIncompleteAndNamesIt) {
   EXPECT_NE(opening("kitti-stereo", folder / ".").find("calib.txt: cannot be opened"), std::string::npos);
 }
 
+// Share of the pixels with a depth, of those that both cameras see.
+double measured_share(const DepthImage& depth) {
+  int measured = 0;
+  int pixels = 0;
+  for (std::size_t v = 10; v + 10 < depth.height; ++v) {
+    for (std::size_t u = 40; u + 10 < depth.width; ++u) {
+      ++pixels;
+      measured += std::isnan(depth.at(u, v)) ? 0 : 1;
+    }
+  }
+  return double(measured) / double(pixels);
+}
+
+// The colour cameras of KITTI are the third and the fourth of the calibration.
+TEST(KittiStereo, ColourImagesAreReadWithTheirOwnMatrices) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "image_2");
+  fs::create_directories(folder / "image_3");
+  cv::Mat dots(120, 220, CV_8UC1);
+  cv::randu(dots, 0, 256);
+  cv::imwrite(folder / "image_2/000000.png", dots.colRange(0, 200));
+  cv::imwrite(folder / "image_3/000000.png", dots.colRange(20, 220));
+  write_text(folder / "calib.txt",
+             "P0: 200 0 100 0 0 200 60 0 0 0 1 0\nP1: 200 0 100 -20 0 200 60 0 0 0 1 0\n"
+             "P2: 200 0 100 5 0 200 60 0 0 0 1 0\nP3: 200 0 100 -35 0 200 60 0 0 0 1 0\n");
+  write_text(folder / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const Recording recording = Recording::open("kitti-stereo", folder / ".");
+  EXPECT_NEAR(double(recording.read(0).depth.at(120, 60)), 200.0 * 0.2 / 20.0, 0.05) << "by P2 and P3";
+  // The range ends before the shift of twenty pixels.
+  const Recording short_range =
+      Recording::open("kitti-stereo", folder / ".", {.stereo = StereoOptions{.disparities_px = 16, .window_px = 7}});
+  const double all = measured_share(recording.read(0).depth);
+  EXPECT_GT(all, 0.8);
+  EXPECT_LT(measured_share(short_range.read(0).depth), 0.5 * all) << "some dots look alike by chance";
+  EXPECT_NE(message_of<std::invalid_argument>([&] {
+              (void)Recording::open("tum", folder / ".", {.stereo = StereoOptions{}});
+            }).find("RecordingOptions::stereo"),
+            std::string::npos);
+}
+
+// A camera that is held level in a world with another axis up, and one that looks down.
+TEST(Recording, TheAxisThatIsUpInTheImagesPointsUp) {
+  const test::TemporaryFolder folder;
+  cv::imwrite(folder / "depth.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(5000)));
+  write_text(folder / "depth.txt", "1.0 depth.png\n");
+  const auto opened = [&](const std::string& quaternion, const RecordingOptions& options) {
+    write_text(folder / "groundtruth.txt", "1.0 1 2 3 " + quaternion + "\n");
+    return Recording::open("tum", folder / ".", options);
+  };
+  const auto image_up = [](const Recording& recording) -> Eigen::Vector3d {
+    return -recording.pose(0).linear().col(1);
+  };
+  const std::string level = "0.5 -0.5 0.5 -0.5";  // -y of the images is +z of the world
+  EXPECT_EQ(opened(level, {}).up(), "z");
+  EXPECT_TRUE(opened(level, {}).pose(0).translation().isApprox(Eigen::Vector3d(1, 2, 3)));
+  const std::vector<std::pair<std::string, std::string>> turns{{"0 0 0 1", "-y"},
+                                                               {"1 0 0 0", "y"},
+                                                               {"0 0 0.70710678 0.70710678", "x"},
+                                                               {"0 0 -0.70710678 0.70710678", "-x"},
+                                                               {"0.70710678 0 0 0.70710678", "-z"}};
+  for (const auto& [quaternion, up] : turns) {
+    const Recording recording = opened(quaternion, {});
+    EXPECT_EQ(recording.up(), up);
+    EXPECT_EQ(recording.up_of_format(), "z");
+    EXPECT_TRUE(image_up(recording).isApprox(Eigen::Vector3d::UnitZ(), 1e-6)) << up;
+    EXPECT_NEAR(recording.pose(0).linear().determinant(), 1.0, 1e-9);
+    EXPECT_EQ(opened(quaternion, {.up = "z"}).up(), "z") << "what is asked for is not guessed";
+  }
+  // Rows that count upwards.
+  const Recording flipped = opened("1 0 0 0", {.intrinsics = {{60.0, -60.0, 32.0, 24.0}}});
+  EXPECT_EQ(flipped.up(), "-y");
+  // Half way between two axes: the format decides.
+  EXPECT_EQ(opened("0 0 0.38268343 0.92387953", {}).up(), "z");
+  EXPECT_NE(message_of<std::invalid_argument>([&] { (void)opened(level, {.up = "up"}); }).find("is 'up'"),
+            std::string::npos);
+}
+
 // The rows of poses.txt follow the names of the images, whatever their endings.
 TEST(KittiStereo, ImagesOfBothKindsShareOneOrder) {
   const test::TemporaryFolder folder;

@@ -79,6 +79,35 @@ TEST(StereoMatcher, FindsKnownDisparitiesByEitherMethod) {
   }
 }
 
+TEST(StereoMatcher, AMatchAtTheEndOfTheRangeIsNone) {
+  // One half of the image is as near as the range reaches, or nearer; it must not be free in front of that.
+  for (const int near_px : {31, 45}) {
+    const DotPair pair([&](int column) { return column < 120 ? 10 : near_px; }, [](int) { return false; });
+    for (const StereoMethod method : {StereoMethod::SemiGlobal, StereoMethod::Block}) {
+      const StereoMatcher matcher(rig(), {.method = method, .disparities_px = 32, .window_px = 7});
+      const StereoDepth seen = matcher.match(pair.left(), pair.right());
+      for (const float disparity_px : seen.disparity_px) {
+        EXPECT_FALSE(disparity_px > 30.9F || disparity_px < 0.1F) << near_px;
+      }
+      EXPECT_GT(seen.report.matched, 200U * 120U * 3U / 10U) << "the far half";
+    }
+  }
+}
+
+TEST(StereoMatcher, TheRangeFollowsFromTheRig) {
+  EXPECT_EQ(StereoMatcher(rig()).options().disparities_px, 64) << "f / 4 = 50 px, in whole 16";
+  StereoRig shifted = rig();
+  shifted.offset_px = 20.0;
+  EXPECT_EQ(StereoMatcher(shifted).options().disparities_px, 32) << "the offset is part of f b / z";
+  shifted.focal_px = 1e5;
+  EXPECT_EQ(StereoMatcher(shifted).options().disparities_px, 1024);
+  EXPECT_EQ(StereoMatcher(rig(), {.disparities_px = 128}).options().disparities_px, 128);
+  // A surface 4 baselines away is matched, whatever the number was before.
+  const DotPair pair([](int) { return 50; }, [](int) { return false; });
+  const StereoDepth seen = StereoMatcher(rig()).match(pair.left(), pair.right());
+  EXPECT_NEAR(seen.depth.at(150, 60), 0.4F, 0.01F);
+}
+
 TEST(StereoMatcher, WhatIsPlainHasNoDepthAndFreesNothing) {
   const DotPair pair([](int) { return 10; }, [](int column) { return column >= 80 && column < 140; });
   const StereoMatcher matcher(rig(), {.disparities_px = 32});
@@ -165,6 +194,14 @@ TEST(StereoRig, CalibrationsAreRead) {
   const StereoRig kitti = read_kitti_calibration(folder / "kitti.txt");
   EXPECT_DOUBLE_EQ(kitti.baseline_m, 0.5);
   EXPECT_DOUBLE_EQ(kitti.cy, 180.0);
+  test::write_text(folder / "colour.txt",
+                   "P0: 700 0 600 0 0 700 180 0 0 0 1 0\nP1: 700 0 600 -350 0 700 180 0 0 0 1 0\n"
+                   "P2: 710 0 610 42 0 710 170 0 0 0 1 0\nP3: 710 0 610 -313 0 710 170 0 0 0 1 0\n"
+                   "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");
+  const StereoRig colour = read_kitti_calibration(folder / "colour.txt", 2);
+  EXPECT_DOUBLE_EQ(colour.focal_px, 710.0);
+  EXPECT_DOUBLE_EQ(colour.baseline_m, 0.5);
+  EXPECT_DOUBLE_EQ(colour.cy, 170.0);
   test::write_text(folder / "middlebury.txt",
                    "cam0=[3979.911 0 1244.772; 0 3979.911 1019.507; 0 0 1]\ncam1=[3979.911 0 1369.115; 0 3979.911 "
                    "1019.507; 0 0 1]\ndoffs=124.343\nbaseline=193.001\nwidth=2964\nheight=2000\nndisp=280\n");
@@ -222,7 +259,8 @@ TEST(StereoRig, BadCalibrationsAreRefusedByName) {
   const auto middlebury = [](const std::string& file) { return read_middlebury_calibration(file); };
   const auto opencv = [](const std::string& file) { return read_opencv_calibration(file, file, 640, 480); };
   EXPECT_NE(said("P0: 1 2 3\n", kitti).find("calib.txt: line 1 is not a projection matrix"), std::string::npos);
-  EXPECT_NE(said("700 0 600 0 0 700 180 0 0 0 1 0\n", kitti).find("has 1 projection matrices"), std::string::npos);
+  EXPECT_NE(said("700 0 600 0 0 700 180 0 0 0 1 0\n", kitti).find("has no projection matrices P0 and P1"),
+            std::string::npos);
   EXPECT_NE(said("700 0 600 0 0 700 180 0 0 0 1 0\n700 0 600 9 0 700 180 0 0 0 1 0\n", kitti)
                 .find("calib.txt: StereoRig::baseline_m is -0.0128"),
             std::string::npos)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <vantage/planner/way_around.hpp>
+#include <vantage/robot/way_around.hpp>
 
 namespace vantage {
 

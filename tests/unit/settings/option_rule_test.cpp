@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "map/option_rule.hpp"
+#include "settings/option_rule.hpp"
 
 namespace vantage::detail {
 namespace {

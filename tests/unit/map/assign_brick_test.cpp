@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vantage/map/occupancy_map.hpp>
+#include <vector>
+
+#include "support/changing_map.hpp"
+#include "support/equal_maps.hpp"
+
+namespace vantage {
+namespace {
+
+struct Planes {
+  BrickPlane known{};
+  BrickPlane occupied{};
+};
+
+// None, all, few, half or most cells known.
+Planes random_planes(std::mt19937& engine) {
+  const auto word = [&] { return std::uint64_t{engine()} << 32U | engine(); };
+  Planes planes;
+  const std::size_t kind = engine() % 6;
+  for (std::size_t i = 0; i < Brick::kWords; ++i) {
+    const std::uint64_t a = word();
+    const std::uint64_t b = word();
+    planes.known[i] = kind == 0   ? 0
+                      : kind == 1 ? ~std::uint64_t{0}
+                      : kind == 2 ? a & b & word()
+                      : kind == 3 ? a
+                                  : a | b;
+    planes.occupied[i] = planes.known[i] & word();
+  }
+  return planes;
+}
+
+void set_cell_by_cell(const VoxelIndex& brick, const Planes& planes, OccupancyMap& map) {
+  for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
+    const Brick cells{planes.known, planes.occupied, {}};
+    map.set(Brick::first_cell(brick) + Brick::cell_at(offset), cells.at(offset));
+  }
+}
+
+std::vector<VoxelIndex> written_since(const OccupancyMap& map, OccupancyMap::Revision revision) {
+  std::vector<VoxelIndex> written;
+  map.for_each_written_since(revision, [&](const VoxelIndex& brick, const Brick&) { written.push_back(brick); });
+  return written;
+}
+
+TEST(AssignBrick, EqualsSettingEveryCell) {
+  std::mt19937 engine(22);
+  std::size_t compared = 0;
+  std::size_t refused = 0;
+  std::size_t outside = 0;
+  std::size_t unchanged = 0;
+  for (int world = 0; world < 120; ++world) {
+    OccupancyMapOptions options;
+    if (world % 3 == 1) {  // cuts through bricks
+      options.region = Box{{-1.05, -0.65, -2.0}, {1.2, 1.45, 0.95}};
+    }
+    options.max_bytes = world % 4 == 3 ? 90'000 : 0;
+    OccupancyMap assigned(options);
+    OccupancyMap set(options);
+    for (int step = 0; step < 25; ++step) {
+      if (step % 5 == 4) {
+        std::mt19937 same = engine;
+        change_around_origin(assigned, engine);
+        change_around_origin(set, same);
+      }
+      const auto coordinate = [&] { return static_cast<std::int32_t>(engine() % 6) - 3; };
+      const VoxelIndex brick{coordinate(), coordinate(), coordinate()};
+      const Planes planes = random_planes(engine);
+      const OccupancyMap::Revision before = assigned.revision();
+      const OccupancyMap::Revision before_set = set.revision();
+      assigned.assign(brick, planes.known, planes.occupied);
+      set_cell_by_cell(brick, planes, set);
+      test::expect_equal_maps(assigned, set);
+      ASSERT_EQ(assigned.revision() - before, set.revision() == before_set ? 0U : 1U);
+      ASSERT_EQ(assigned.changed_since(before), set.changed_since(before_set));
+      ASSERT_EQ(assigned.changed_since(0), set.changed_since(0));
+      ASSERT_EQ(written_since(assigned, before), written_since(set, before_set));
+      outside += assigned.revision() == before ? 1U : 0U;
+      unchanged += assigned.changed_since(before).empty() ? 1U : 0U;
+      ++compared;
+    }
+    refused += assigned.cells_refused();
+  }
+  EXPECT_EQ(compared, 3000U);
+  EXPECT_GT(refused, 1000U);
+  EXPECT_GT(outside, 100U);
+  EXPECT_GT(unchanged, outside + 100U);
+}
+
+TEST(AssignBrick, RefusesWhatHasNoMeaning) {
+  OccupancyMap map;
+  BrickPlane one{};
+  one[3] = 4;
+  EXPECT_THROW(map.assign({}, {}, one), std::invalid_argument);
+  constexpr std::int32_t kFurthest = kFurthestVoxel >> 3;
+  EXPECT_THROW(map.assign({0, kFurthest + 1, 0}, one, {}), std::invalid_argument);
+  EXPECT_THROW(map.assign({0, 0, -kFurthest - 1}, one, {}), std::invalid_argument);
+  EXPECT_EQ(map.revision(), 0U);
+  map.assign({-kFurthest, kFurthest, 0}, one, {});
+  EXPECT_EQ(map.counts().free, 1U);
+}
+
+}  // namespace
+}  // namespace vantage
