@@ -163,6 +163,7 @@ std::vector<Pose> FrontierVoidPlanner::near_views(PlanStatistics& statistics) co
   }
   const std::vector<const FrontierTarget*> targets = targets_of_voids(survey, search_.voids);
   std::vector<VoxelIndex> viewpoints;
+  viewpoints.reserve(targets.size());
   for (const FrontierTarget* target : targets) {
     viewpoints.push_back(target->viewpoint);
   }

@@ -107,12 +107,12 @@ class SettingTable {
   /// table or its text is invalid.
   void read(std::string_view planner, const Settings& settings, Options& options) const {
     const std::string who = "planner '" + std::string(planner) + "'";
-    for (const auto& given : settings) {
-      const std::string& name = given.first;
-      if (std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.setting.name == name; })) {
-        const std::string names = joined(rows_, [](const Row& row) { return row.setting.name; });
-        throw std::invalid_argument(who + " has no setting '" + name + "'; it has: " + names);
-      }
+    const auto foreign = std::find_if(settings.begin(), settings.end(), [&](const auto& given) {
+      return std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.setting.name == given.first; });
+    });
+    if (foreign != settings.end()) {
+      const std::string names = joined(rows_, [](const Row& row) { return row.setting.name; });
+      throw std::invalid_argument(who + " has no setting '" + foreign->first + "'; it has: " + names);
     }
     for (const Row& row : rows_) {
       const auto given = settings.find(row.setting.name);
