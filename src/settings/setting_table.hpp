@@ -108,7 +108,8 @@ class SettingTable {
   void read(std::string_view planner, const Settings& settings, Options& options) const {
     const std::string who = "planner '" + std::string(planner) + "'";
     const auto foreign = std::find_if(settings.begin(), settings.end(), [&](const auto& given) {
-      return std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.setting.name == given.first; });
+      return std::none_of(rows_.begin(), rows_.end(),
+                          [&](const Row& row) { return row.setting.name == given.first; });
     });
     if (foreign != settings.end()) {
       const std::string names = joined(rows_, [](const Row& row) { return row.setting.name; });
