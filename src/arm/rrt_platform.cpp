@@ -8,7 +8,6 @@
 #include <ompl/geometric/planners/rrt/RRT.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 #include <vantage/arm/rrt_platform.hpp>
 #include <vector>
@@ -111,10 +110,7 @@ std::vector<Eigen::Vector3d> corners_of_way(const OccupancyMap& map, const Platf
 }  // namespace
 
 RrtPlatform::RrtPlatform(std::shared_ptr<const Platform> platform, const RrtOptions& options)
-    : platform_(std::move(platform)), options_(options) {
-  if (platform_ == nullptr) {
-    throw std::invalid_argument("RrtPlatform needs a platform");
-  }
+    : WrappedPlatform(std::move(platform)), options_(options) {
   detail::require_option(options.goal_bias >= 0.0 && options.goal_bias < 1.0, "RrtOptions::goal_bias",
                          options.goal_bias, "in [0, 1)");
   detail::require_option(std::isfinite(options.step_m) && options.step_m > 0.0, "RrtOptions::step_m", options.step_m,
@@ -123,28 +119,28 @@ RrtPlatform::RrtPlatform(std::shared_ptr<const Platform> platform, const RrtOpti
 }
 
 std::optional<std::vector<Pose>> RrtPlatform::path(const OccupancyMap& map, const Pose& from, const Pose& to) const {
-  if (!platform_->admits(map, to)) {
+  if (!wrapped().admits(map, to)) {
     return std::nullopt;
   }
-  if (platform_->admits_motion(map, from, to)) {
+  if (wrapped().admits_motion(map, from, to)) {
     return std::vector<Pose>{from, to};
   }
   const std::vector<Eigen::Vector3d> corners =
-      corners_of_way(map, *platform_, from.translation(), to.translation(), options_);
+      corners_of_way(map, wrapped(), from.translation(), to.translation(), options_);
   if (corners.empty()) {
     return std::nullopt;
   }
   std::vector<Pose> poses{from};
   for (std::size_t at = 0; at + 1 < corners.size();) {
     const auto pose_at = [&](std::size_t i) {
-      return i + 1 == corners.size() ? to : platform_->facing(corners[i], corners[i] - corners[at]);
+      return i + 1 == corners.size() ? to : wrapped().facing(corners[i], corners[i] - corners[at]);
     };
     std::size_t next = corners.size() - 1;
     while (next > at + 1 &&
-           !(platform_->admits(map, pose_at(next)) && platform_->admits_motion(map, poses.back(), pose_at(next)))) {
+           !(wrapped().admits(map, pose_at(next)) && wrapped().admits_motion(map, poses.back(), pose_at(next)))) {
       --next;
     }
-    if (!platform_->admits_motion(map, poses.back(), pose_at(next))) {
+    if (!wrapped().admits_motion(map, poses.back(), pose_at(next))) {
       return std::nullopt;
     }
     poses.push_back(pose_at(next));

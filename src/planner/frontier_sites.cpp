@@ -7,6 +7,8 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
+#include "geometry/box_around.hpp"
+
 namespace vantage::detail {
 namespace {
 
@@ -16,20 +18,16 @@ std::int32_t along(const VoxelIndex& cell, std::size_t axis) { return std::array
 
 // Halves at the middle of the longest side.
 void divide(Cells cells, std::int32_t most_cells, std::vector<Cells>& parts) {
-  VoxelIndex lo = cells.front();
-  VoxelIndex hi = cells.front();
-  for (const VoxelIndex& cell : cells) {
-    lo = {std::min(lo.x, cell.x), std::min(lo.y, cell.y), std::min(lo.z, cell.z)};
-    hi = {std::max(hi.x, cell.x), std::max(hi.y, cell.y), std::max(hi.z, cell.z)};
-  }
-  const std::array<std::int32_t, 3> sides{hi.x - lo.x + 1, hi.y - lo.y + 1, hi.z - lo.z + 1};
+  const VoxelBox box = box_around(cells);
+  const VoxelIndex extent = box.extent();
+  const std::array<std::int32_t, 3> sides{extent.x, extent.y, extent.z};
   const auto longest = std::max_element(sides.begin(), sides.end());
   if (*longest <= most_cells) {
     parts.push_back(std::move(cells));
     return;
   }
   const auto axis = static_cast<std::size_t>(longest - sides.begin());
-  const std::int32_t middle = along(lo, axis) + *longest / 2;
+  const std::int32_t middle = along(box.lo, axis) + *longest / 2;
   const auto upper = std::stable_partition(cells.begin(), cells.end(),
                                            [&](const VoxelIndex& cell) { return along(cell, axis) < middle; });
   divide({cells.begin(), upper}, most_cells, parts);

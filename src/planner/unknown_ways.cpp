@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vantage/geometry/raster_order.hpp>
 
+#include "geometry/box_overlap.hpp"
+
 namespace vantage::detail {
 namespace {
 
@@ -15,11 +17,6 @@ constexpr double kFurthestM = 1e3;
 // A box of more bricks is large, if it holds more than so many for each known one.
 constexpr double kManyBricks = 20'000.0;
 constexpr double kPerKnownBrick = 8.0;
-
-VoxelBox in_both(const VoxelBox& a, const VoxelBox& b) {
-  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
-          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
-}
 
 // The cells of a brick inside `box` that are not known to be occupied.
 BrickPlane open_cells(const OccupancyMap& map, const VoxelIndex& address, const VoxelBox& box) {
@@ -39,15 +36,11 @@ BrickPlane open_cells(const OccupancyMap& map, const VoxelIndex& address, const 
   return open;
 }
 
-double count(const VoxelBox& box) {
-  const VoxelIndex extent = box.extent();
-  return static_cast<double>(extent.x) * static_cast<double>(extent.y) * static_cast<double>(extent.z);
-}
-
 // The bricks of the box; only the known ones and those that touch them, if the box is large beside these.
 std::vector<VoxelIndex> bricks_in(const OccupancyMap& map, const VoxelBox& bricks) {
   std::vector<VoxelIndex> found;
-  if (count(bricks) <= std::max(kManyBricks, kPerKnownBrick * static_cast<double>(map.brick_count()))) {
+  if (static_cast<double>(bricks.size()) <=
+      std::max(kManyBricks, kPerKnownBrick * static_cast<double>(map.brick_count()))) {
     for_each_cell(bricks, [&](const VoxelIndex& brick) { found.push_back(brick); });
     return found;
   }
@@ -67,7 +60,7 @@ std::vector<VoxelIndex> bricks_in(const OccupancyMap& map, const VoxelBox& brick
 
 UnknownWays::UnknownWays(const OccupancyMap& map, double beyond_m) : ways_(map.frame(), kSide) {
   VoxelBox box = map.bounds().grown(map.frame().cells_up_to(std::min(beyond_m, kFurthestM)));
-  box = map.region() ? in_both(box, *map.region()) : box;
+  box = map.region() ? box_overlap(box, *map.region()) : box;
   const VoxelBox bricks{Brick::of_cell(box.lo), Brick::of_cell(box.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   for (const VoxelIndex& brick : bricks_in(map, bricks)) {
     ways_.add(brick, open_cells(map, brick, box));

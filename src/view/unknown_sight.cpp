@@ -142,8 +142,6 @@ UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
 
 std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,
                                             const ViewRays& rays, std::uint64_t& operations) const {
-  std::vector<RayEnd> ends(rays.size());
-  caster.cast(world_from_sensor, rays, ends);
   const Eigen::Vector3d sensor = world_from_sensor.translation();
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m());
   const VoxelBox near{frame_.cell_of(sensor - range), frame_.cell_of(sensor + range) + VoxelIndex{1, 1, 1}};
@@ -151,6 +149,8 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
   if (box.empty()) {
     return {};
   }
+  std::vector<RayEnd> ends(rays.size());
+  caster.cast(world_from_sensor, rays, ends);
   const VoxelIndex here = frame_.cell_of(sensor);
   Chances chances(box, sensor, rays.min_range_m(), frame_);
   for (const RayTile& tile : rays.tiles()) {

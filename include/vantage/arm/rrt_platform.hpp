@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <vantage/compiler.hpp>
-#include <vantage/robot/platform.hpp>
+#include <vantage/robot/wrapped_platform.hpp>
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -23,7 +23,7 @@ struct RrtOptions {
 /// 2001; used by Vasquez-Gomez et al. 2013.)
 ///
 ///     const auto robot = std::make_shared<RrtPlatform>(std::make_shared<FreeFlyer>(body));
-class RrtPlatform final : public Platform {
+class RrtPlatform final : public WrappedPlatform {
  public:
   /// Throws std::invalid_argument, which names the invalid option, or if `platform` is null.
   explicit RrtPlatform(std::shared_ptr<const Platform> platform, const RrtOptions& options = {});
@@ -31,34 +31,15 @@ class RrtPlatform final : public Platform {
   /// The options that were passed to the constructor.
   [[nodiscard]] const RrtOptions& options() const { return options_; }
 
-  [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override {
-    return platform_->admits(map, pose);
-  }
-  [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override {
-    return platform_->admits_cell(map, cell);
-  }
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override {
-    return platform_->admitted_cells(map, box);
-  }
-  [[nodiscard]] double reach_m() const override { return platform_->reach_m(); }
-  [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override {
-    return platform_->admits_motion(map, from, to);
-  }
-  [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override {
-    return platform_->facing(position_m, direction);
-  }
-  [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override {
-    return platform_->distance_m(from, to);
+    return wrapped().admitted_cells(map, box);
   }
   /// The straight motion if the platform admits it, otherwise the path of the tree after shortcutting. Between the
   /// ends the sensor looks along the path. nullopt if no path is found. Deterministic for equal inputs.
   [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from,
                                                       const Pose& to) const override;
-  [[nodiscard]] Box body_box(const Pose& pose) const override { return platform_->body_box(pose); }
-  [[nodiscard]] bool can_tilt() const override { return platform_->can_tilt(); }
 
  private:
-  std::shared_ptr<const Platform> platform_;
   RrtOptions options_;
 };
 

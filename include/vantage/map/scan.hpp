@@ -15,8 +15,8 @@ namespace VANTAGE_EXPORT vantage {
 /// A Scan whose points stay where the host has them; fields as there. OccupancyMap::insert reads them in place.
 struct ScanView {
   Pose world_from_sensor = Pose::Identity();  ///< pose of the sensor
-  PointsView points;                          ///< returns in the sensor frame, metres
-  PointsView no_return;                       ///< directions in the sensor frame without an obstacle in the range
+  PointsView points = {};                     ///< returns in the sensor frame, metres
+  PointsView no_return = {};                  ///< directions in the sensor frame without an obstacle in the range
   double max_range_m = std::numeric_limits<double>::infinity();  ///< range limit, metres
   std::size_t width = 0;                                         ///< columns of the depth image, or 0
   std::size_t height = 0;                                        ///< rows of the depth image, or 0
@@ -36,9 +36,9 @@ struct Scan {
   Pose world_from_sensor = Pose::Identity();  ///< pose of the sensor
   /// Returns in the sensor frame, metres. If `width * height == points.size()`, they form a depth image in row-major
   /// order. The map may then use the pixel neighbourhood for speed; the result is the same.
-  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> points = {};
   /// Directions in the sensor frame (any non-zero length) without an obstacle within `max_range_m`.
-  std::vector<Eigen::Vector3f> no_return;
+  std::vector<Eigen::Vector3f> no_return = {};
   /// Range limit, metres. A return beyond it clears cells up to the limit and hits nothing. Infinite: every return is
   /// a hit.
   double max_range_m = std::numeric_limits<double>::infinity();

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Searches two arenas for victims from several starts by every planner and prints the table of docs/results.md:
-# examples/victims_table.sh [PLANNER[,KEY=VALUE]...]... Needs VANTAGE_DATA and the built example
+# evaluation/victims_table.sh [PLANNER[,KEY=VALUE]...]... Needs VANTAGE_DATA and the built program
 # (VICTIMS=path/to/victims names another). STARTS (default: 2 3 4), VIEWS (240) and ARENAS may be set. Searches that
 # lie in the folder RESULTS (default: build/victims) already are not made again.
 set -euo pipefail

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include <stdexcept>
+#include <utility>
+#include <vantage/robot/wrapped_platform.hpp>
+
+namespace vantage {
+
+WrappedPlatform::WrappedPlatform(std::shared_ptr<const Platform> platform) : platform_(std::move(platform)) {
+  if (platform_ == nullptr) {
+    throw std::invalid_argument("WrappedPlatform: platform is null");
+  }
+}
+
+}  // namespace vantage
