@@ -15,6 +15,7 @@ void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachabl
     begin(map, furthest_m, direction_count);
   }
   asked_ = nullptr;
+  last_blocks_ = nullptr;
   ++survey_;
   follow_clear(map);
   follow_places(reachable);
@@ -22,6 +23,7 @@ void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachabl
 
 void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
   answers_.clear();
+  numbers_.clear();
   cell_size_m_ = 0.0;  // starts again if the next lines throw
   tree_.emplace(map.frame(), spread_directions(direction_count), furthest_m);
   cell_size_m_ = map.resolution_m();
@@ -90,8 +92,22 @@ bool SightMemory::stands(const Answer& answer) const {
                       [&](const VoxelBox& cells) { return places_.touches(cells); });
 }
 
+SightMemory::Answer& SightMemory::answer_of(const VoxelIndex& unknown) {
+  const auto next = static_cast<std::uint32_t>(answers_.size());
+  const std::uint32_t number = numbers_.place(unknown, next);
+  if (number == next) {
+    answers_.push_back({.unknown = unknown});
+  }
+  return answers_[number];
+}
+
 void SightMemory::forget_others() {
-  std::erase_if(answers_, [&](const auto& entry) { return entry.second.asked != survey_; });
+  if (std::erase_if(answers_, [&](const Answer& answer) { return answer.asked != survey_; }) > 0) {
+    numbers_.clear();
+    for (const Answer& answer : answers_) {
+      numbers_.place(answer.unknown, static_cast<std::uint32_t>(&answer - answers_.data()));
+    }
+  }
 }
 
 }  // namespace vantage::detail

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
+#include <vantage/geometry/voxel_table.hpp>
 #include <vantage/map/brick_grid.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
@@ -64,6 +64,7 @@ class SightMemory {
     std::uint32_t looked_at = 0;  // last search that looked at a cell of this block
   };
   struct Answer {
+    VoxelIndex unknown = {};
     std::optional<VoxelIndex> viewpoint = {};
     bool may_stand = false;                     // may be reused in later surveys
     std::uint32_t found = 0;                    // survey of the search
@@ -77,6 +78,8 @@ class SightMemory {
   void follow_places(const ReachableSpace& reachable);
   template <class Member>
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
+  // The answer of a cell, a new one if there is none. Valid until the next call.
+  [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
   [[nodiscard]] bool stands(const Answer& answer) const;
   static VoxelIndex block_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
   static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (Brick::offset_of(cell) & 63U); }
@@ -89,23 +92,27 @@ class SightMemory {
   OccupancyMap::Revision followed_ = 0;
   BrickGrid<Block> blocks_;  // indexed by block address as if it were a cell
   BrickTree places_;         // bricks with reachable cells
-  VoxelIndex last_brick_;    // brick of blocks of the last is_clear
+  // The brick of blocks of the last is_clear since `follow`; no block moves while others are stored.
+  BrickGrid<Block>::Values* last_blocks_ = nullptr;
+  VoxelIndex last_brick_;
   std::uint32_t last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
-  std::unordered_map<VoxelIndex, Answer> answers_;
+  std::vector<Answer> answers_;
+  VoxelTable<std::uint32_t> numbers_;  // of the answers, by unknown cell
 };
 
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
   const VoxelIndex address = block_of(cell);
   const VoxelIndex brick = Brick::of_cell(address);
-  if (last_number_ == BrickDirectory::kNone || brick != last_brick_) {
+  if (last_blocks_ == nullptr || brick != last_brick_) {
     last_brick_ = brick;
     last_number_ = blocks_.store(brick);  // stored even if unknown, so that a later change is noticed
+    last_blocks_ = &blocks_.values(last_number_);
   }
   const std::size_t offset = Brick::offset_of(address);
-  Block& block = blocks_.values(last_number_)[offset];
+  Block& block = (*last_blocks_)[offset];
   if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
     asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + offset));
   }
@@ -114,21 +121,21 @@ inline bool SightMemory::is_clear(const VoxelIndex& cell) {
 
 inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
   const VoxelIndex address = block_of(cell);
-  const bool near = last_number_ != BrickDirectory::kNone && Brick::of_cell(address) == last_brick_;
-  const Block& block = near ? blocks_.values(last_number_)[Brick::offset_of(address)] : blocks_[address];
+  const bool near = last_blocks_ != nullptr && Brick::of_cell(address) == last_brick_;
+  const Block& block = near ? (*last_blocks_)[Brick::offset_of(address)] : blocks_[address];
   return (block.reachable & bit_of(cell)) != 0;
 }
 
 template <class Passes, class Serves>
 std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
                                                    const Serves& serves) {
-  Answer& answer = answers_[unknown];
+  Answer& answer = answer_of(unknown);
   const bool asked_before = answer.asked == survey_;  // in this survey, from another frontier cell
   answer.asked = survey_;
   if (asked_before || (!anew && stands(answer))) {
     return answer.viewpoint;
   }
-  answer = {.found = survey_, .asked = survey_};
+  answer = {.unknown = unknown, .found = survey_, .asked = survey_};
   asked_ = &answer;
   ++question_;
   answer.viewpoint = tree_->first(

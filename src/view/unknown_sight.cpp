@@ -100,17 +100,15 @@ UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> 
     : map_(&map),
       frame_(map.frame()),
       options_(options),
-      wanted_box_(detail::box_around(wanted)),
-      extent_(wanted_box_.extent()),
       bounds_(map.bounds()),
-      contents_(wanted_box_) {
+      contents_(detail::box_around(wanted)) {
   detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
                          "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
   map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
     const VoxelIndex first = Brick::first_cell(address);
-    if (detail::box_overlap(wanted_box_, {first, first + VoxelIndex{8, 8, 8}}).empty()) {
+    if (detail::box_overlap(contents_.box(), {first, first + VoxelIndex{8, 8, 8}}).empty()) {
       return;
     }
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -130,12 +128,8 @@ UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> 
 }
 
 UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
-  const VoxelIndex at = cell - wanted_box_.lo;
-  if (at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < extent_.x && at.y < extent_.y && at.z < extent_.z) {
-    return contents_.values()[static_cast<std::size_t>(at.x) +
-                              static_cast<std::size_t>(extent_.x) *
-                                  (static_cast<std::size_t>(at.y) +
-                                   static_cast<std::size_t>(extent_.y) * static_cast<std::size_t>(at.z))];
+  if (contents_.contains(cell)) {
+    return contents_[cell];
   }
   return map_->at(cell) == Occupancy::Occupied ? Content::Surface : Content::Open;
 }
@@ -145,7 +139,7 @@ std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose&
   const Eigen::Vector3d sensor = world_from_sensor.translation();
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m());
   const VoxelBox near{frame_.cell_of(sensor - range), frame_.cell_of(sensor + range) + VoxelIndex{1, 1, 1}};
-  const VoxelBox box = detail::box_overlap(wanted_box_, near);
+  const VoxelBox box = detail::box_overlap(contents_.box(), near);
   if (box.empty()) {
     return {};
   }

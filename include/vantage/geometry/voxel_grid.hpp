@@ -16,7 +16,8 @@ class VoxelGrid {
  public:
   VoxelGrid() = default;
   /// Creates a grid over the cells of `box`, filled with `value`.
-  explicit VoxelGrid(const VoxelBox& box, const T& value = T{}) : box_(box), values_(box.size(), value) {}
+  explicit VoxelGrid(const VoxelBox& box, const T& value = T{})
+      : box_(box), extent_(box.extent()), values_(box.size(), value) {}
 
   /// The cells of the grid.
   [[nodiscard]] const VoxelBox& box() const { return box_; }
@@ -28,17 +29,15 @@ class VoxelGrid {
   /// Index of a cell in `values()`. The cell must be in the box.
   [[nodiscard]] std::size_t offset_of(const VoxelIndex& cell) const {
     const VoxelIndex from_lo = cell - box_.lo;
-    const VoxelIndex extent = box_.extent();
-    return (static_cast<std::size_t>(from_lo.z) * static_cast<std::size_t>(extent.y) +
+    return (static_cast<std::size_t>(from_lo.z) * static_cast<std::size_t>(extent_.y) +
             static_cast<std::size_t>(from_lo.y)) *
-               static_cast<std::size_t>(extent.x) +
+               static_cast<std::size_t>(extent_.x) +
            static_cast<std::size_t>(from_lo.x);
   }
   /// The cell at an index of `values()`.
   [[nodiscard]] VoxelIndex cell_at(std::size_t offset) const {
-    const VoxelIndex extent = box_.extent();
-    const auto row = static_cast<std::size_t>(extent.x);
-    const auto plane = row * static_cast<std::size_t>(extent.y);
+    const auto row = static_cast<std::size_t>(extent_.x);
+    const auto plane = row * static_cast<std::size_t>(extent_.y);
     return box_.lo + VoxelIndex{static_cast<std::int32_t>(offset % row),
                                 static_cast<std::int32_t>(offset % plane / row),
                                 static_cast<std::int32_t>(offset / plane)};
@@ -60,6 +59,7 @@ class VoxelGrid {
 
  private:
   VoxelBox box_;
+  VoxelIndex extent_;  // of the box
   std::vector<T> values_;
 };
 

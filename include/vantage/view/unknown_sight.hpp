@@ -62,10 +62,8 @@ class UnknownSight {
   const OccupancyMap* map_;
   VoxelFrame frame_;
   UnknownSightOptions options_;
-  VoxelBox wanted_box_;
-  VoxelIndex extent_;            // of `wanted_box_`
   VoxelBox bounds_;              // of the known cells
-  VoxelGrid<Content> contents_;  // of the cells in `wanted_box_`
+  VoxelGrid<Content> contents_;  // of a box around the wanted cells
 };
 
 }  // namespace vantage
