@@ -90,8 +90,8 @@ struct Plan {
 /// - The same map, pose and seed give the same plan for any number of threads.
 /// - Planning twice without a new scan gives the same plan.
 /// - A goal to which the robot comes no nearer is given up (TriedViews).
-/// - Except for the memory of tried views, which belongs to one map and can be saved with it, a planner keeps no state
-///   that the map cannot rebuild.
+/// - A planner keeps only what it can rebuild from the map, and the memory of tried views, which belongs to one map
+///   and can be saved with it.
 ///
 /// An ObjectPlanner remembers goals that were not reached, and ends by its own rule.
 class ExplorationPlanner {
