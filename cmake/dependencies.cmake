@@ -2,6 +2,7 @@
 # External dependencies of each component. Found in the top-level scope, so that src/ and tests/ both see the targets.
 vantage_find(core PUBLIC Eigen3 3.4 NO_MODULE)
 vantage_find(core PUBLIC octomap 1.9)
+vantage_find(headers PUBLIC Eigen3 3.4 NO_MODULE)
 if(VANTAGE_BUILD_SIM)
   vantage_find(sim PRIVATE embree 3)
   vantage_find(sim PRIVATE assimp)

@@ -1,29 +1,26 @@
 # SPDX-License-Identifier: MIT
 
-# vantage_add_library(<component> SOURCES ... HEADERS ... [GENERATED_HEADERS ...]
-#                     [UMBRELLA ...] LINKS PUBLIC|PRIVATE ...)
-# HEADERS: public headers relative to include/; each must compile alone. GENERATED_HEADERS: headers in the build tree.
-# UMBRELLA: the header in the build tree that is written here and includes all others.
+# vantage_add_library(<component> [SOURCES ...] [BODIES ...] [PRIVATE_HEADERS ...] HEADERS ...
+#                     LINKS PUBLIC|PRIVATE ...)
+# BODIES: files under include/ that define what headers declare; each is compiled once, as a source.
+# HEADERS: public headers relative to include/; each must compile alone.
 function(vantage_add_library component)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "UMBRELLA" "SOURCES;HEADERS;GENERATED_HEADERS;LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;BODIES;PRIVATE_HEADERS;HEADERS;LINKS")
   set(target vantage_${component})
   set_property(GLOBAL APPEND PROPERTY VANTAGE_COMPONENTS ${component})
   set_property(GLOBAL APPEND PROPERTY VANTAGE_HEADERS ${arg_HEADERS})
-  if(arg_UMBRELLA)
-    set(includes ${arg_HEADERS} ${arg_GENERATED_HEADERS})
-    list(SORT includes)
-    list(TRANSFORM includes REPLACE "(.+)" "#include <\\1>")
-    list(JOIN includes "\n" includes)
-    configure_file("${PROJECT_SOURCE_DIR}/cmake/umbrella.hpp.in" "${PROJECT_BINARY_DIR}/include/${arg_UMBRELLA}" @ONLY)
-    list(APPEND arg_GENERATED_HEADERS ${arg_UMBRELLA})
-  endif()
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_PRIVATE_FILES ${arg_PRIVATE_HEADERS} ${arg_BODIES})
+  foreach(body IN LISTS arg_BODIES)
+    string(REGEX REPLACE "^vantage/(.+)/impl/(.+)\\.ipp$" "${PROJECT_BINARY_DIR}/bodies/\\1/\\2.cpp" source "${body}")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "#include <${body}>\n")
+    list(APPEND arg_SOURCES "${source}")
+  endforeach()
   add_library(${target} ${arg_SOURCES})
   add_library(vantage::${component} ALIAS ${target})
   vantage_unite_folders(${target})
   target_include_directories(
     ${target}
-    PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
-           "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+    PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
     PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} ${arg_LINKS})
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -38,6 +35,7 @@ function(vantage_add_library component)
                DEFINE_SYMBOL ""
                VERSION ${PROJECT_VERSION}
                SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  vantage_link_one_way(${target} compiled)
   vantage_warnings(${target})
   if(VANTAGE_INSTALL)
     install(
@@ -46,19 +44,45 @@ function(vantage_add_library component)
       RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
       LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
       ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-    vantage_install_headers("${PROJECT_SOURCE_DIR}/include" ${arg_HEADERS})
-    vantage_install_headers("${PROJECT_BINARY_DIR}/include" ${arg_GENERATED_HEADERS})
+    vantage_install_headers(${arg_HEADERS} ${arg_PRIVATE_HEADERS} ${arg_BODIES})
   endif()
   if(VANTAGE_BUILD_TESTS)
-    vantage_check_headers(${component} ${arg_HEADERS} ${arg_GENERATED_HEADERS})
+    vantage_check_headers(${component} ${arg_HEADERS})
   endif()
 endfunction()
 
+# vantage_add_header_library(<component> LINKS ...)
+# The headers of core with their bodies, for hosts that compile them with their own sources.
+function(vantage_add_header_library component)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS")
+  set(target vantage_${component})
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_COMPONENTS ${component})
+  add_library(${target} INTERFACE)
+  add_library(vantage::${component} ALIAS ${target})
+  target_include_directories(${target} INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
+                                                 "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  target_link_libraries(${target} INTERFACE ${arg_LINKS})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  target_compile_definitions(${target} INTERFACE VANTAGE_HEADER_ONLY)
+  target_compile_options(${target} INTERFACE -ffp-contract=off)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  vantage_link_one_way(${target} headers)
+  if(VANTAGE_INSTALL)
+    install(TARGETS ${target} EXPORT vantage-${component}-targets)
+  endif()
+endfunction()
+
+# CMake refuses a program that links both the compiled library and the headers with their bodies.
+function(vantage_link_one_way target way)
+  set_property(TARGET ${target} APPEND PROPERTY COMPATIBLE_INTERFACE_STRING VANTAGE_LINKED_AS)
+  set_property(TARGET ${target} PROPERTY INTERFACE_VANTAGE_LINKED_AS ${way})
+endfunction()
+
 # Installs each header into its folder. CMake 3.22 has no header sets, which would do this.
-function(vantage_install_headers root)
+function(vantage_install_headers)
   foreach(header IN LISTS ARGN)
     get_filename_component(folder "${header}" DIRECTORY)
-    install(FILES "${root}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
+    install(FILES "${PROJECT_SOURCE_DIR}/include/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
   endforeach()
 endfunction()
 

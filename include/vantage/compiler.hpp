@@ -10,3 +10,11 @@
 
 /// Before the name of the namespace of every public header: a shared library shows these names, and no others.
 #define VANTAGE_EXPORT [[gnu::visibility("default")]]  // NOLINT(cppcoreguidelines-macro-usage)
+
+/// Before each function that a file of a folder impl/ defines. These files are compiled once, into vantage::core, or,
+/// where VANTAGE_HEADER_ONLY is defined (vantage::headers), included by the headers that declare their functions.
+#if defined(VANTAGE_HEADER_ONLY)
+#define VANTAGE_INLINE inline  // NOLINT(cppcoreguidelines-macro-usage)
+#else
+#define VANTAGE_INLINE
+#endif

@@ -20,6 +20,8 @@
 #include <vantage/report/report_html.hpp>
 #include <vector>
 
+#include <vantage/map/impl/whole_file.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
 #include "apps/commands.hpp"
 #include "apps/evaluation_progress.hpp"
 #include "apps/evaluation_runs.hpp"
@@ -27,8 +29,6 @@
 #include "apps/help_format.hpp"
 #include "apps/run_files.hpp"
 #include "apps/simulated_run.hpp"
-#include "map/whole_file.hpp"
-#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {

@@ -13,9 +13,9 @@
 #include <vantage/report/report_json.hpp>
 #include <vantage/sim/exploration_run.hpp>
 
+#include <vantage/map/impl/whole_file.hpp>
 #include "apps/run_files.hpp"
 #include "apps/simulated_run.hpp"
-#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {

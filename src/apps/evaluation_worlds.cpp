@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include <vantage/map/impl/whole_file.hpp>
 #include "apps/explore_options.hpp"
 #include "apps/run_files.hpp"
-#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {

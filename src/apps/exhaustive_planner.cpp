@@ -8,8 +8,8 @@
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
+#include <vantage/raytrace/impl/shared_work.hpp>
 #include "apps/exhaustive_search.hpp"
-#include "raytrace/shared_work.hpp"
 
 namespace vantage::apps {
 namespace {

@@ -19,8 +19,8 @@
 #include <vantage/view/frontier_survey.hpp>
 #include <vantage/view/view_cover.hpp>
 
-#include "geometry/box_around.hpp"
-#include "raytrace/shared_work.hpp"
+#include <vantage/geometry/impl/box_around.hpp>
+#include <vantage/raytrace/impl/shared_work.hpp>
 
 namespace vantage::apps {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vantage/report/sensor_file.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage::apps {
 namespace {

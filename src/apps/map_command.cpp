@@ -9,7 +9,7 @@
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/map/octomap_bridge.hpp>
 
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/whole_file.hpp>
 
 namespace vantage::apps {
 namespace {

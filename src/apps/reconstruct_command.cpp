@@ -10,6 +10,7 @@
 #include <vantage/sim/mesh_file.hpp>
 #include <vantage/sim/object_scene.hpp>
 
+#include <vantage/settings/impl/option_rule.hpp>
 #include "apps/commands.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
@@ -20,7 +21,6 @@
 #include "apps/run_printer.hpp"
 #include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
-#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {

@@ -8,8 +8,8 @@
 #include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/line_plot.hpp>
 
+#include <vantage/map/impl/whole_file.hpp>
 #include "apps/run_files.hpp"
-#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/planner/make_planner.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage::apps {
 

@@ -21,7 +21,7 @@
 #include <vantage/vision/void_picture.hpp>
 #include <vector>
 
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/whole_file.hpp>
 
 namespace vantage::apps {
 namespace {

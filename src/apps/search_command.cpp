@@ -15,6 +15,7 @@
 #include <vantage/sim/truth.hpp>
 #include <vector>
 
+#include <vantage/settings/impl/option_rule.hpp>
 #include "apps/commands.hpp"
 #include "apps/exhaustive_planner.hpp"
 #include "apps/exhaustive_search.hpp"
@@ -26,7 +27,6 @@
 #include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
 #include "apps/tracked_arm.hpp"
-#include "settings/option_rule.hpp"
 
 namespace vantage::apps {
 namespace {

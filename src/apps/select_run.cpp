@@ -19,11 +19,11 @@
 #include <vantage/version.hpp>
 #include <vantage/vision/line_plot.hpp>
 
+#include <vantage/map/impl/whole_file.hpp>
 #include "apps/commands.hpp"
 #include "apps/named_goals.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
-#include "map/whole_file.hpp"
 
 namespace vantage::apps {
 namespace {

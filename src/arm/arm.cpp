@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <vantage/arm/arm.hpp>
 
+#include <vantage/settings/impl/option_rule.hpp>
 #include "arm/arm_memory.hpp"
 #include "arm/clear_space.hpp"
 #include "arm/postures.hpp"
 #include "arm/rrt_connect.hpp"
 #include "arm/segment_distance.hpp"
-#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

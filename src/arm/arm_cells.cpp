@@ -6,11 +6,11 @@
 #include <vantage/arm/arm.hpp>
 #include <vector>
 
+#include <vantage/robot/impl/swept_sphere.hpp>
 #include "arm/arm_memory.hpp"
 #include "arm/clear_space.hpp"
 #include "arm/postures.hpp"
 #include "arm/segment_distance.hpp"
-#include "robot/swept_sphere.hpp"
 
 namespace vantage {
 

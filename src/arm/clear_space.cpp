@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "robot/swept_sphere.hpp"
+#include <vantage/robot/impl/swept_sphere.hpp>
 
 namespace vantage::detail {
 namespace {

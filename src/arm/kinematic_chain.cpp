@@ -6,9 +6,9 @@
 #include <utility>
 #include <vantage/arm/kinematic_chain.hpp>
 
+#include <vantage/settings/impl/option_rule.hpp>
 #include "arm/chain_parts.hpp"
 #include "arm/segment_distance.hpp"
-#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

@@ -12,8 +12,8 @@
 #include <vantage/arm/rrt_platform.hpp>
 #include <vector>
 
+#include <vantage/settings/impl/option_rule.hpp>
 #include "arm/ompl_quiet.hpp"
-#include "settings/option_rule.hpp"
 
 namespace vantage {
 namespace {

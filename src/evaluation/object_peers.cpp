@@ -12,7 +12,7 @@
 #include <vantage/robot/way_around.hpp>
 #include <vantage/view/candidate_views.hpp>
 
-#include "geometry/dice.hpp"
+#include <vantage/geometry/impl/dice.hpp>
 
 namespace vantage {
 namespace {

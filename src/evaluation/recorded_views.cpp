@@ -9,7 +9,7 @@
 #include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/frontier/void_cells.hpp>
 
-#include "frontier/hull_row.hpp"
+#include <vantage/frontier/impl/hull_row.hpp>
 
 namespace vantage {
 namespace {

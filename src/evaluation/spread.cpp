@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/evaluation/spread.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 

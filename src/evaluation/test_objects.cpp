@@ -11,7 +11,7 @@
 #include <vantage/evaluation/test_objects.hpp>
 #include <vector>
 
-#include "geometry/dice.hpp"
+#include <vantage/geometry/impl/dice.hpp>
 
 namespace vantage {
 namespace {

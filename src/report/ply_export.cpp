@@ -8,8 +8,8 @@
 #include <vantage/report/map_export.hpp>
 #include <vector>
 
-#include "map/plain_stream.hpp"
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/plain_stream.hpp>
+#include <vantage/map/impl/whole_file.hpp>
 #include "report/bytes.hpp"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include <vantage/report/report_json.hpp>
 #include <vector>
 
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/whole_file.hpp>
 #include "report/page_files.hpp"
 #include "report/replay.hpp"
 #include "report/replay_json.hpp"

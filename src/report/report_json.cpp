@@ -5,7 +5,7 @@
 #include <vantage/version.hpp>
 #include <vector>
 
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/whole_file.hpp>
 
 namespace vantage {
 namespace {

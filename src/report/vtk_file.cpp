@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "map/plain_stream.hpp"
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/plain_stream.hpp>
+#include <vantage/map/impl/whole_file.hpp>
 #include "report/base64.hpp"
 #include "report/bytes.hpp"
 #include "report/record_chunk.hpp"

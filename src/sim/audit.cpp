@@ -9,8 +9,8 @@
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/sim/audit.hpp>
 
-#include "raytrace/shared_work.hpp"
-#include "settings/option_rule.hpp"
+#include <vantage/raytrace/impl/shared_work.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 namespace {

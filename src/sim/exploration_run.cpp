@@ -14,8 +14,8 @@
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/view/candidate_views.hpp>
 
+#include <vantage/settings/impl/option_rule.hpp>
 #include "report/full_map.hpp"
-#include "settings/option_rule.hpp"
 #include "sim/run_progress.hpp"
 #include "sim/timed_robot.hpp"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/sim/ground_plan.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 namespace {

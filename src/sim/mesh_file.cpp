@@ -18,7 +18,7 @@
 #include <vantage/sim/mesh_file.hpp>
 #include <vector>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "sim/ply_check.hpp"
 
 namespace vantage {

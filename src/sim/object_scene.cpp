@@ -5,8 +5,8 @@
 #include <vantage/sim/object_scene.hpp>
 #include <vantage/view/candidate_views.hpp>
 
-#include "geometry/dice.hpp"
-#include "map/plain_stream.hpp"
+#include <vantage/geometry/impl/dice.hpp>
+#include <vantage/map/impl/plain_stream.hpp>
 
 namespace vantage {
 namespace {

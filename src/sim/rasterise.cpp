@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/box_overlap.hpp"
+#include <vantage/geometry/impl/box_overlap.hpp>
 
 namespace vantage {
 namespace {

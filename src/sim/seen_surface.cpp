@@ -6,7 +6,7 @@
 #include <utility>
 #include <vantage/sim/seen_surface.hpp>
 
-#include "geometry/dice.hpp"
+#include <vantage/geometry/impl/dice.hpp>
 
 namespace vantage {
 namespace {

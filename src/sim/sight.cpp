@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vantage/geometry/voxel_ray.hpp>
 
-#include "raytrace/shared_work.hpp"
+#include <vantage/raytrace/impl/shared_work.hpp>
 #include "sim/pose_tree.hpp"
 
 namespace vantage {

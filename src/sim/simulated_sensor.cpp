@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vantage/sim/simulated_sensor.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 namespace {

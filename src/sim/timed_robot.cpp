@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "robot/steady_motion.hpp"
+#include <vantage/robot/impl/steady_motion.hpp>
 
 namespace vantage::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include <vantage/robot/reachable_space.hpp>
 #include <vantage/sim/truth.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "sim/rasterise.hpp"
 #include "sim/sight.hpp"
 

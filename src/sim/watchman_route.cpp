@@ -8,8 +8,8 @@
 #include <vantage/robot/reachable_space.hpp>
 #include <vantage/sim/watchman_route.hpp>
 
-#include "raytrace/shared_work.hpp"
-#include "settings/option_rule.hpp"
+#include <vantage/raytrace/impl/shared_work.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
 #include "sim/shortest_visit.hpp"
 #include "sim/sight.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vantage/sim/world.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "sim/cell_worlds.hpp"
 #include "sim/crate_worlds.hpp"
 

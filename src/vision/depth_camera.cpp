@@ -7,7 +7,7 @@
 #include <utility>
 #include <vantage/vision/depth_camera.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vantage/vision/depth_image.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "vision/canvas.hpp"
 #include "vision/image_file.hpp"
 

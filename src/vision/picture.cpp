@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vantage/vision/picture.hpp>
 
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/whole_file.hpp>
 #include "vision/image_file.hpp"
 
 namespace vantage {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vantage/vision/recording.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "vision/recording_reader.hpp"
 
 namespace vantage {

@@ -16,7 +16,7 @@
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/vision/registration.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 namespace {

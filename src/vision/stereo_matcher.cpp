@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vantage/vision/stereo_matcher.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "vision/image_file.hpp"
 #include "vision/rectify.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vantage/vision/stereo_rig.hpp>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 #include "vision/pose_text.hpp"
 #include "vision/rectify.hpp"
 

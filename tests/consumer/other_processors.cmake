@@ -26,6 +26,7 @@ configure_file(layouts.hpp.in "${PROJECT_BINARY_DIR}/layouts.hpp" @ONLY)
 
 add_library(plain_layouts OBJECT plain_layouts.cpp)
 target_include_directories(plain_layouts PRIVATE "${PROJECT_BINARY_DIR}")
+list(REMOVE_ITEM COMPONENTS headers)
 list(TRANSFORM COMPONENTS PREPEND vantage:: OUTPUT_VARIABLE component_targets)
 target_link_libraries(plain_layouts PRIVATE ${component_targets})
 

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "field/block_graph.hpp"
-#include "field/refinement.hpp"
+#include <vantage/field/impl/block_graph.hpp>
+#include <vantage/field/impl/refinement.hpp>
 #include "random_rooms.hpp"
 
 namespace vantage {

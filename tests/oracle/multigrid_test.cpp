@@ -12,7 +12,7 @@
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/field/streamline.hpp>
 
-#include "field/brick_solver.hpp"
+#include <vantage/field/impl/brick_solver.hpp>
 #include "random_laplace.hpp"
 #include "random_rooms.hpp"
 #include "support/sanitized.hpp"

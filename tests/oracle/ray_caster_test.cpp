@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map/ray_block.hpp>
 #include <random>
-#include <raytrace/blocking_grid.hpp>
-#include <raytrace/tile_walk.hpp>
 #include <stdexcept>
 #include <support/hollow_map.hpp>
 #include <support/random_maps.hpp>
 #include <support/real_data.hpp>
+#include <vantage/map/impl/ray_block.hpp>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/raytrace/impl/blocking_grid.hpp>
+#include <vantage/raytrace/impl/tile_walk.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vector>
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <optional>
 #include <random>
-#include <raytrace/slice_beam.hpp>
-#include <raytrace/slice_flood.hpp>
 #include <set>
 #include <tuple>
 #include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/raytrace/impl/slice_beam.hpp>
+#include <vantage/raytrace/impl/slice_flood.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vector>
 

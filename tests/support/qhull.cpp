@@ -12,7 +12,7 @@ extern "C" {
 #include <stdexcept>
 #include <string>
 
-#include "geometry/plane_distance.hpp"
+#include <vantage/geometry/impl/plane_distance.hpp>
 
 namespace vantage::test {
 namespace {

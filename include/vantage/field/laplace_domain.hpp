@@ -115,3 +115,7 @@ template <OccupancyLookup Lookup>
 }
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/field/impl/laplace_domain.ipp>
+#endif

@@ -120,3 +120,7 @@ class LaplaceMultigrid {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/field/impl/laplace_multigrid.ipp>
+#endif

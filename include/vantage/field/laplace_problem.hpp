@@ -75,3 +75,7 @@ class LaplaceProblem {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/field/impl/laplace_problem.ipp>
+#endif

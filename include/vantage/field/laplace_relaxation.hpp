@@ -114,3 +114,7 @@ class LaplaceRelaxation {
                                             std::span<const double> start = {});
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/field/impl/laplace_relaxation.ipp>
+#endif

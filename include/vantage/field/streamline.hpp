@@ -41,3 +41,7 @@ struct Descent {
                                                                      const Eigen::Vector3d& from_m);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/field/impl/streamline.ipp>
+#endif

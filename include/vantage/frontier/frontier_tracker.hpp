@@ -99,3 +99,7 @@ class FrontierTracker {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/frontier_tracker.ipp>
+#endif

@@ -34,3 +34,7 @@ struct FrontierVoid {
     FrontierShare share = FrontierShare::TouchingCells);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/frontier_voids.ipp>
+#endif

@@ -43,3 +43,7 @@ template <OccupancyLookup Lookup>
     const std::vector<VoxelIndex>& cells, Connectivity connectivity = Connectivity::Corner26);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/frontiers.ipp>
+#endif

@@ -21,3 +21,7 @@ namespace VANTAGE_EXPORT vantage {
 [[nodiscard]] std::size_t count_void_cells(const OccupancyMap& map);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/void_cells.ipp>
+#endif

@@ -84,3 +84,7 @@ class VoidClusters {
                                               const VoidClusterOptions& options = {});
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/void_clusters.ipp>
+#endif

@@ -35,3 +35,7 @@ class VoidTiles {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/void_tiles.ipp>
+#endif

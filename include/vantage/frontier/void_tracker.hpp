@@ -92,3 +92,7 @@ class VoidTracker {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/frontier/impl/void_tracker.ipp>
+#endif

@@ -34,3 +34,7 @@ struct Box {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/box.ipp>
+#endif

@@ -52,3 +52,7 @@ class CellMoments {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/cell_moments.ipp>
+#endif

@@ -23,3 +23,7 @@ struct Ellipsoid {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/ellipsoid.ipp>
+#endif

@@ -76,3 +76,7 @@ class LatticeHull {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/lattice_hull.ipp>
+#endif

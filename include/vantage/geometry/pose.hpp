@@ -44,3 +44,7 @@ using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 }
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/pose.ipp>
+#endif

@@ -17,3 +17,7 @@ enum class Connectivity : std::uint8_t { Face6, Edge18, Corner26 };
                                                                   Connectivity connectivity = Connectivity::Corner26);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/voxel_clusters.ipp>
+#endif

@@ -153,3 +153,7 @@ class VoxelRay::iterator {
 inline VoxelRay::iterator VoxelRay::begin() const { return iterator(*this); }
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/geometry/impl/voxel_ray.ipp>
+#endif

@@ -95,3 +95,7 @@ class HeightBand {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/height_band.ipp>
+#endif

@@ -104,3 +104,7 @@ class MapFollower {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/map_follower.ipp>
+#endif

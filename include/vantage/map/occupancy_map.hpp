@@ -280,3 +280,10 @@ class OccupancyMap {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/assign_brick.ipp>
+#include <vantage/map/impl/insert_scan.ipp>
+#include <vantage/map/impl/map_bounds.ipp>
+#include <vantage/map/impl/occupancy_map.ipp>
+#endif

@@ -88,3 +88,8 @@ class OctomapFollower {
 };
 
 }  // namespace vantage
+
+// Without OctoMap nothing of this can be called.
+#if defined(VANTAGE_HEADER_ONLY) && __has_include(<octomap/OcTree.h>)
+#include <vantage/map/impl/octomap_bridge.ipp>
+#endif

@@ -49,3 +49,7 @@ class PointsView {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/points_view.ipp>
+#endif

@@ -78,3 +78,7 @@ struct ScanReport {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/scan.ipp>
+#endif

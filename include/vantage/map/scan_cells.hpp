@@ -21,3 +21,7 @@ struct ScanCells {
                                    RayPolicy policy = RayPolicy::EveryReturn);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/scan_cells.ipp>
+#endif

@@ -46,3 +46,7 @@ class ScanLog {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/map/impl/scan_log.ipp>
+#endif

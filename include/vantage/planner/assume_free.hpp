@@ -22,3 +22,7 @@ void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, 
 [[nodiscard]] double start_clearance_m(const Platform& platform, const RangeSensor& sensor);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/assume_free.ipp>
+#endif

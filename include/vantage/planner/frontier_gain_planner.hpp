@@ -36,3 +36,7 @@ class FrontierGainPlanner final : public FrontierPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/frontier_gain_planner.ipp>
+#endif

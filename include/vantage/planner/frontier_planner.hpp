@@ -66,3 +66,7 @@ class FrontierPlanner : public ExplorationPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/frontier_planner.ipp>
+#endif

@@ -152,3 +152,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/frontier_void_planner.ipp>
+#include <vantage/planner/impl/frontier_void_views.ipp>
+#endif

@@ -118,3 +118,8 @@ class HarmonicPlanner final : public FrontierPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/harmonic_field.ipp>
+#include <vantage/planner/impl/harmonic_planner.ipp>
+#endif

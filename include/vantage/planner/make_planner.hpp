@@ -25,3 +25,7 @@ namespace VANTAGE_EXPORT vantage {
 [[nodiscard]] const std::vector<std::string_view>& planner_names();
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/make_planner.ipp>
+#endif

@@ -19,3 +19,7 @@ class NearestFrontierPlanner final : public FrontierPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/nearest_frontier_planner.ipp>
+#endif

@@ -30,3 +30,7 @@ class NextBestViewExplorer final : public FrontierPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/next_best_view_explorer.ipp>
+#endif

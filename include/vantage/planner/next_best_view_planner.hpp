@@ -95,3 +95,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/next_best_view_planner.ipp>
+#endif

@@ -66,3 +66,7 @@ class ObjectPlanner final : public ExplorationPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/object_planner.ipp>
+#endif

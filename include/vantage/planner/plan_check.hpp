@@ -25,3 +25,7 @@ enum class PlanCheck : std::uint8_t {
                               const Pose& current, double off_path_m = 0.5);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/plan_check.ipp>
+#endif

@@ -30,3 +30,7 @@ struct PlannerSetup {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/planner_setup.ipp>
+#endif

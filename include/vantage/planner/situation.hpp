@@ -10,7 +10,6 @@
 #include <vantage/map/following.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/planner_setup.hpp>
-#include <vantage/planner/target_view.hpp>
 #include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/frontier_survey.hpp>
 #include <vantage/view/frontier_surveyor.hpp>
@@ -18,6 +17,8 @@
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
+
+struct TargetView;
 
 /// The input of a plan: the map and its frontier, the reachable space, the observable frontier cells with their
 /// viewpoints, and the memory of tried views. A planner owns one and updates it once per plan; the strategy only
@@ -110,3 +111,7 @@ class Situation {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/situation.ipp>
+#endif

@@ -30,3 +30,7 @@ struct TargetView {
                                         std::uint64_t& operations);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/target_view.ipp>
+#endif

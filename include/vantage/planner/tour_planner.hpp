@@ -59,3 +59,7 @@ class TourPlanner final : public FrontierPlanner {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/tour_planner.ipp>
+#endif

@@ -50,3 +50,7 @@ class UniformRayTracer {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/evaluate_view.ipp>
+#endif

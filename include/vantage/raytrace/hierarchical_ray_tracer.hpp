@@ -111,3 +111,7 @@ HierarchicalCounts trace_hierarchically(const Tree& tree, const Cast& cast) {
 }
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/hierarchical_ray_tracer.ipp>
+#endif

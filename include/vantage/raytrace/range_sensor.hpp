@@ -76,3 +76,7 @@ struct RangeSensor {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/range_sensor.ipp>
+#endif

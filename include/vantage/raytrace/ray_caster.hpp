@@ -131,3 +131,7 @@ RayEnd first_not_free(const Lookup& map, const VoxelFrame& frame, const Eigen::V
 }
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/ray_caster.ipp>
+#endif

@@ -63,3 +63,7 @@ class RayTree {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/ray_tree.ipp>
+#endif

@@ -94,3 +94,7 @@ class ViewRays {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/view_rays.ipp>
+#endif

@@ -44,3 +44,7 @@ class AdmittedCells {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/admitted_cells.ipp>
+#endif

@@ -96,3 +96,8 @@ class CapabilityMap {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/capability_file.ipp>
+#include <vantage/robot/impl/capability_map.ipp>
+#endif

@@ -50,3 +50,7 @@ class FreeFlyer final : public Platform {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/free_flyer.ipp>
+#endif

@@ -51,3 +51,7 @@ class GridPaths {
                                                          const Pose& from, const Pose& to);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/grid_path.ipp>
+#endif

@@ -44,3 +44,7 @@ class GroundRobot final : public Platform {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/ground_robot.ipp>
+#endif

@@ -30,3 +30,7 @@ struct MotionModel {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/motion_model.ipp>
+#endif

@@ -48,3 +48,7 @@ class Platform {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/platform.ipp>
+#endif

@@ -108,3 +108,7 @@ class ReachableSpace {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/reachable_space.ipp>
+#endif

@@ -70,3 +70,7 @@ class Trajectory {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/trajectory.ipp>
+#endif

@@ -32,3 +32,7 @@ class Turning {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/turning.ipp>
+#endif

@@ -19,3 +19,7 @@ namespace VANTAGE_EXPORT vantage {
                                                           const Eigen::Vector3d& middle);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/way_around.ipp>
+#endif

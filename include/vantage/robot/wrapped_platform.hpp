@@ -52,3 +52,7 @@ class WrappedPlatform : public Platform {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/robot/impl/wrapped_platform.ipp>
+#endif

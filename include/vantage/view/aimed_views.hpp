@@ -44,3 +44,7 @@ void validate(const AimedViewOptions& options);
                                             const AimedViewOptions& options, std::uint64_t seed);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/aimed_views.ipp>
+#endif

@@ -32,3 +32,7 @@ namespace VANTAGE_EXPORT vantage {
                                                 std::size_t count, std::uint64_t seed);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/candidate_views.ipp>
+#endif

@@ -62,12 +62,6 @@ struct FrontierSurvey {
   [[nodiscard]] std::optional<FrontierTarget> target_seen_from(const VoxelIndex& viewpoint) const;
 };
 
-/// Surveys the map once, with the sensor at `current` (world_from_sensor). Unknown cells that `tried` has given up
-/// are no targets. For repeated surveys of a changing map, a FrontierSurveyor is faster.
-[[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
-                                              const RangeSensor& sensor, const Pose& current,
-                                              const FrontierSurveyOptions& options, const TriedViews& tried);
-
 /// Whether there is a clear line of sight from `from` (metres, world) to the centre of `target`: every cell on the
 /// line before `target` is free and not contested. Adds the number of visited cells to `operations`.
 [[nodiscard]] bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
@@ -79,3 +73,7 @@ struct FrontierSurvey {
                         const VoxelIndex& unknown, std::uint64_t& operations);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/frontier_survey.ipp>
+#endif

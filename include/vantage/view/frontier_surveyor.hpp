@@ -12,6 +12,12 @@ class SightMemory;
 
 namespace VANTAGE_EXPORT vantage {
 
+/// Surveys the map once, with the sensor at `current` (world_from_sensor). Unknown cells that `tried` has given up
+/// are no targets. For repeated surveys of a changing map, a FrontierSurveyor is faster.
+[[nodiscard]] FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
+                                              const RangeSensor& sensor, const Pose& current,
+                                              const FrontierSurveyOptions& options, const TriedViews& tried);
+
 /// Surveys a map repeatedly while it changes.
 ///
 /// The result is always the same as that of `survey_frontiers`: the same targets with the same viewpoints. It is only
@@ -55,3 +61,7 @@ class FrontierSurveyor {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/frontier_surveyor.ipp>
+#endif

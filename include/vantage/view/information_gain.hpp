@@ -80,3 +80,7 @@ class ViewGain {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/information_gain.ipp>
+#endif

@@ -39,3 +39,7 @@ void validate(const ObjectViewOptions& options);
                                                 std::uint64_t seed);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/object_views.ipp>
+#endif

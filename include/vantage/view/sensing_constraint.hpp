@@ -48,3 +48,7 @@ void validate(const SensingOptions& options);
                                            const SensingOptions& options);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/sensing_constraint.ipp>
+#endif

@@ -189,3 +189,8 @@ class TriedViews {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/tried_views.ipp>
+#include <vantage/view/impl/tried_views_text.ipp>
+#endif

@@ -67,3 +67,7 @@ class UnknownSight {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/unknown_sight.ipp>
+#endif

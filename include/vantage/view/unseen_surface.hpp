@@ -62,3 +62,7 @@ class UnseenSurface {
 };
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/unseen_surface.ipp>
+#endif

@@ -45,3 +45,7 @@ struct AccumulatedUtility {
                                                     double max_range_m);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/utility_vectors.ipp>
+#endif

@@ -17,3 +17,7 @@ namespace VANTAGE_EXPORT vantage {
 [[nodiscard]] std::vector<std::size_t> cover_views(std::span<const CellSet> seen, std::size_t min_new_cells = 1);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/view_cover.ipp>
+#endif

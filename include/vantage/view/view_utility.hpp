@@ -56,3 +56,7 @@ using EvaluateViews = std::function<std::vector<ViewEvaluation>(std::span<const 
                                                   const UtilityFactors& factors, std::size_t threads = 1);
 
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/view_utility.ipp>
+#endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "map/brick_tree.hpp"
+#include <vantage/map/impl/brick_tree.hpp>
 
 #include <gtest/gtest.h>
 

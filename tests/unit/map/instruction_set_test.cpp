@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map/ray_block.hpp>
-#include <map/ray_lanes.hpp>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/map/impl/ray_block.hpp>
+#include <vantage/map/impl/ray_lanes.hpp>
 #include <vector>
 
 namespace vantage {

@@ -11,7 +11,7 @@
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
-#include "geometry/box_around.hpp"
+#include <vantage/geometry/impl/box_around.hpp>
 #include "support/changing_map.hpp"
 #include "support/compare_with_definition.hpp"
 #include "support/sanitized.hpp"

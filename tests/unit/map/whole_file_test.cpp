@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "map/whole_file.hpp"
+#include <vantage/map/impl/whole_file.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

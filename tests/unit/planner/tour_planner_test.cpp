@@ -15,9 +15,9 @@
 #include <vantage/map/brick_set.hpp>
 #include <vector>
 
-#include "planner/block_ways.hpp"
-#include "planner/frontier_sites.hpp"
-#include "planner/open_tour.hpp"
+#include <vantage/planner/impl/block_ways.hpp>
+#include <vantage/planner/impl/frontier_sites.hpp>
+#include <vantage/planner/impl/open_tour.hpp>
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include <vantage/geometry/raster_order.hpp>
 #include <vector>
 
-#include "planner/unknown_ways.hpp"
+#include <vantage/planner/impl/unknown_ways.hpp>
 
 namespace vantage {
 namespace {

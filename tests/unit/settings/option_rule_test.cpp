@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "settings/option_rule.hpp"
+#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "settings/setting_table.hpp"
+#include <vantage/settings/impl/setting_table.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/view/frontier_survey.hpp>
+#include <vantage/view/frontier_surveyor.hpp>
 
 namespace vantage {
 namespace {

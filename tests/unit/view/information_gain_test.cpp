@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <map/ray_block.hpp>
 #include <random>
-#include <raytrace/view_placer.hpp>
 #include <stdexcept>
 #include <string>
 #include <support/hollow_map.hpp>
+#include <vantage/map/impl/ray_block.hpp>
+#include <vantage/raytrace/impl/view_placer.hpp>
 #include <vantage/view/candidate_views.hpp>
 #include <vantage/view/information_gain.hpp>
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Shade & Newman 2011, "Choosing Where To Go: Complete 3D Exploration With Stereo", section IV-C.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vantage/field/laplace_relaxation.hpp>
+
+#include <vantage/settings/impl/option_rule.hpp>
+
+namespace vantage {
+namespace detail {
+
+using Position = LaplaceProblem::Position;
+
+inline bool is_red(const VoxelIndex& cell) { return ((cell.x ^ cell.y ^ cell.z) & 1) == 0; }
+
+}  // namespace detail
+
+VANTAGE_INLINE void RelaxationOptions::validate() const {
+  detail::require_option(tolerance > 0.0, "RelaxationOptions::tolerance", tolerance, "> 0");
+  detail::require_option(max_sweeps > 0, "RelaxationOptions::max_sweeps", max_sweeps, "> 0");
+  detail::require_option(over_relaxation > 0.0 && over_relaxation < 2.0, "RelaxationOptions::over_relaxation",
+                         over_relaxation, "in (0, 2)");
+  detail::require_option(uniform_source >= 0.0 && std::isfinite(uniform_source), "RelaxationOptions::uniform_source",
+                         uniform_source, ">= 0 and finite");
+}
+
+VANTAGE_INLINE LaplaceRelaxation::LaplaceRelaxation(const LaplaceProblem& problem, const RelaxationOptions& options)
+    : problem_(&problem), options_(options), values_(problem.size() + 1, 0.0) {
+  options_.validate();
+  values_[static_cast<std::size_t>(problem.source())] = 1.0;
+  const auto size = static_cast<detail::Position>(problem.size());
+  rows_.reserve(problem.size());
+  for (const bool red : {true, false}) {
+    for (detail::Position position = 0; position < size; ++position) {
+      const bool due =
+          options_.order == SweepOrder::Lexicographic ? red : detail::is_red(problem.cell(position)) == red;
+      // A cell without an open face is alone in its component, so it is the source.
+      if (due && problem.kind(position) == LaplaceCell::Interior) {
+        rows_.push_back(row_of(position));
+      }
+    }
+  }
+  source_per_cell_ = rows_.empty() ? 0.0 : options_.uniform_source / static_cast<double>(rows_.size());
+}
+
+VANTAGE_INLINE LaplaceRelaxation::Row LaplaceRelaxation::row_of(detail::Position position) const {
+  const auto nothing = static_cast<detail::Position>(problem_->size());
+  Row row{problem_->neighbours(position), position, 0.0};
+  int terms = 0;
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (row.neighbours[face] != LaplaceProblem::kClosed) {
+      ++terms;
+      continue;
+    }
+    const detail::Position opposite = problem_->neighbours(position)[face ^ 1U];
+    if (options_.neumann == NeumannScheme::Mirror && opposite != LaplaceProblem::kClosed) {
+      row.neighbours[face] = opposite;  // eq. 9
+      ++terms;
+    } else {
+      row.neighbours[face] = nothing;  // both faces of an axis are closed, so phi does not vary along it
+    }
+  }
+  row.weight = 1.0 / terms;
+  return row;
+}
+
+VANTAGE_INLINE void LaplaceRelaxation::start_from(std::span<const double> phi) {
+  if (phi.size() != problem_->size()) {
+    throw std::invalid_argument("LaplaceRelaxation: the start has " + std::to_string(phi.size()) + " values for " +
+                                std::to_string(problem_->size()) + " cells");
+  }
+  if (!std::all_of(phi.begin(), phi.end(), [](double value) { return std::isfinite(value); })) {
+    throw std::invalid_argument("LaplaceRelaxation: the start has a value that is not finite");
+  }
+  for (const Row& row : rows_) {
+    values_[static_cast<std::size_t>(row.self)] = phi[static_cast<std::size_t>(row.self)];
+  }
+}
+
+VANTAGE_INLINE double LaplaceRelaxation::mean_of(const Row& row) const {
+  const auto value = [this](detail::Position position) { return values_[static_cast<std::size_t>(position)]; };
+  const auto& n = row.neighbours;
+  return row.weight * ((value(n[0]) + value(n[1])) + (value(n[2]) + value(n[3])) + (value(n[4]) + value(n[5])) +
+                       source_per_cell_);  // eq. 8
+}
+
+VANTAGE_INLINE double LaplaceRelaxation::sweep() {
+  double largest = 0.0;
+  for (const Row& row : rows_) {
+    double& value = values_[static_cast<std::size_t>(row.self)];
+    const double previous = std::abs(value);
+    const double step = options_.over_relaxation * (mean_of(row) - value);
+    value += step;
+    if (std::abs(step) > largest * previous) {
+      largest = std::abs(step) / previous;  // eq. 10; infinite for the first change of a zero value
+    }
+  }
+  ++report_.sweeps;
+  report_.cell_updates += rows_.size();
+  report_.last_change = largest;
+  return largest;
+}
+
+VANTAGE_INLINE void LaplaceRelaxation::run() {
+  const auto started = std::chrono::steady_clock::now();
+  report_.stop = LaplaceStop::SweepLimit;
+  while (report_.sweeps < options_.max_sweeps) {
+    if (sweep() < options_.tolerance) {
+      report_.stop = LaplaceStop::Converged;
+      break;
+    }
+  }
+  report_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+VANTAGE_INLINE void LaplaceRelaxation::run(std::size_t count) {
+  const auto started = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < count; ++i) {
+    sweep();
+  }
+  report_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+VANTAGE_INLINE double LaplaceRelaxation::largest_defect() const {
+  double largest = 0.0;
+  for (const Row& row : rows_) {
+    largest = std::max(largest, std::abs(mean_of(row) - values_[static_cast<std::size_t>(row.self)]));
+  }
+  return largest;
+}
+
+VANTAGE_INLINE LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options,
+                                             std::span<const double> start) {
+  LaplaceRelaxation relaxation(problem, options);
+  if (!start.empty()) {
+    relaxation.start_from(start);
+  }
+  relaxation.run();
+  return {{relaxation.phi().begin(), relaxation.phi().end()}, relaxation.report()};
+}
+
+}  // namespace vantage

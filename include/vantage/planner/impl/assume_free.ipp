@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vantage/planner/assume_free.hpp>
+
+#include <vantage/settings/impl/option_rule.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline constexpr double kFurthestClearM = 5.0;
+
+}  // namespace detail
+
+// The body is the ellipsoid inscribed in its box: the corners of the box may contain a wall.
+VANTAGE_INLINE void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, double clearance_m) {
+  detail::require_option(clearance_m >= 0.0 && clearance_m <= detail::kFurthestClearM, "assume_free: clearance_m",
+                         clearance_m, "in [0, 5] metres");
+  const Box body = platform.body_box(pose);
+  const VoxelFrame& frame = map.frame();
+  const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
+  const Eigen::Vector3d clear = Eigen::Vector3d::Constant(clearance_m);
+  const Eigen::Vector3d position = pose.translation();
+  const Eigen::Vector3d least = body.min.cwiseMin(position - clear);
+  const Eigen::Vector3d most = body.max.cwiseMax(position + clear);
+  for_each_cell(VoxelBox{frame.cell_of(least), frame.cell_of(most) + VoxelIndex{1, 1, 1}},
+                [&](const VoxelIndex& cell) {
+                  const Box box = frame.box_of(cell);
+                  const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
+                  const bool in_body = (nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9;
+                  if (in_body || box.distance_to(position) < clearance_m) {
+                    const Eigen::Vector3d within = 0.25 * box.extent();
+                    map.assume_free({box.min + within, box.max - within});
+                  }
+                });
+}
+
+VANTAGE_INLINE double start_clearance_m(const Platform& platform, const RangeSensor& sensor) {
+  const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
+  // Distance at which an opening of half-width side_m fits into a field of view. A field of view of about 0 is that
+  // of a planar sensor; nothing lies beside it, so it needs no distance.
+  constexpr double kFlatRad = 1e-2;
+  const auto fits_at_m = [](double side_m, double angle_rad) {
+    return angle_rad > kFlatRad && angle_rad < std::numbers::pi ? side_m / std::tan(0.5 * angle_rad) : 0.0;
+  };
+  const double side_m = std::max(half.x(), half.y());
+  const double blind_m = std::max({fits_at_m(half.z(), sensor.vertical_angle_rad()),
+                                   fits_at_m(side_m, sensor.horizontal_angle_rad()), sensor.min_range_m});
+  return blind_m > 0.0 ? std::min(std::hypot(blind_m, std::max(side_m, half.z())), detail::kFurthestClearM) : 0.0;
+}
+
+}  // namespace vantage

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vantage/planner/frontier_planner.hpp>
+#include <vantage/robot/grid_path.hpp>
+
+#include <vantage/planner/impl/stopwatch.hpp>
+
+namespace vantage {
+VANTAGE_INLINE ChosenView nearest_view(const Situation& situation, std::uint64_t& operations) {
+  const FrontierSurvey& survey = situation.survey();
+  std::vector<VoxelIndex> way = GridPaths(situation.reachable()).to_nearest(survey.viewpoints());
+  const std::optional<FrontierTarget> nearest = survey.target_seen_from(way.back());
+  return {.view = view_of_target(situation, *nearest, operations), .way = std::move(way)};
+}
+
+VANTAGE_INLINE void ExplorationPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/,
+                                               GoalResult /*result*/) {}
+VANTAGE_INLINE std::string ExplorationPlanner::memory() const { return {}; }
+VANTAGE_INLINE void ExplorationPlanner::recall(const OccupancyMap& /*map*/, std::string_view /*memory*/) {}
+
+VANTAGE_INLINE std::optional<std::vector<Pose>> FrontierPlanner::path_to(const Pose& view,
+                                                                         std::span<const VoxelIndex> way) const {
+  const OccupancyMap& map = situation_.map();
+  if (situation_.reachable().only_turns()) {
+    return std::vector<Pose>{situation_.current(), view};
+  }
+  std::vector<VoxelIndex> shortest;
+  if (way.empty()) {
+    shortest = GridPaths(situation_.reachable()).to(map.frame().cell_of(view.translation()));
+    way = shortest;
+  }
+  auto path = way.empty() ? std::nullopt : poses_along(map, situation_.platform(), situation_.current(), way, view);
+  return path ? std::move(path) : situation_.platform().path(map, situation_.current(), view);
+}
+
+VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
+  situation_.sync(map, current);
+  Plan plan = situation_.open_plan();
+  prepare(plan);
+  if (std::optional<Plan> end = situation_.end()) {
+    end->statistics.void_cells = plan.statistics.void_cells;
+    if (end->outcome == Outcome::Move) {
+      situation_.remember(*end, {});
+    }
+    return std::move(*end);
+  }
+  plan.reason = "the platform cannot follow the way to any view of a frontier";
+  while (!situation_.survey().targets.empty()) {
+    detail::Stopwatch watch;
+    std::optional<ChosenView> choice = choose(plan);
+    plan.statistics.choose_ms += watch.lap_ms();
+    if (!choice) {
+      return plan;
+    }
+    TargetView& view = choice->view;
+    if (choice->path.empty()) {
+      choice->path = path_to(view.view.pose, choice->way).value_or(std::vector<Pose>());
+    }
+    plan.statistics.path_ms += watch.lap_ms();
+    if (choice->path.empty()) {
+      if (!situation_.drop(view)) {
+        return plan;
+      }
+      continue;
+    }
+    plan.outcome = Outcome::Move;
+    plan.reason = choice->reason.empty() ? "a view of " + std::to_string(view.unknown.size()) + " unknown cells"
+                                         : std::move(choice->reason);
+    plan.goal = view.view;
+    plan.path = std::move(choice->path);
+    plan.sought = std::move(view.unknown);
+    situation_.remember(plan, std::move(view.hoped));
+    return plan;
+  }
+  return plan;
+}
+
+VANTAGE_INLINE void FrontierPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) {
+  situation_.report(result);
+}
+
+}  // namespace vantage

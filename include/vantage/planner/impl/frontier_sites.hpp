@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vantage/view/frontier_survey.hpp>
+#include <vector>
+
+namespace vantage::detail {
+
+/// A part of the frontier that one view is to cover.
+struct FrontierSite {
+  FrontierTarget middle;                ///< the target nearest to the centroid of the part
+  std::vector<FrontierTarget> targets;  ///< all of them, in the order of the survey
+};
+
+/// Divides targets, in raster order of their frontier cells, into clusters that touch through corners, and those by
+/// halving until none is longer than `most_cells` along an axis.
+[[nodiscard]] std::vector<FrontierSite> frontier_sites(const std::vector<FrontierTarget>& targets,
+                                                       std::int32_t most_cells);
+
+}  // namespace vantage::detail
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/frontier_sites.ipp>
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <vantage/settings/impl/setting_table.hpp>
+#include <vantage/view/frontier_survey.hpp>
+
+namespace vantage::detail {
+
+/// The settings of how frontiers are surveyed, at the end of `members`.
+template <class Options, class... Members>
+SettingTable<Options> with_survey(std::string_view owner, Members... members) {
+  using Survey = FrontierSurveyOptions;
+  return SettingTable<Options>(owner)
+      .number("patience", "places", "from which a cell is looked at in vain before it is given up", within(1, 100),
+              members..., &Survey::patience)
+      .limit("FrontierSurveyOptions::sight_directions", at_least(6), members..., &Survey::sight_directions);
+}
+
+/// The table of a planner that has no other settings.
+[[nodiscard]] const SettingTable<FrontierSurveyOptions>& frontier_survey_settings();
+
+}  // namespace vantage::detail
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/frontier_survey_settings.ipp>
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/planner/impl/look_directions.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include <vantage/geometry/impl/box_overlap.hpp>
+#include <vantage/geometry/impl/spread_directions.hpp>
+#include <vantage/raytrace/impl/shared_work.hpp>
+
+namespace vantage::detail {
+
+// About 20 degrees between neighbours, less than half of a camera's field of view.
+inline constexpr std::size_t kDirections = 128;
+inline constexpr std::size_t kFinalists = 5;  // directions that are compared with all rays
+// Mean free path of sight in unknown space, metres.
+inline constexpr double kSightM = 4.0;
+// Probability that the surface continues in an unknown cell beside it.
+inline constexpr double kOpaqueBesideSurface = 0.5;
+
+// The unknown cells in a box with half-side `range_m` around the position.
+inline std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eigen::Vector3d& position,
+                                                    double range_m) {
+  const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
+  const VoxelBox near{map.frame().cell_of(position - range),
+                      map.frame().cell_of(position + range) + VoxelIndex{1, 1, 1}};
+  std::vector<VoxelIndex> cells;
+  for_each_cell(box_overlap(near, map.bounds()), [&](const VoxelIndex& cell) {
+    if (map.at(cell) == Occupancy::Unknown && map.in_region(cell)) {
+      cells.push_back(cell);
+    }
+  });
+  return cells;
+}
+
+VANTAGE_INLINE LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d& position,
+                                              std::uint64_t& operations)
+    : situation_(situation),
+      position_(position),
+      place_(situation.map().frame().cell_of(position)),
+      targets_(situation, position, counted_range_m(situation.map(), situation.sensor()), operations),
+      operations_(operations) {
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
+  targets_.leave_out_tried();
+  if (!targets_.all().empty()) {
+    sight_.emplace(map, unknown_cells_around(map, position, sensor.max_range_m),
+                   UnknownSightOptions{.opaque_share = 1.0 - std::exp(-map.resolution_m() / kSightM),
+                                       .opaque_beside_surface = kOpaqueBesideSurface,
+                                       .reports_no_return = sensor.reports_no_return});
+  }
+}
+
+// A sensor that looks all around horizontally sees nearly the same in every direction.
+VANTAGE_INLINE bool LookDirections::choosable(const OccupancyMap& map, const RangeSensor& sensor) {
+  constexpr double kAllAround = 2.0 * std::numbers::pi - 1e-3;
+  return sensor.horizontal_angle_rad() < kAllAround && map.bounds().hi.z - map.bounds().lo.z > 1;
+}
+
+VANTAGE_INLINE std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {
+  std::vector<Look> looks;
+  for (const Eigen::Vector3d& direction : spread_directions(kDirections)) {
+    const Pose pose = situation_.platform().facing(position_, direction);
+    TargetView seen = targets_.in_view(pose);
+    const bool serves = wanted ? std::find(seen.unknown.begin(), seen.unknown.end(), *wanted) != seen.unknown.end()
+                               : !seen.unknown.empty();
+    if (serves) {
+      looks.push_back({std::move(seen)});
+    }
+  }
+  // Most directions are told apart by few rays.
+  if (looks.size() > kFinalists) {
+    rank(looks, situation_.sparse_rays());
+    looks.resize(kFinalists);
+  }
+  rank(looks, situation_.rays());
+  return looks.empty() ? std::nullopt : std::optional<Look>(std::move(looks.front()));
+}
+
+// Counts the expected cells of each view and sorts the views, best first.
+VANTAGE_INLINE void LookDirections::rank(std::vector<Look>& looks, const ViewRays& rays) const {
+  share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
+             [&](std::size_t i) { count_expected_cells(looks[i], rays); });
+  for (Look& look : looks) {
+    operations_ += std::exchange(look.operations, 0);
+  }
+  std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
+    return a.cells != b.cells ? a.cells > b.cells : a.seen.unknown.size() > b.seen.unknown.size();
+  });
+}
+
+VANTAGE_INLINE void LookDirections::count_expected_cells(Look& look, const ViewRays& rays) const {
+  look.cells = 0.0;
+  for (const SightedCell& seen : sight_->look(situation_.caster(), look.seen.view.pose, rays, look.operations)) {
+    if (!situation_.tried().tried_from(seen.cell, place_) && !situation_.tried().gave_up(seen.cell) &&
+        !was_in_view(seen.cell)) {
+      look.cells += seen.chance;
+    }
+  }
+}
+
+// Whether the cell was in the field of view of a scan from this place, which did not resolve it.
+VANTAGE_INLINE bool LookDirections::was_in_view(const VoxelIndex& cell) const {
+  const VoxelFrame& frame = situation_.map().frame();
+  const Eigen::Vector3d line = frame.centre_of(cell) - position_;
+  const auto& scans = situation_.tried().scanned_from();
+  return std::any_of(scans.begin(), scans.end(), [&](const Pose& pose) {
+    return frame.cell_of(pose.translation()) == place_ &&
+           situation_.sensor().in_view(pose.linear().transpose() * line);
+  });
+}
+
+}  // namespace vantage::detail

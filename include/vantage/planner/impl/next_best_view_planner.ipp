@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Vasquez-Gomez, Sucar, Murrieta-Cid 2013, "Hierarchical ray tracing for fast volumetric next-best-view planning",
+// Algorithm 1.
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/raytrace/hierarchical_ray_tracer.hpp>
+#include <vantage/robot/grid_path.hpp>
+#include <vantage/robot/way_around.hpp>
+#include <vantage/view/view_cover.hpp>
+#include <vantage/view/view_utility.hpp>
+
+#include <vantage/planner/impl/stopwatch.hpp>
+#include <vantage/raytrace/impl/shared_work.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
+
+namespace vantage {
+
+VANTAGE_INLINE NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setup, const NextBestViewOptions& options)
+    : setup_(setup),
+      options_(options),
+      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.patience}) {
+  setup.validate();
+  validate(options.candidates);
+  detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
+                         options.min_unknown_cells, ">= 1");
+  detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
+                         "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
+  validate(options.sensing);
+}
+
+// Line 8: the candidates that the platform admits, in orientations that it can take.
+VANTAGE_INLINE std::vector<Pose> NextBestViewPlanner::views(const OccupancyMap& map, const VoxelBox& object) const {
+  std::vector<Pose> aimed;
+  if (options_.candidates.aimed.count > 0) {
+    CellSet sought(object);
+    for_each_cell(object, [&](const VoxelIndex& cell) {
+      if (looking_.caster().at(cell) == Occupancy::Unknown && !tried_.gave_up(cell)) {
+        sought.insert(cell);
+      }
+    });
+    aimed = aimed_views(looking_.caster(), sought, options_.candidates.aimed, setup_.seed);
+  }
+  std::vector<Pose> views = views_of_object(options_.candidates, map, *setup_.platform, aimed, setup_.seed);
+  std::erase_if(views, [&](const Pose& view) { return tried_.rests(map.frame().cell_of(view.translation())); });
+  return views;
+}
+
+// Lines 9 to 20: the utility of every candidate.
+VANTAGE_INLINE std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(
+    const OccupancyMap& map, const Pose& current, const VoxelBox& object) const {
+  const std::vector<Pose> views = this->views(map, object);
+  std::vector<CellSet> seen(views.size());
+  const std::vector<ViewEvaluation> evaluations = evaluate(map, object, views, seen);
+  const std::vector<ScoredView> scored = score(map, current, object, views, evaluations);
+  std::vector<Candidate> candidates(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    Candidate& candidate = candidates[i];
+    candidate.view = scored[i];
+    candidate.sought = CellSet(object);
+    const VoxelIndex viewpoint = map.frame().cell_of(views[i].translation());
+    std::size_t all = 0;
+    seen[i].for_each([&](const VoxelIndex& cell) {
+      if (looking_.caster().at(cell) == Occupancy::Unknown) {
+        ++all;
+        if (!tried_.gave_up(cell) && !tried_.tried_from(cell, viewpoint)) {
+          candidate.sought.insert(cell);
+        }
+      }
+    });
+    const double share =
+        static_cast<double>(candidate.sought.size()) / static_cast<double>(std::max<std::size_t>(all, 1));
+    candidate.counted = share * static_cast<double>(candidate.view.seen.unknown);
+    candidate.view.utility *= share;
+  }
+  return candidates;
+}
+
+VANTAGE_INLINE std::vector<ScoredView> NextBestViewPlanner::score(const OccupancyMap& map, const Pose& current,
+                                                                  const VoxelBox& object, std::span<const Pose> views,
+                                                                  const std::vector<ViewEvaluation>& seen) const {
+  bool any_known = false;
+  for_each_cell(object,
+                [&](const VoxelIndex& cell) { any_known = any_known || map.at(cell) == Occupancy::Occupied; });
+  UtilityFactors factors;
+  factors.registration = minimum_overlap(any_known ? options_.min_overlap_cells : 0);
+  factors.surface = unknown_cells();
+  factors.distance = nearness([&](const Pose& pose) { return setup_.platform->distance_m(current, pose); });
+  const auto scored_by = [&] {
+    return score_views(
+        views, [&](std::span<const Pose>) { return seen; }, factors);
+  };
+  if (!options_.gain) {
+    return scored_by();
+  }
+  const ViewGain gain(map, looking_.caster(), looking_.rays(), object, options_.gain(map, object));
+  factors.surface = [&](const Pose& pose, const ViewEvaluation& evaluation) {
+    return evaluation.unknown == 0 ? 0.0 : gain(pose, static_cast<std::size_t>(setup_.threads));
+  };
+  std::vector<ScoredView> scored = scored_by();
+  if (std::none_of(scored.begin(), scored.end(), [](const ScoredView& view) { return view.utility > 0.0; })) {
+    factors.surface = unknown_cells();
+    scored = scored_by();
+  }
+  return scored;
+}
+
+VANTAGE_INLINE std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& map,
+                                                                         const VoxelBox& object,
+                                                                         std::span<const Pose> views,
+                                                                         std::span<CellSet> seen) const {
+  const SensingConstraint sensing =
+      options_.sensing.restricts() ? measurable(map, object, options_.sensing) : nullptr;
+  const UniformRayTracer uniform(map);
+  std::optional<HierarchicalRayTracer> hierarchical;
+  if (options_.method == VisibilityMethod::Hierarchical) {
+    hierarchical.emplace(map, setup_.sensor, HierarchicalRayTracerOptions{.levels = options_.hierarchical_levels});
+  }
+  std::vector<ViewEvaluation> evaluations(views.size());
+  detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
+    if (options_.method == VisibilityMethod::Uniform) {
+      evaluations[i] = uniform.evaluate(views[i], looking_.rays(), object, &seen[i]);
+    } else {
+      evaluations[i] = evaluate_view(looking_.caster(), views[i], looking_.rays(), object, &seen[i]);
+    }
+    if (sensing) {
+      sensing(views[i], seen[i]);
+      evaluations[i] = {looking_.caster().count(seen[i], Occupancy::Unknown),
+                        looking_.caster().count(seen[i], Occupancy::Occupied)};
+    }
+    if (hierarchical) {
+      const HierarchicalCounts counts = hierarchical->evaluate(views[i], object);
+      evaluations[i] = {counts.unknown, counts.occupied};
+    }
+  });
+  return evaluations;
+}
+
+// Line 21: the candidates with a utility above 0, the best first.
+VANTAGE_INLINE std::vector<std::size_t> NextBestViewPlanner::order_of(
+    const std::vector<Candidate>& candidates) const {
+  std::vector<std::size_t> order;
+  std::vector<CellSet> sought;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].view.utility > 0.0) {
+      order.push_back(i);
+      sought.push_back(candidates[i].sought);
+    }
+  }
+  std::vector<bool> needed(candidates.size());
+  if (options_.choice == ViewChoice::Cover) {
+    for (const std::size_t i : cover_views(sought, options_.min_unknown_cells)) {
+      needed[order[i]] = true;
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return needed[a] != needed[b] ? needed[a] : candidates[a].view.utility > candidates[b].view.utility;
+  });
+  return order;
+}
+
+VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& pose) {
+  detail::Stopwatch stopwatch;
+  const Pose current = orthonormalised(pose);
+  tried_.review(map, current);
+  looking_.follow(map, setup_.sensor);
+  const VoxelBox object = map.frame().cells_centred_in(options_.candidates.object);
+  Plan plan;
+  plan.statistics.survey_ms = stopwatch.lap_ms();
+  const std::vector<Candidate> tried = candidates(map, current, object);
+  plan.statistics.views_scored = tried.size();
+  plan.statistics.evaluate_ms = stopwatch.lap_ms();
+
+  CellSet left(object);
+  bool any_worthwhile = false;
+  for (const std::size_t i : order_of(tried)) {
+    const auto& [view, sought, counted] = tried[i];
+    plan.candidates.push_back({view.pose, view.utility});
+    if (plan.outcome == Outcome::Move) {
+      continue;
+    }
+    left |= sought;
+    if (counted < static_cast<double>(options_.min_unknown_cells)) {
+      continue;
+    }
+    any_worthwhile = true;
+    plan.statistics.choose_ms += stopwatch.lap_ms();
+    auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
+    plan.statistics.path_ms += stopwatch.lap_ms();
+    if (path) {
+      plan.outcome = Outcome::Move;
+      plan.goal = {view.pose, view.utility};
+      plan.path = std::move(*path);
+      sought.for_each([&](const VoxelIndex& cell) { plan.sought.push_back(cell); });
+      plan.reason = "a view of " + std::to_string(plan.sought.size()) + " unknown cells of the object";
+    }
+  }
+  plan.statistics.choose_ms += stopwatch.lap_ms();
+  if (plan.outcome == Outcome::Move) {
+    tried_.expect(map, plan.goal.pose, way_of(plan.path), plan.sought);
+    return plan;
+  }
+  // Lines 22 to 25: no view is taken.
+  if (tried_.try_resting_again()) {
+    return this->plan(map, current);
+  }
+  const bool cut_off = any_worthwhile || tried_.any_rests();
+  plan.outcome = cut_off ? Outcome::Unreachable : Outcome::Explored;
+  (cut_off ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
+  plan.reason = cut_off ? "there is no way to any view that sees enough of the object"
+                        : "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
+                              " unknown cells of the object; all together see " + std::to_string(left.size());
+  return plan;
+}
+
+}  // namespace vantage

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/planner/frontier_gain_planner.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
+#include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/planner/impl/frontier_survey_settings.hpp>
+#include <vantage/planner/impl/next_best_view_choices.hpp>
+#include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/planner/tour_planner.hpp>
+
+#include <algorithm>
+
+#include <vantage/settings/impl/number_list.hpp>
+
+namespace vantage::detail {
+
+VANTAGE_INLINE const SettingTable<FrontierGainOptions>& frontier_gain_settings() {
+  using O = FrontierGainOptions;
+  static const auto table =
+      with_survey<O>("FrontierGainOptions", &O::survey)
+          .number("hypotheses", "poses", "tried per plan", within(1, 1e6), &O::hypotheses)
+          .number("aimed_share", "", "share of the hypotheses that look at some frontier", within(0, 1),
+                  &O::aimed_share)
+          .number("cost_per_m", "cells/m", "what a metre costs, in frontier cells", at_least(0), &O::cost_per_m);
+  return table;
+}
+
+VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings() {
+  using O = FrontierVoidOptions;
+  using S = FrontierVoidStrategy;
+  static const auto table =
+      with_survey<O>("FrontierVoidOptions", &O::survey)
+          .mode<S>("mode", "what to make of the voids; later settings refine it",
+                   {{"default", {}},
+                    {"faithful", S::faithful()},
+                    {"travelling", S::travelling()},
+                    {"searching", S::searching()}},
+                   &O::strategy)
+          .number("views", "views", "valid views evaluated per plan (N)", within(1, 1e6), &O::views)
+          .number("min_score", "", "least fit of a cluster's ellipsoid", more_than(0), &O::clusters,
+                  &VoidClusterOptions::min_score)
+          .number("cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0), &O::strategy,
+                  &S::cost_per_m)
+          .number("least_view_m3", "m^3", "a view that is expected to learn less of the voids is none", at_least(0),
+                  &O::strategy, &S::least_view_m3)
+          .flag("beyond_voids", "goes on to frontiers that border no void", &O::strategy, &S::beyond_voids)
+          .limit("FrontierVoidOptions::most_vectors", at_least(1), &O::most_vectors)
+          .limit("FrontierVoidStrategy::orientations_per_place", at_least(1), &O::strategy,
+                 &S::orientations_per_place)
+          .limit("FrontierVoidStrategy::place_spacing_m", within(0, 1e6), &O::strategy, &S::place_spacing_m)
+          .limit("FrontierVoidStrategy::finalists", at_least(1), &O::strategy, &S::finalists)
+          .limit("FrontierVoidStrategy::opaque_share", {0.0, 1.0, false}, &O::strategy, &S::opaque_share)
+          .limit("FrontierVoidStrategy::opaque_beside_surface", {0.0, 1.0, false}, &O::strategy,
+                 &S::opaque_beside_surface)
+          .limit("FrontierVoidStrategy::sought_chance", within(0, 1), &O::strategy, &S::sought_chance);
+  return table;
+}
+
+VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
+  using O = HarmonicOptions;
+  using S = HarmonicStrategy;
+  static const auto table =
+      with_survey<O>("HarmonicOptions", &O::survey)
+          .mode<S>("mode", "what to make of the field; later settings refine it",
+                   {{"default", {}}, {"faithful", S::faithful()}}, &O::strategy)
+          .choice<FieldSolver>("solver", "how the field is solved",
+                               {{"multigrid", FieldSolver::Multigrid}, {"gauss-seidel", FieldSolver::GaussSeidel}},
+                               &O::solver)
+          .choice<NeumannScheme>("neumann", "what a closed face contributes",
+                                 {{"finite-volume", NeumannScheme::FiniteVolume}, {"mirror", NeumannScheme::Mirror}},
+                                 &O::neumann)
+          .number("tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),
+                  &O::tolerance)
+          .number("uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
+                  at_least(0), &O::uniform_source)
+          .number("detour_m", "m", "boundaries further than the nearest by more than this wait", at_least(0),
+                  &O::strategy, &S::detour_m)
+          .flag("look_early", "looks from the first place on the way that sees the boundary", &O::strategy,
+                &S::look_early)
+          .number("look_spacing_m", "m", "after so much of the way any boundary in sight is looked at", at_least(0),
+                  &O::strategy, &S::look_spacing_m)
+          .number("look_again_m3", "m^3", "looks again from where it is while a view teaches that much", at_least(0),
+                  &O::strategy, &S::look_again_m3)
+          .flag("shortest_way", "takes the shortest way, not the streamline", &O::strategy, &S::shortest_way)
+          .limit("HarmonicOptions::max_sweeps", within(1, 1e7), &O::max_sweeps);
+  return table;
+}
+
+VANTAGE_INLINE const SettingTable<NextBestViewChoices>& next_best_view_settings() {
+  using C = NextBestViewChoices;
+  using O = NextBestViewOptions;
+  using V = ObjectViewOptions;
+  static const auto table = [] {
+    std::vector<std::pair<std::string_view, RayGainMaker>> gains{{"unknown-cells", nullptr}};
+    for (const std::string_view name : ray_gain_names()) {
+      gains.emplace_back(name, ray_gain_named(name));
+    }
+    return with_survey<C>("NextBestViewOptions", &C::exploration, &NextBestViewExplorerOptions::survey)
+        .text("object", "m", "the box of the object, x0,y0,z0,x1,y1,z1; none: the whole map", "six numbers",
+              [](C& options, const std::string& text) {
+                const std::vector<double> c = number_list(text);
+                if (c.size() == 6) {
+                  options.object.candidates.object = Box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
+                }
+                return c.size() == 6;
+              })
+        .text("radii_m", "m", "distances of the candidates from the middle of the object",
+              "numbers > 0, with commas between them",
+              [](C& options, const std::string& text) {
+                std::vector<double>& radii_m = options.object.candidates.radii_m;
+                radii_m = number_list(text);
+                return !radii_m.empty() && *std::min_element(radii_m.begin(), radii_m.end()) > 0.0;
+              })
+        .number("subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6), &C::object,
+                &O::candidates, &V::subdivisions)
+        .number("random_candidates", "views", "drawn besides, anywhere", within(0, 1e6), &C::object, &O::candidates,
+                &V::random_candidates)
+        .number("aimed_candidates", "views", "drawn besides, at unknown cells, from up to the largest radius",
+                within(0, 1e6), &C::object, &O::candidates, &V::aimed, &AimedViewOptions::count)
+        .number("min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
+                &C::object, &O::min_overlap_cells)
+        .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1), &C::object,
+                &O::min_unknown_cells)
+        .choice<RayGainMaker>("gain", "what new surface is worth", gains, &C::object, &O::gain)
+        .choice<ViewChoice>("choice", "which view is taken",
+                            {{"cover", ViewChoice::Cover}, {"greedy", ViewChoice::Greedy}}, &C::object, &O::choice)
+        .choice<VisibilityMethod>("method", "how views are evaluated",
+                                  {{"default", VisibilityMethod::Exact},
+                                   {"uniform", VisibilityMethod::Uniform},
+                                   {"hierarchical", VisibilityMethod::Hierarchical}},
+                                  &C::object, &O::method)
+        .number("hypotheses", "views", "without an object: weighed per plan", within(1, 1e6), &C::exploration,
+                &NextBestViewExplorerOptions::hypotheses);
+  }();
+  return table;
+}
+
+VANTAGE_INLINE const SettingTable<TourOptions>& tour_settings() {
+  using O = TourOptions;
+  static const auto table =
+      with_survey<O>("TourOptions", &O::survey)
+          .choice<TourCost>("cost", "what a tour is to save: seconds or metres",
+                            {{"time", TourCost::Time}, {"path", TourCost::Path}}, &O::cost)
+          .number("site_m", "m", "largest extent of a part of the frontier that one view is to cover", more_than(0),
+                  &O::site_m)
+          .number("most_sites", "", "the nearest parts that a tour leads over", within(1, 200), &O::most_sites);
+  return table;
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vantage/geometry/raster_order.hpp>
+#include <vantage/planner/situation.hpp>
+#include <vantage/planner/target_view.hpp>
+
+#include <vantage/planner/impl/frontier_survey_settings.hpp>
+#include <vantage/planner/impl/stopwatch.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline const PlannerSetup& valid(const PlannerSetup& setup, const FrontierSurveyOptions& options) {
+  setup.validate();
+  detail::frontier_survey_settings().validate(options);
+  return setup;
+}
+
+inline std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
+
+// The reason for a plan without targets.
+inline std::string reason_of(const FrontierSurvey& survey) {
+  if (survey.frontier_cells == 0) {
+    return "no frontier is left";
+  }
+  const Leftover& left = survey.leftover;
+  return "no observable frontier is left; frontier cells given up: " + counted(left.unreachable, "unreachable, ") +
+         counted(left.unobservable, "unobservable, ") + counted(left.in_vain, "looked at in vain") +
+         (survey.exhausted ? "" : " (not every line of sight was tried)");
+}
+
+}  // namespace detail
+
+VANTAGE_INLINE Situation::Situation(const PlannerSetup& setup, const FrontierSurveyOptions& options)
+    : setup_(detail::valid(setup, options)),
+      options_(options),
+      tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.patience}),
+      surveyor_(setup.platform, setup.sensor, options) {}
+
+VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current) {
+  detail::Stopwatch watch;
+  current_ = orthonormalised(current);
+  frontier_.follow(map);
+  map_ = &map;
+  looking_follows_ = false;
+  if (tried_.review(map, current_)) {
+    note_what_was_in_vain();
+  }
+  survey_ = surveyor_.survey(map, current_, tried_, frontier_->cells());
+  if (survey_.targets.empty() && tried_.try_resting_again()) {
+    survey_ = surveyor_.survey(map, current_, tried_, frontier_->cells());
+  }
+  sync_ms_ = watch.lap_ms();
+}
+
+// Stores as looked at in vain the unknown neighbours of frontier cells that are in the field of view, near enough
+// (half the resolving range) and in clear line of sight, since this scan should have resolved them.
+VANTAGE_INLINE void Situation::note_what_was_in_vain() {
+  const VoxelIndex here = map_->frame().cell_of(current_.translation());
+  const double furthest_m = std::min(sensor().max_range_m, 0.5 * sensor().resolving_range_m(map_->resolution_m()));
+  std::uint64_t operations = 0;
+  for (const VoxelIndex& cell : frontier_->cells()) {
+    if ((map_->frame().centre_of(cell) - current_.translation()).norm() > furthest_m) {
+      continue;
+    }
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex unknown = cell + step;
+      if (map_->in_region(unknown) && map_->at(unknown) == Occupancy::Unknown &&
+          (map_->frame().centre_of(unknown) - current_.translation()).norm() <= furthest_m &&
+          sees(*map_, sensor(), current_, unknown, operations)) {
+        tried_.in_vain(*map_, unknown, here);
+      }
+    }
+  }
+}
+
+VANTAGE_INLINE Plan Situation::open_plan() const {
+  Plan plan;
+  plan.leftover = survey_.leftover;
+  plan.statistics.frontier_cells = survey_.frontier_cells;
+  plan.statistics.observable_cells = survey_.targets.size();
+  plan.statistics.reachable_cells = reachable().size();
+  plan.statistics.ray_operations = survey_.ray_operations;
+  plan.statistics.survey_ms = sync_ms_;
+  return plan;
+}
+
+VANTAGE_INLINE std::optional<Plan> Situation::end() {
+  if (!survey_.targets.empty()) {
+    return std::nullopt;
+  }
+  Plan plan = open_plan();
+  if (map_->bounds().empty()) {
+    plan.reason = "the map is empty: insert a scan, or declare the robot's surroundings free (assume_free)";
+    return plan;
+  }
+  if (survey_.frontier_cells > 0) {
+    if (!reachable().start()) {
+      plan.reason =
+          "the platform does not admit the place where it is, and there is no free place beside it: move it into "
+          "known "
+          "free space, or declare the space around it free (assume_free)";
+      return plan;
+    }
+    if (std::optional<Plan> turn = turn_on_the_spot()) {
+      return turn;
+    }
+    if (hardly_moves()) {
+      plan.reason =
+          "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
+          detail::reason_of(survey_);
+      return plan;
+    }
+    if (const std::size_t places = tried_.places_given_up(); places > 0) {
+      plan.outcome = Outcome::Unreachable;
+      plan.reason = "the robot failed three times to get to each of " +
+                    detail::counted(places, "places with more to see; ") + detail::reason_of(survey_);
+      return plan;
+    }
+    if (const std::optional<VoxelIndex> beyond = place_cut_off()) {
+      const Eigen::Vector3d at = map_->frame().centre_of(*beyond);
+      plan.outcome = Outcome::Unreachable;
+      plan.reason = "there is more to see from free space that is cut off, around (" + std::to_string(at.x()) + ", " +
+                    std::to_string(at.y()) + ", " + std::to_string(at.z()) + "); " + detail::reason_of(survey_);
+      return plan;
+    }
+  }
+  plan.outcome = Outcome::Explored;
+  plan.reason = detail::reason_of(survey_);
+  return plan;
+}
+
+// Whether all reachable cells lie within the size of the body, or within the minimum range of the sensor, plus one
+// cell.
+VANTAGE_INLINE bool Situation::hardly_moves() const {
+  const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
+  const double little_m = std::max(body_m, sensor().min_range_m) + map_->resolution_m();
+  if (static_cast<double>(reachable().size()) > std::pow(2.0 * little_m / map_->resolution_m() + 2.0, 3)) {
+    return false;
+  }
+  const std::vector<VoxelIndex> cells = reachable().cells();
+  return std::all_of(cells.begin(), cells.end(), [&](const VoxelIndex& cell) {
+    return (reachable().position_in(cell) - current_.translation()).norm() <= little_m;
+  });
+}
+
+// A sensor with a narrow field of view does not see free space beside the body, so it first looks in all horizontal
+// directions. Views overlap by a fifth.
+VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() const {
+  constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
+  if (sensor().horizontal_angle_rad() >= kFullTurnRad - 1e-3 || !hardly_moves()) {
+    return std::nullopt;
+  }
+  const double step_rad = 0.8 * sensor().horizontal_angle_rad();
+  const auto turns = static_cast<int>(std::ceil(kFullTurnRad / step_rad));
+  const Eigen::Vector3d here = current_.translation();
+  for (int turn = 1; turn < turns; ++turn) {
+    const Eigen::AngleAxisd by(kFullTurnRad * turn / turns, Eigen::Vector3d::UnitZ());
+    const Pose view = setup_.platform->facing(here, by * optical_axis(current_));
+    const auto looks_there = [&](const Pose& scanned) {
+      return (scanned.translation() - here).norm() <= map_->resolution_m() &&
+             optical_axis(scanned).dot(optical_axis(view)) > std::cos(0.5 * step_rad);
+    };
+    if (std::none_of(tried_.scanned_from().begin(), tried_.scanned_from().end(), looks_there) &&
+        setup_.platform->admits(*map_, view)) {
+      Plan plan = open_plan();
+      plan.outcome = Outcome::Move;
+      plan.goal.pose = view;
+      plan.path = {current_, view};
+      plan.reason = "a turn on the spot: nothing is in sight that could be looked at or driven to";
+      return plan;
+    }
+  }
+  return std::nullopt;
+}
+
+// A viewpoint of a frontier cell in admitted cells that are not connected to the current place.
+VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
+  std::vector<VoxelIndex> beyond;
+  reachable().admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(admitted[word], word, [&](std::size_t offset) {
+        const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
+        if (!reachable().contains(cell)) {
+          beyond.push_back(cell);
+        }
+      });
+    }
+  });
+  std::sort(beyond.begin(), beyond.end(), RasterOrder{});
+  if (beyond.empty()) {
+    return std::nullopt;
+  }
+  FrontierSurveyor surveyor(setup_.platform, setup_.sensor, options_);
+  const FrontierSurvey survey = surveyor.survey_from(beyond, *map_, tried_, frontier_->cells());
+  return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
+}
+
+VANTAGE_INLINE bool Situation::drop(const TargetView& view) {
+  const VoxelIndex place = map_->frame().cell_of(view.view.pose.translation());
+  return std::erase_if(survey_.targets, [&](const FrontierTarget& target) {
+           return target.viewpoint == place ||
+                  std::find(view.unknown.begin(), view.unknown.end(), target.unknown) != view.unknown.end();
+         }) > 0;
+}
+
+VANTAGE_INLINE void Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {
+  tried_.expect(*map_, plan.goal.pose, way_of(plan.path), plan.sought, std::move(hoped));
+}
+
+VANTAGE_INLINE void Situation::follow_rays() const {
+  if (!looking_follows_) {
+    looking_.follow(*map_, setup_.sensor);
+    looking_follows_ = true;
+  }
+}
+
+VANTAGE_INLINE const RayCaster& Situation::caster() const {
+  follow_rays();
+  return looking_.caster();
+}
+
+VANTAGE_INLINE const ViewRays& Situation::rays() const {
+  follow_rays();
+  return looking_.rays();
+}
+
+VANTAGE_INLINE const ViewRays& Situation::sparse_rays() const {
+  follow_rays();
+  return looking_.sparse_rays();
+}
+
+}  // namespace vantage

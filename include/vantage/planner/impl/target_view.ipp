@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vantage/planner/situation.hpp>
+#include <vantage/planner/target_view.hpp>
+
+#include <vantage/planner/impl/targets_in_sight.hpp>
+
+namespace vantage {
+VANTAGE_INLINE TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::uint64_t& operations) {
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
+  const double furthest_m = detail::counted_range_m(map, sensor);
+  const VoxelIndex place = map.frame().cell_of(pose.translation());
+  TargetView seen{.view = {.pose = pose}};
+  if (situation.tried().rests(place)) {
+    return seen;
+  }
+  for (const FrontierTarget& target : situation.survey().targets) {
+    const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - pose.translation();
+    const bool in_sight = target.viewpoint == place
+                              ? sensor.in_view(pose.linear().transpose() * line)
+                              : line.norm() <= furthest_m && sees(map, sensor, pose, target.unknown, operations);
+    if (in_sight) {
+      seen.unknown.push_back(target.unknown);
+    }
+  }
+  seen.view.utility = static_cast<double>(seen.unknown.size());
+  return seen;
+}
+
+VANTAGE_INLINE TargetView view_of_target(const Situation& situation, const FrontierTarget& wanted,
+                                         std::uint64_t& operations) {
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
+  const Platform& platform = situation.platform();
+  const Eigen::Vector3d position = situation.reachable().position_in(wanted.viewpoint);
+  const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
+  const double furthest_m = std::max(detail::counted_range_m(map, sensor), line.norm());
+  const detail::TargetsInSight in_sight(situation, position, furthest_m, operations);
+  TargetView best = in_sight.in_view(platform.facing(position, line));
+  // Orientations half-way between the wanted target and about 32 others, evenly chosen from the list: more of them
+  // come into view together with the wanted one.
+  constexpr std::size_t kTried = 32;
+  const std::size_t stride = in_sight.all().size() / kTried + 1;
+  for (std::size_t i = 0; i < in_sight.all().size(); i += stride) {
+    const Eigen::Vector3d between = line.normalized() + in_sight.all()[i].line.normalized();
+    if (between.norm() < 1e-3) {
+      continue;
+    }
+    const Pose pose = platform.facing(position, between);
+    if (!sensor.in_view(pose.linear().transpose() * line)) {
+      continue;
+    }
+    TargetView candidate = in_sight.in_view(pose);
+    if (candidate.view.utility > best.view.utility) {
+      best = std::move(candidate);
+    }
+  }
+  return best;
+}
+
+}  // namespace vantage

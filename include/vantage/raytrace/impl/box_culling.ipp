@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <vantage/raytrace/impl/box_culling.hpp>
+#include <vantage/raytrace/impl/lane_queries.hpp>
+
+namespace vantage {
+VANTAGE_INLINE BoxCulling::BoxCulling(const Pose& world_from_sensor, const Box& box, InstructionSet set)
+    : set_(set), origin_(world_from_sensor.translation()), box_(box) {
+  // Much larger than the rounding error of a ray, much smaller than a cell.
+  const double margin =
+      1e-9 * (1.0 + origin_.cwiseAbs().maxCoeff() + box.min.cwiseAbs().maxCoeff() + box.max.cwiseAbs().maxCoeff());
+  box_.min.array() -= margin;
+  box_.max.array() += margin;
+  constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
+  furthest_m_ = (1.0 + kLooseness) * (box_.max - origin_).cwiseAbs().cwiseMax((box_.min - origin_).cwiseAbs()).norm();
+  const Eigen::Vector3d to_centre = box_.centre() - origin_;
+  const double distance = to_centre.norm();
+  const double radius = 0.5 * box_.extent().norm();
+  inside_sphere_ = distance <= radius;
+  if (!inside_sphere_) {
+    axis_ = world_from_sensor.linear().transpose() * to_centre / distance;
+    sin_ = radius / distance;
+    cos_ = std::sqrt(1.0 - sin_ * sin_);
+    find_outline(world_from_sensor.linear());
+  }
+}
+
+// Two tests show that a cone misses the box: it does not meet the cone around the box's bounding sphere, or it lies
+// completely on the outer side of a plane through the origin and an edge of the box's outline. The cone is completely
+// inside if it lies on the inner side of all these planes.
+VANTAGE_INLINE Meeting BoxCulling::meeting(const RayCone& cone) const {
+  if (inside_sphere_ || cone.cos_half_angle <= 0.0) {
+    return Meeting::Some;
+  }
+  const double sin_of_sum = cone.sin_half_angle * cos_ + cone.cos_half_angle * sin_;
+  const double cos_of_sum = cone.cos_half_angle * cos_ - cone.sin_half_angle * sin_;
+  if (sin_of_sum > 0.0 && cone.axis.dot(axis_) < cos_of_sum) {
+    return Meeting::None;
+  }
+  Meeting meeting = Meeting::All;
+  for (std::size_t i = 0; i < edges_; ++i) {
+    constexpr double kFlat = 1e-9;
+    const double outwards = cone.axis.dot(outwards_[i]);
+    if (outwards > cone.sin_half_angle + kFlat) {
+      return Meeting::None;
+    }
+    if (outwards > -cone.sin_half_angle) {
+      meeting = Meeting::Some;
+    }
+  }
+  return meeting;
+}
+
+// A ray meets the box if it lies on the inner side of all planes through the origin and an edge of the outline.
+VANTAGE_INLINE std::uint64_t BoxCulling::meeting(const RayTile& tile) const {
+  std::uint64_t meeting = tile.rays;
+  RayBlock::PerRay<std::int32_t> flags;
+  const float* const x = tile.directions[0].data();
+  const float* const y = tile.directions[1].data();
+  const float* const z = tile.directions[2].data();
+  for (std::size_t edge = 0; edge < edges_; ++edge) {
+    compiled_for(set_, [=, &flags, outwards = Eigen::Vector3f(outwards_[edge].cast<float>())] {
+      constexpr float kFlat = 1e-6F;  // larger than the rounding error of single precision
+      std::int32_t* const inside = flags.data();
+      VANTAGE_INDEPENDENT
+      for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+        const float out = outwards.x() * x[i] + (outwards.y() * y[i] + outwards.z() * z[i]);
+        const float slack = kFlat * (std::abs(x[i]) + (std::abs(y[i]) + std::abs(z[i])));
+        inside[i] = out <= slack ? 1 : 0;
+      }
+    });
+    meeting &= equal_to(flags, 1, set_);
+  }
+  return meeting;
+}
+
+// The outline: the edges between a face of the box that is visible from the origin and a face that is not.
+VANTAGE_INLINE void BoxCulling::find_outline(const Eigen::Matrix3d& world_from_sensor) {
+  const auto side = [&](Eigen::Index axis, bool upper) {
+    return (upper ? box_.max : box_.min)[axis] - origin_[axis];
+  };
+  const auto looks = [&](Eigen::Index axis, bool upper) { return side(axis, upper) * (upper ? 1.0 : -1.0) < 0.0; };
+  const Eigen::Vector3d to_centre = box_.centre() - origin_;
+  for (Eigen::Index along = 0; along < 3; ++along) {
+    const Eigen::Index a = (along + 1) % 3;
+    const Eigen::Index b = (along + 2) % 3;
+    for (unsigned edge = 0; edge < 4; ++edge) {
+      const bool upper_a = (edge & 1U) != 0;
+      const bool upper_b = (edge & 2U) != 0;
+      if (looks(a, upper_a) != looks(b, upper_b)) {
+        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+        normal[a] = side(b, upper_b);
+        normal[b] = -side(a, upper_a);
+        normal *= (normal.dot(to_centre) > 0.0 ? -1.0 : 1.0) / normal.norm();
+        outwards_[edges_++] = world_from_sensor.transpose() * normal;
+      }
+    }
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <vantage/raytrace/impl/blocking_grid.hpp>
+#include <vantage/raytrace/impl/box_culling.hpp>
+#include <vantage/raytrace/impl/free_cone.hpp>
+#include <vantage/raytrace/impl/single_walk.hpp>
+#include <vantage/raytrace/impl/tile_walk.hpp>
+#include <vantage/raytrace/impl/view_placer.hpp>
+#include <vantage/raytrace/impl/view_walk.hpp>
+#include <vantage/raytrace/ray_caster.hpp>
+
+#include <vantage/geometry/impl/box_overlap.hpp>
+#include <vantage/geometry/impl/prefetch.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline constexpr VoxelBox kEverywhere{{-kFurthestVoxel, -kFurthestVoxel, -kFurthestVoxel},
+                                      {kFurthestVoxel, kFurthestVoxel, kFurthestVoxel}};
+
+// Prefetches all cache lines of an object.
+template <class T>
+void prefetch_whole(const T& object) {
+  constexpr std::size_t kLine = 64;
+  const auto* const bytes = reinterpret_cast<const char*>(&object);
+  for (std::size_t at = 0; at < sizeof(T); at += kLine) {
+    detail::prefetch(bytes + at);
+  }
+}
+
+inline RayCasterOptions validated(const RayCasterOptions& options) {
+  detail::require_option(options.level >= 0 && options.level <= 16, "RayCasterOptions::level", options.level,
+                         "in [0, 16]");
+  return options;
+}
+
+}  // namespace detail
+
+struct RayCaster::Grid : BlockingGrid {
+  using BlockingGrid::BlockingGrid;
+};
+
+VANTAGE_INLINE RayCaster::RayCaster(const OccupancyMap& map, const RayCasterOptions& options)
+    : map_(&map),
+      options_(detail::validated(options)),
+      frame_{map.resolution_m() * static_cast<double>(1 << options.level)},
+      grid_(std::make_unique<Grid>(options.level, options.policy)) {
+  update();
+}
+VANTAGE_INLINE RayCaster::~RayCaster() = default;
+VANTAGE_INLINE RayCaster::RayCaster(RayCaster&&) noexcept = default;
+VANTAGE_INLINE RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
+
+VANTAGE_INLINE std::size_t RayCaster::update() { return grid_->update(*map_); }
+
+VANTAGE_INLINE void RayCaster::suppose(const CellSet& stopping) { grid_->suppose(stopping); }
+
+VANTAGE_INLINE Occupancy RayCaster::at(const VoxelIndex& cell) const { return grid_->at(cell); }
+
+VANTAGE_INLINE std::size_t RayCaster::memory_bytes() const { return sizeof(*this) + grid_->memory_bytes(); }
+
+VANTAGE_INLINE RayEnd RayCaster::cast(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  if (!frame_.addressable(from) || !frame_.addressable(to)) {
+    throw std::invalid_argument("RayCaster::cast: both ends must be finite and addressable");
+  }
+  SingleWalk walk(frame_, from, frame_.cell_of(from), to, frame_.cell_of(to));
+  walk.advance(*grid_);
+  return {walk.cell(), grid_->at(walk.cell())};
+}
+
+VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRays& rays,
+                                    std::span<RayEnd> ends) const {
+  if (ends.size() != rays.size()) {
+    throw std::invalid_argument("RayCaster::cast: there must be one end for every ray of the view");
+  }
+  const ViewPlacer placer(world_from_sensor, rays, frame_);
+  TileWalk walk(*grid_, frame_, world_from_sensor.translation(), best_instruction_set());
+  RayBlock block;
+  TileHits hits(best_instruction_set());
+  VoxelIndex last;
+  std::uint64_t occupied = grid_->occupied(BlockingGrid::word_of(last));
+  for (std::size_t n = 0; n < rays.tiles().size(); ++n) {
+    const RayTile& tile = rays.tiles()[n];
+    detail::prefetch_whole(rays.tiles()[std::min(n + 1, rays.tiles().size() - 1)]);
+    for (std::size_t i = 0; i < RayTile::kRays; i += 4) {  // ends of four successive rays share a cache line
+      detail::prefetch_to_write(&ends[tile.ray[i]]);
+    }
+    placer.place_ends(tile, block);
+    hits.stopped = 0;
+    walk.walk(block, tile.rays, detail::kEverywhere, 0.0, hits);
+    std::uint64_t left = tile.rays & ~hits.stopped;
+    if (left != 0) {
+      placer.place_cells(block);
+    }
+    for (; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      RayEnd& end = ends[tile.ray[i]];
+      end.cell = {block.cell[0][i], block.cell[1][i], block.cell[2][i]};
+      end.occupancy = Occupancy::Free;
+    }
+    for (left = hits.stopped; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const VoxelIndex cell = hits.cell_at(i);
+      const VoxelIndex by = {cell.x ^ last.x, cell.y ^ last.y, cell.z ^ last.z};
+      if (((by.x | by.y | by.z) & ~3) != 0) {  // rare, because neighbouring rays end in neighbouring cells
+        occupied = grid_->occupied(BlockingGrid::word_of(cell));
+        last = cell;
+      }
+      const bool is_occupied = (occupied & BlockingGrid::bit_of(cell)) != 0;
+      RayEnd& end = ends[tile.ray[i]];
+      end.cell = cell;
+      end.occupancy = is_occupied ? Occupancy::Occupied : Occupancy::Unknown;
+    }
+  }
+}
+
+VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, const ViewRays& rays,
+                                                const VoxelBox& box) const {
+  CellSet seen(box);
+  if (box.empty()) {
+    return seen;
+  }
+  const InstructionSet set = best_instruction_set();
+  const ViewPlacer placer(world_from_sensor, rays, frame_);
+  const BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
+  FreeCone free_cone(*grid_, frame_, world_from_sensor);
+  ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
+  TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
+  CellStamps stamps(seen, set);
+  RayBlock block;
+  constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
+  const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
+  for (std::size_t g = 0; g < rays.groups().size(); ++g) {
+    const TileGroup& group = rays.groups()[g];
+    const Meeting of_group = culling.meeting(group.cone);
+    if (of_group == Meeting::None) {
+      continue;
+    }
+    double free_m = 0.0;
+    if (end_behind) {
+      together.enter(group, rays.hulls()[g]);
+    } else {
+      free_m = free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
+      if (free_m >= culling.furthest_m()) {
+        continue;
+      }
+    }
+    for (std::size_t i = group.first; i < group.last; ++i) {
+      const RayCone& cone = rays.cones()[i];
+      const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(cone);
+      if (meeting == Meeting::None || (end_behind && !together.may_see(i - group.first))) {
+        continue;
+      }
+      const RayTile& tile = rays.tiles()[i];
+      detail::prefetch_whole(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
+      const bool all = meeting == Meeting::All || (end_behind && together.culls(i - group.first));
+      std::uint64_t left = all ? tile.rays : culling.meeting(tile);
+      if (end_behind) {
+        left = together.walk(tile, i - group.first, left, stamps);
+      }
+      if (left != 0) {
+        placer.place_ends(tile, block);
+        by_tile.walk(block, left, box, std::min(free_m / rays.max_range_m(), 1.0), stamps);
+      }
+    }
+  }
+  if (frame_.box_of(box).distance_to(world_from_sensor.translation()) < rays.min_range_m()) {
+    const Eigen::Vector3d around = Eigen::Vector3d::Constant(rays.min_range_m() + frame_.size_m);
+    const VoxelBox near{frame_.cell_of(world_from_sensor.translation() - around),
+                        frame_.cell_of(world_from_sensor.translation() + around)};
+    for_each_cell(detail::box_overlap(box, near), [&](const VoxelIndex& cell) {
+      if ((frame_.centre_of(cell) - world_from_sensor.translation()).norm() < rays.min_range_m()) {
+        seen.erase(cell);
+      }
+    });
+  }
+  return seen;
+}
+
+VANTAGE_INLINE std::size_t RayCaster::count(const CellSet& cells, Occupancy occupancy) const {
+  std::size_t count = 0;
+  cells.for_each_word([&](const VoxelIndex& word, std::uint64_t set) {
+    const std::uint64_t occupied = grid_->occupied(word);
+    const std::uint64_t blocking = grid_->blocking(word);
+    const std::uint64_t wanted = occupancy == Occupancy::Occupied ? occupied
+                                 : occupancy == Occupancy::Free   ? ~blocking
+                                                                  : blocking & ~occupied;
+    count += static_cast<std::size_t>(std::popcount(set & wanted));
+  });
+  return count;
+}
+
+}  // namespace vantage

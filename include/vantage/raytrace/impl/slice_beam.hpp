@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vantage/geometry/voxel.hpp>
+#include <vantage/map/impl/instruction_set.hpp>
+#include <vantage/raytrace/impl/tile_hits.hpp>
+
+namespace vantage {
+
+/// A rectangle of cells along the two lateral axes; `lo` and `hi` are both included.
+struct LateralCells {
+  std::array<std::int32_t, 2> lo;
+  std::array<std::int32_t, 2> hi;
+
+  /// Number of cells along a lateral axis.
+  [[nodiscard]] std::int32_t extent(std::size_t lateral) const { return hi[lateral] - lo[lateral] + 1; }
+};
+
+/// The rectangles of consecutive layers, in the order of the walk.
+struct LateralLayers {
+  static constexpr std::size_t kLayers = 8;
+  template <class T>
+  using PerLayer = std::array<T, kLayers>;
+
+  /// The rectangle of one layer.
+  [[nodiscard]] LateralCells operator[](std::size_t layer) const {
+    return {{lo[0][layer], lo[1][layer]}, {hi[0][layer], hi[1][layer]}};
+  }
+
+  alignas(32) std::array<PerLayer<std::int32_t>, 2> lo{};
+  alignas(32) std::array<PerLayer<std::int32_t>, 2> hi{};
+};
+
+/// A beam (glossary in view_walk.hpp): a bound on neighbouring rays of one class from one origin. It tells in which
+/// cells of each slice the rays may be.
+struct SliceBeam {
+  /// Tolerance for lateral positions, in cells. The positions of a beam and of an exact walk differ by much less.
+  static constexpr double kRounding = 1e-6;
+
+  SliceBeam() = default;
+  /// All rays of a class from `origin`: those that advance fastest along `major`, towards larger coordinates if `up`.
+  SliceBeam(const VoxelFrame& frame, const Eigen::Vector3d& origin, std::size_t major, bool up);
+
+  /// Coordinate of a slice along the major axis. Slice 0 contains the origin.
+  [[nodiscard]] std::int32_t along(std::int64_t slice) const {
+    return first_along + static_cast<std::int32_t>(axes.up ? slice : -slice);
+  }
+  /// Number of slices from this one to the end of its layer, this one included.
+  [[nodiscard]] std::int32_t left_in_layer(std::int64_t slice) const {
+    return axes.up ? 4 - (along(slice) & 3) : (along(slice) & 3) + 1;
+  }
+  /// Distance from the origin, in cells along the major axis, at which rays enter a slice.
+  [[nodiscard]] double entered_at(std::int64_t slice) const {
+    const double entered = static_cast<double>(slice) - from_entry;
+    return entered > 0.0 ? entered : 0.0;
+  }
+  /// Position of the origin along the major axis, from the lower face of slice 0, in [0, 1].
+  [[nodiscard]] double within_major() const { return axes.up ? from_entry : 1.0 - from_entry; }
+  /// The lateral cells in which rays may be, from the first to the last of some slices.
+  [[nodiscard]] LateralCells cells_in(std::int64_t first_slice, std::int64_t last_slice) const {
+    const double enters = entered_at(first_slice);
+    const double leaves = entered_at(last_slice + 1);
+    LateralCells cells{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      cells.lo[i] = first[i] + cell_at(within[i] + least[i] * (least[i] < 0.0 ? leaves : enters) - kRounding);
+      cells.hi[i] = first[i] + cell_at(within[i] + most[i] * (most[i] > 0.0 ? leaves : enters) + kRounding);
+    }
+    return cells;
+  }
+  /// The lateral cells, per layer, in which rays may be: for the layer of `slice`, from that slice on, and for the
+  /// layers after it. `slice` must be in [1, kLastOfLayers].
+  [[nodiscard]] LateralLayers layers_from(std::int64_t slice, InstructionSet set) const;
+  static constexpr std::int64_t kLastOfLayers = 1 << 19;
+  /// Whether the beam contains no ray.
+  [[nodiscard]] bool is_empty() const { return least[0] > most[0] || least[1] > most[1]; }
+  /// The last slice that overlaps a box.
+  [[nodiscard]] std::int64_t last_slice_of(const VoxelBox& box) const;
+
+  /// The cell of a position along an axis, rounded down. Clamped to the addressable range.
+  [[nodiscard]] static std::int32_t cell_at(double place) {
+    constexpr auto kFurthest = static_cast<double>(kFurthestVoxel);
+    const double no_less = place > -kFurthest ? place : -kFurthest;
+    const double cell = no_less < kFurthest ? no_less : kFurthest;
+    const auto towards_zero = static_cast<std::int32_t>(cell);
+    return towards_zero - (towards_zero > cell ? 1 : 0);
+  }
+
+  SlicePlace axes;               ///< only the axes and `up` are used
+  std::int32_t first_along = 0;  ///< coordinate of slice 0 along the major axis
+  double from_entry = 0.0;  ///< distance from the face through which rays would enter slice 0 to the origin, in cells
+  std::array<std::int32_t, 2> first{};        ///< cell of the origin along the lateral axes
+  std::array<double, 2> within{};             ///< position of the origin in that cell, in [0, 1]
+  std::array<double, 2> least{{-1.0, -1.0}};  ///< smallest slope: lateral cells per cell along the major axis
+  std::array<double, 2> most{{1.0, 1.0}};     ///< largest slope
+};
+
+}  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/slice_beam.ipp>
+#endif

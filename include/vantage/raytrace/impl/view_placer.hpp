@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/geometry/voxel.hpp>
+#include <vantage/map/impl/ray_block.hpp>
+#include <vantage/raytrace/view_rays.hpp>
+
+namespace vantage {
+
+/// Transforms the rays of a view into the world frame, tile by tile. Each ray reaches as far as a ray of
+/// Scan::no_return.
+class ViewPlacer {
+ public:
+  /// Throws std::invalid_argument if the pose is not rigid or a ray is not addressable.
+  ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame);
+
+  /// Computes the ends of the rays of a tile from their directions.
+  void place_ends(const RayTile& tile, RayBlock& block) const {
+    placer_.place_ends(tile.directions, tile.stretch, block);
+  }
+  /// Computes the cells of the ends.
+  void place_cells(RayBlock& block) const { placer_.place_cells(block); }
+
+ private:
+  RayPlacer placer_;
+};
+
+}  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/view_placer.ipp>
+#endif

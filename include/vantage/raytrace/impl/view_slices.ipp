@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vantage/raytrace/impl/sliced_word.hpp>
+#include <vantage/raytrace/impl/view_slices.hpp>
+#include <vantage/raytrace/impl/word_rows.hpp>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace vantage {
+namespace detail {
+
+inline constexpr std::int32_t kColumn = 32;  // stride in cells between the starts of neighbouring columns of rows
+
+// How to cut a window out of rows, and which of its cells count.
+struct Cut {
+  unsigned shift;   // bit of the first column
+  std::int32_t lo;  // first and last row that count
+  std::int32_t hi;
+  std::uint32_t columns;  // bit mask of the columns that count
+};
+
+inline bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint64_t columns) {
+  std::uint64_t any = 0;
+  for (std::int32_t row = 0; row < count; ++row) {
+    any |= rows[row];
+  }
+  return (any & columns) != 0;
+}
+
+// Copies a window. Returns whether any of the cells that count stops a ray.
+inline bool cut_window(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
+  std::uint32_t any = 0;
+  for (std::int32_t row = 0; row < SliceWindows::kHeight; ++row) {
+    const auto cells = static_cast<std::uint32_t>(from[row] >> cut.shift);
+    to[row] = cells;
+    any |= cut.lo <= row && row <= cut.hi ? cells : 0;
+  }
+  return (any & cut.columns) != 0;
+}
+
+#if defined(__x86_64__)
+
+VANTAGE_TARGET_AVX512 inline bool any_in_rows_avx512(const std::uint64_t* rows, std::int32_t count,
+                                                     std::uint64_t columns) {
+  const __m512i of_interest = _mm512_set1_epi64(static_cast<std::int64_t>(columns));
+  __mmask8 any = 0;
+  for (; count > 0; count -= 8, rows += 8) {
+    const auto some = static_cast<__mmask8>(count < 8 ? (1 << count) - 1 : 255);
+    any |= _mm512_test_epi64_mask(_mm512_maskz_loadu_epi64(some, rows), of_interest);
+  }
+  return any != 0;
+}
+
+VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
+  constexpr __mmask8 kEight = 255;
+  const __m128i shift = _mm_cvtsi32_si128(static_cast<std::int32_t>(cut.shift));
+  const __m512i low = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from), shift);
+  const __m512i high = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from + 8), shift);
+  const __m512i cells =
+      _mm512_maskz_inserti64x4(kEight, _mm512_castsi256_si512(_mm512_maskz_cvtepi64_epi32(kEight, low)),
+                               _mm512_maskz_cvtepi64_epi32(kEight, high), 1);
+  _mm512_store_si512(to, cells);
+  const auto rows = static_cast<__mmask16>((0xFFFFU << static_cast<unsigned>(cut.lo)) &
+                                           (0xFFFFU >> static_cast<unsigned>(SliceWindows::kHeight - 1 - cut.hi)));
+  return _mm512_mask_test_epi32_mask(rows, cells, _mm512_set1_epi32(static_cast<std::int32_t>(cut.columns))) != 0;
+}
+
+#endif
+
+}  // namespace detail
+
+// A beam is widest at its end. It must not be empty.
+VANTAGE_INLINE bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
+  beam_ = beam;
+  layers_.clear();
+  rows_.clear();
+  constexpr std::int32_t kWidest = 128;
+  const LateralCells widest = beam.cells_in(last, last + 3);
+  if (std::max(widest.extent(0), widest.extent(1)) > kWidest) {
+    return false;
+  }
+  constexpr std::size_t kOftenRead = 16;  // estimate of the number of layers to be read, to reserve memory
+  const std::int32_t columns = widest.extent(0) / detail::kColumn + 1;
+  const std::int32_t rows = widest.extent(1) + SliceWindows::kHeight;
+  rows_.reserve(kOftenRead * kPlanes * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  return true;
+}
+
+VANTAGE_INLINE void ViewSlices::read(std::size_t number, std::int64_t slice) {
+  layers_.resize(std::max(layers_.size(), number + 1));
+  Layer& layer = layers_[number];
+  layer.is_read = true;
+  const std::int64_t last = slice + beam_.left_in_layer(slice) - 1;
+  const LateralCells cells = beam_.cells_in(std::max<std::int64_t>(last - 3, 0), last);
+  layer.first_u = cells.lo[0] & ~3;
+  layer.first_v = cells.lo[1] & ~3;
+  layer.end_u = (cells.hi[0] | 3) + 1;
+  layer.end_v = (cells.hi[1] | 3) + 1;
+  const std::int32_t columns = (layer.end_u - layer.first_u + detail::kColumn - 1) / detail::kColumn;
+  const std::int32_t rows = layer.end_v - layer.first_v + SliceWindows::kHeight;
+  layer.rows = static_cast<std::size_t>(rows);
+  layer.first = rows_.size();
+  rows_.resize(rows_.size() + kPlanes * static_cast<std::size_t>(columns) * layer.rows);
+  const std::int32_t along = beam_.along(slice) >> 2;
+  if (!read_rows(layer, along)) {
+    rows_.resize(layer.first);
+    layer.free = free_from(layer, along);
+  }
+}
+
+VANTAGE_INLINE std::int32_t ViewSlices::free_from(const Layer& layer, std::int32_t along) {
+  std::int32_t free = BlockingGrid::kFurthest;
+  for (std::int32_t v = layer.first_v; v < layer.end_v; v += 4) {
+    for (std::int32_t u = layer.first_u; u < layer.end_u; u += 4) {
+      free = std::min<std::int32_t>(free, reader_.distance(beam_.axes.at(along, u >> 2, v >> 2)));
+    }
+  }
+  return free;
+}
+
+// Returns false if no cell of the layer stops a ray.
+VANTAGE_INLINE bool ViewSlices::read_rows(const Layer& layer, std::int32_t along) {
+  constexpr std::int32_t kWords = detail::kColumn / 4;
+  std::array<std::uint64_t, kWords> words{};
+  std::uint64_t any_of_layer = 0;
+  for (std::int32_t first_u = layer.first_u; first_u < layer.end_u; first_u += detail::kColumn) {
+    const std::int32_t width = std::min(kWords, (layer.end_u - first_u) / 4);
+    const auto column = static_cast<std::size_t>((first_u - layer.first_u) / detail::kColumn);
+    std::uint64_t* const rows = &rows_[layer.first + kPlanes * column * layer.rows];
+    for (std::int32_t v = layer.first_v; v < layer.end_v; v += 4) {
+      std::uint64_t any = 0;
+      for (std::int32_t u = 0; u < width; ++u) {
+        words[static_cast<std::size_t>(u)] = reader_.blocking(beam_.axes.at(along, (first_u >> 2) + u, v >> 2));
+        any |= words[static_cast<std::size_t>(u)];
+      }
+      any_of_layer |= any;
+      if (any == 0) {
+        continue;
+      }
+      compiled_for(set_, [&words, major = beam_.axes.major] {
+        VANTAGE_INDEPENDENT
+        for (std::size_t i = 0; i < words.size(); ++i) {
+          words[i] = in_slices(words[i], major);
+        }
+      });
+      const WordRows of_words = rows_of_words(std::span(words).first(static_cast<std::size_t>(width)), set_);
+      for (std::size_t i = 0; i < of_words.size(); ++i) {
+        const std::size_t at = i / 4 * layer.rows + static_cast<std::size_t>(v - layer.first_v) + i % 4;
+        const std::size_t of_any = at + (kAny - i / 4) * layer.rows;
+        rows[at] |= of_words[i];
+        rows[of_any] |= of_words[i];
+        if (column > 0) {
+          std::uint64_t* const before = rows - kPlanes * layer.rows;
+          before[at] |= std::uint64_t{of_words[i]} << 32U;
+          before[of_any] |= std::uint64_t{of_words[i]} << 32U;
+        }
+      }
+    }
+  }
+  return any_of_layer != 0;
+}
+
+VANTAGE_INLINE bool ViewSlices::any_stops(std::int64_t slice, const LateralCells& cells) const {
+  const Layer& layer = layers_[number_of(slice)];
+  const std::int32_t column = (cells.lo[0] - layer.first_u) / detail::kColumn;
+  const std::int32_t lo = cells.lo[0] - layer.first_u - column * detail::kColumn;
+  const std::int32_t hi = lo + cells.extent(0) - 1;
+  if (hi >= 2 * detail::kColumn) {
+    return true;  // wider than one row of 64 cells, so the answer is not known
+  }
+  const std::uint64_t* const rows = rows_of(layer, column, kAny) + (cells.lo[1] - layer.first_v);
+  const std::uint64_t columns = ~std::uint64_t{0} << lo & ~std::uint64_t{0} >> (63 - hi);
+#if defined(__x86_64__)
+  if (set_ == InstructionSet::Avx512) {
+    return detail::any_in_rows_avx512(rows, cells.extent(1), columns);
+  }
+#endif
+  return detail::any_in_rows(rows, cells.extent(1), columns);
+}
+
+VANTAGE_INLINE ViewSlices::Slices ViewSlices::cut(std::int64_t first, std::int64_t end, const LateralCells& cells,
+                                                  const SlicePlace& place, SliceWindows& windows) const {
+  const Layer& layer = layers_[number_of(first)];
+  const std::int32_t column = (place.first_u - layer.first_u) / detail::kColumn;
+  const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * detail::kColumn);
+  const std::int32_t from_row = place.first_v - layer.first_v;
+  const detail::Cut cut{shift, cells.lo[1] - place.first_v, cells.hi[1] - place.first_v,
+                        ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
+                            ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
+  Slices stopping{end, first - 1};
+  const auto cut_all = [&](const auto& cut_one) {
+    std::size_t count = 0;  // windows before the first one that stops a ray are overwritten
+    for (std::int64_t slice = first; slice < end; ++slice) {
+      const std::uint64_t* const from = rows_of(layer, column, beam_.along(slice) & 3) + from_row;
+      if (cut_one(from, windows.rows[count].data())) {
+        stopping.first = std::min(stopping.first, slice);
+        stopping.last = slice;
+      }
+      count += stopping.last >= first ? 1 : 0;
+    }
+  };
+#if defined(__x86_64__)
+  if (set_ == InstructionSet::Avx512) {
+    cut_all(
+        [&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window_avx512(from, cut, to); });
+  } else {
+    compiled_for(set_, [&] {
+      cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window(from, cut, to); });
+    });
+  }
+#else
+  cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window(from, cut, to); });
+#endif
+  windows.count = static_cast<std::size_t>(std::max<std::int64_t>(stopping.last - stopping.first + 1, 0));
+  return stopping;
+}
+
+}  // namespace vantage

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/map/impl/sensor_frame.hpp>
+#include <vantage/raytrace/impl/beam_passages.hpp>
+#include <vantage/raytrace/impl/blocking_grid.hpp>
+#include <vantage/raytrace/impl/slice_beam.hpp>
+#include <vantage/raytrace/impl/slice_flood.hpp>
+#include <vantage/raytrace/impl/slice_lanes.hpp>
+#include <vantage/raytrace/impl/tile_hits.hpp>
+#include <vantage/raytrace/impl/view_slices.hpp>
+#include <vantage/raytrace/view_rays.hpp>
+
+namespace vantage {
+
+/// Finds the cells of a box that stop the rays of a view, for all tiles together. It is the fast path of
+/// RayCaster::visible_cells for rays that do not end before the box. The rays that it does not resolve are left to
+/// TileWalk.
+///
+/// Idea. For each group of tiles, one beam around all its rays is followed through the slices, and a flood finds
+/// which cells of the box the rays may meet. Often there is none, and the group is done. Otherwise the beam of each
+/// tile is tested for such cells that no ray has met yet, and its rays are walked only if there are any. Rays that
+/// meet no cell, or only cells found before, need no walk. So the result is that of walking all rays.
+///
+/// Glossary of raytrace/ (private headers):
+///
+///     v ^  slice 0     1     2     3  |  4     5     6     7
+///       |                             |                ...''''    upper edge of the beam: slope `most`
+///       |                             |     .....''''#
+///       |              .....''''''''''|'''''   #     #            #  a cell that stops rays (it is not known free)
+///       |   ....'''''''               |        #
+///       |  o                          |                           o  origin: the sensor
+///       |   ''''''''''.....           |
+///       |                  ''''''.....|.......                    lower edge of the beam: slope `least`
+///       |                             |       '''''''''''...
+///       +-----------------------------+-----------------------> major axis
+///            layer (4 slices)         |     layer (4 slices)
+///
+/// - view: a pose of a sensor with its rays (ViewRays). tile: 8 x 8 neighbouring rays. group: 4 x 4 tiles.
+/// - cone: bounds the directions of a tile or a group. BoxCulling and FreeCone test cones before any ray is walked.
+/// - level: resolution of a caster; a cell has an edge of 2^level finest cells. brick: 8 x 8 x 8 cells, see Brick.
+/// - word: 4 x 4 x 4 cells as 64 bits. page: 8 x 8 x 8 words. distance: free words around a word (BlockingGrid).
+/// - class: rays with the same major axis, along which they advance fastest, and the same direction on it. The other
+///   two axes are the lateral axes u and v. slope: lateral cells per cell along the major axis.
+/// - slice: one sheet of cells across the major axis; slice 0 holds the origin. layer: the slices of one sheet of
+///   words.
+/// - window: 32 x 16 cells of a slice as a bit mask (SliceWindows). patch: a rectangle in a window.
+/// - beam: a range of slopes that bounds rays of a class (SliceBeam). It says in which cells of a slice they may be.
+/// - stop: the next slices in which a cell may stop a ray of a beam. passage: the windows of a stop, and the cells in
+///   them that are still wanted (BeamPassages).
+/// - walk: following rays from cell to cell. SingleWalk walks one ray exactly. SliceLanes walks 64 rays as SIMD
+///   lanes; a ray that passes too close to an edge between cells is doubtful and is walked exactly.
+/// - flood: following a beam as a set of cells instead of as rays (SliceFlood).
+class ViewWalk {
+ public:
+  /// For views from this pose that look for cells of `box`. The grid must outlive the object.
+  ViewWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor, const VoxelBox& box,
+           InstructionSet set);
+
+  /// Starts a group of tiles.
+  void enter(const TileGroup& group, const TileHulls& hulls);
+  /// Whether rays of a tile, given by its index in the group, may meet a cell of the box that no ray has met yet.
+  /// Call it before `walk` of that tile.
+  [[nodiscard]] bool may_see(std::size_t number);
+  /// Whether `walk` itself ignores the rays of a tile that miss the box, so that the caller need not cull them.
+  [[nodiscard]] bool culls(std::size_t number) const {
+    return (of_class_ >> number & 1U) != 0 && known_ == Known::Passages;
+  }
+  /// Walks the selected `rays` of a tile, given by its index in the group. The rays must not end before they have
+  /// left the box. Returns the rays that must be walked otherwise.
+  [[nodiscard]] std::uint64_t walk(const RayTile& tile, std::size_t number, std::uint64_t rays, HitSink& hits);
+
+ private:
+  // State of a class of rays, see the glossary.
+  struct Class {
+    SliceBeam all;
+    SliceBeam beam;  // bounds the rays that may meet the box
+    ViewSlices slices;
+    std::int64_t last = 0;  // the last slice of the box
+    bool is_narrow = false;
+  };
+  // The slices [slice, next) of one layer, in which a cell may stop a ray of the beam.
+  struct Stop {
+    std::int64_t slice = 0;  // none if larger than the last slice of the class
+    std::int64_t next = 0;
+    LateralCells cells{};  // where the rays may be in these slices
+    bool held = true;      // whether `slices` of the class covers the cells
+  };
+
+  // What the survey of some tiles has found: Free: they meet no cell of the box. Passages: passages_ tell which cells
+  // they may meet. Nothing: not known.
+  enum class Known : std::uint8_t { Nothing, Passages, Free };
+
+  [[nodiscard]] Class& class_of(const Eigen::Vector3d& direction);
+  [[nodiscard]] Class made(std::size_t major, bool up) const;
+  [[nodiscard]] std::uint64_t measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
+                                      const SliceBeam& beam);
+  void spread_tiles();
+  void turn_to(const Class& of, const std::array<double, 2>& least, const std::array<double, 2>& most);
+  [[nodiscard]] std::uint64_t walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits);
+  void tighten(std::uint64_t active);
+  [[nodiscard]] Stop next_stop(Class& of, std::int64_t slice) const;
+  [[nodiscard]] Known record(Class& of, Stop stop);
+  [[nodiscard]] Known survey(std::uint64_t tiles, std::int64_t from);
+  [[nodiscard]] std::uint64_t follow_recorded(std::uint64_t active, HitSink& hits);
+  std::int64_t cut(const Class& of, const Stop& stop, SliceWindows& windows);
+  void walk_windows(const SliceWindows& windows, std::int64_t first, std::uint64_t active, SliceHits& met);
+  [[nodiscard]] std::uint64_t follow(Class& of, std::uint64_t active, Stop stop, HitSink& hits);
+  [[nodiscard]] std::uint64_t follow_quarters(Class& of, std::uint64_t active, std::int64_t slice, HitSink& hits);
+  void place_steps(double through);
+  void place_lanes(double enters);
+
+  const BlockingGrid& grid_;
+  VoxelFrame frame_;
+  SensorFrame sensor_;
+  Eigen::Vector3d origin_;
+  VoxelBox box_;
+  InstructionSet set_;
+  std::array<std::optional<Class>, 6> classes_;
+
+  // State of the group of tiles.
+  Class* of_group_ = nullptr;
+  std::uint64_t of_class_ = 0;      // bit mask of the tiles whose rays all belong to that class
+  std::int64_t of_group_from_ = 0;  // first slice in which a cell may stop their rays
+  alignas(64) std::array<std::array<double, TileHulls::kTiles>, 2> least_{};  // ranges of slopes of the tiles
+  alignas(64) std::array<std::array<double, TileHulls::kTiles>, 2> most_{};
+
+  // State of the part of the group that was surveyed: the whole group, or a quarter of it where its windows would be
+  // too small.
+  static constexpr std::size_t kParts = 4;
+  bool fits_by_parts_ = false;  // an estimate
+  bool by_parts_ = false;
+  std::size_t part_ = kParts;
+  std::int64_t from_ = 0;
+  Known known_ = Known::Nothing;
+  BeamPassages passages_;
+
+  // State of the tile: the slices of the passages to walk, or the first stop.
+  std::uint64_t to_pass_ = 0;
+  Stop stop_;
+
+  SliceBeam beam_;  // bounds the rays that are being walked
+  SliceFlood flood_;
+  SlicePlace place_;
+  SliceLanes lanes_;
+  SliceWindows windows_;
+  // slopes: lateral cells per cell along the major axis
+  alignas(64) std::array<RayBlock::PerRay<double>, 2> slope_{};
+};
+
+}  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/view_walk.ipp>
+#include <vantage/raytrace/impl/view_walk_follow.ipp>
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vantage/geometry/voxel_table.hpp>
+#include <vantage/robot/admitted_cells.hpp>
+
+#include <vantage/geometry/impl/box_around.hpp>
+#include <vantage/geometry/impl/box_overlap.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline constexpr std::int32_t kTileBricks = 8;  // edge of the tiles in which cells are tested, bricks
+
+// Boxes of bricks whose cells must be tested again, at most one per tile.
+class StaleBoxes {
+ public:
+  void add(const VoxelBox& bricks) {
+    const auto tile = [](std::int32_t brick) { return brick >> 3; };
+    for_each_cell({{tile(bricks.lo.x), tile(bricks.lo.y), tile(bricks.lo.z)},
+                   {tile(bricks.hi.x - 1) + 1, tile(bricks.hi.y - 1) + 1, tile(bricks.hi.z - 1) + 1}},
+                  [&](const VoxelIndex& address) {
+                    const VoxelIndex lo{address.x * kTileBricks, address.y * kTileBricks, address.z * kTileBricks};
+                    const VoxelBox inside =
+                        detail::box_overlap(bricks, {lo, lo + VoxelIndex{kTileBricks, kTileBricks, kTileBricks}});
+                    const std::size_t number = numbers_.place(address, boxes_.size());
+                    if (number == boxes_.size()) {
+                      boxes_.push_back(inside);
+                    } else {
+                      boxes_[number] = detail::box_around(boxes_[number], inside);
+                    }
+                  });
+  }
+  // The boxes, or their bounding box if that is at most half as large again.
+  [[nodiscard]] std::vector<VoxelBox> boxes() const {
+    VoxelBox all;
+    double sum = 0.0;
+    for (const VoxelBox& box : boxes_) {
+      all = detail::box_around(all, box);
+      sum += static_cast<double>(box.size());
+    }
+    const VoxelIndex extent = all.extent();
+    const bool dense = 1.0 * extent.x * extent.y * extent.z <= 1.5 * sum;
+    return dense && !all.empty() ? std::vector<VoxelBox>{all} : boxes_;
+  }
+
+ private:
+  VoxelTable<std::size_t> numbers_;  // index of the box of each tile
+  std::vector<VoxelBox> boxes_;
+};
+
+}  // namespace detail
+
+VANTAGE_INLINE void AdmittedCells::follow(const OccupancyMap& map, const Platform& platform) {
+  changed_.clear();
+  started_anew_ = !map_.is(map) || platform_ != &platform;
+  if (started_anew_) {
+    *this = AdmittedCells();
+  }
+  map_ = KnownMap();  // starts anew if the platform throws
+
+  // If the body is larger than a tile, or its size is unknown, all cells are tested again.
+  const std::int32_t reach = map.frame().cells_up_to(platform.reach_m()) / Brick::kSide + 1;
+  const bool from_anywhere = reach > detail::kTileBricks;
+  detail::StaleBoxes stale;
+  bool changed = false;
+  map.for_each_written_since(followed_, [&](const VoxelIndex& address, const Brick& brick) {
+    if (clear_.assign(address, map.clear_plane(brick))) {
+      changed = true;
+      if (!from_anywhere) {
+        stale.add(VoxelBox{address, address + VoxelIndex{1, 1, 1}}.grown(reach));
+      }
+    }
+  });
+  if (from_anywhere && changed) {
+    map.for_each_brick([&](const VoxelIndex& address, const Brick& /*brick*/) {
+      stale.add({address, address + VoxelIndex{1, 1, 1}});
+    });
+  }
+  for (const VoxelBox& bricks : stale.boxes()) {
+    ask(map, platform, bricks);
+  }
+  map_ = KnownMap(map);
+  platform_ = &platform;
+  followed_ = map.revision();
+}
+
+VANTAGE_INLINE void AdmittedCells::ask(const OccupancyMap& map, const Platform& platform, const VoxelBox& bricks) {
+  const VoxelGrid<std::uint8_t> admitted =
+      platform.admitted_cells(map, {Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
+  for_each_cell(bricks, [&](const VoxelIndex& address) {
+    if (map.find_brick(address) == nullptr) {
+      return;
+    }
+    BrickPlane plane{};
+    const VoxelIndex first = Brick::first_cell(address);
+    for (std::int32_t z = 0; z < Brick::kSide; ++z) {
+      for (std::int32_t y = 0; y < Brick::kSide; ++y) {
+        const std::uint8_t* const row = &admitted.values()[admitted.offset_of(first + VoxelIndex{0, y, z})];
+        for (std::int32_t x = 0; x < Brick::kSide; ++x) {
+          const std::size_t offset = Brick::offset_of({x, y, z});
+          plane[offset >> 6U] |= std::uint64_t{row[x] != 0} << (offset & 63U);
+        }
+      }
+    }
+    if (cells_.assign(address, plane)) {
+      changed_.push_back(address);
+    }
+  });
+}
+
+}  // namespace vantage

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+#include <vantage/frontier/frontiers.hpp>
+#include <vantage/geometry/raster_order.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/view/frontier_survey.hpp>
+#include <vantage/view/frontier_surveyor.hpp>
+
+#include <vantage/view/impl/sight_memory.hpp>
+
+namespace vantage {
+namespace detail {
+
+// Pairs of an unknown and a reachable cell that are tested one by one if the sampled rays find no target.
+inline constexpr std::size_t kExhaustivePairs = 3'000'000;
+
+// The range of the sensor, which may be unlimited, bounded by the extent of the known map.
+inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
+  return std::min(sensor.max_range_m, map.frame().box_of(map.bounds()).extent().norm() + map.resolution_m());
+}
+
+// Searches viewpoints of unknown cells.
+class ViewpointSearch {
+ public:
+  ViewpointSearch(const VoxelFrame& frame, const Platform& platform, const RangeSensor& sensor,
+                  const ReachableSpace& reachable, const TriedViews& tried, detail::SightMemory& memory)
+      : frame_(frame), platform_(platform), sensor_(sensor), reachable_(reachable), tried_(tried), memory_(memory) {}
+
+  // Searches backwards from `unknown`: first straight through the frontier cell, then along rays in all directions.
+  std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
+    if (const std::optional<VoxelIndex> straight = look_straight(unknown, frontier - unknown)) {
+      return straight;
+    }
+    if (!can_be_seen(unknown)) {
+      return std::nullopt;
+    }
+    return memory_.look_around(
+        unknown, tried_.tried(unknown) || tried_.any_rests(), [&](const VoxelIndex& cell) { return passes(cell); },
+        [&](const VoxelIndex& cell) { return serves(cell, unknown); });
+  }
+  // Searches backwards from a frontier cell for a viewpoint that sees a part of one of its unknown neighbours.
+  template <class IsSought>
+  std::optional<FrontierTarget> look_back_from(const VoxelIndex& frontier, const IsSought& is_sought) {
+    const auto seen_from = [&](const VoxelIndex& cell) {
+      return std::find_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+        return is_sought(frontier + step) && sees_a_part(cell, frontier + step);
+      });
+    };
+    const std::optional<VoxelIndex> viewpoint = memory_.look_around(
+        frontier, true, [&](const VoxelIndex& cell) { return passes(cell); },
+        [&](const VoxelIndex& cell) { return seen_from(cell) != kFaceNeighbours.end(); });
+    return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
+                     : std::nullopt;
+  }
+  // Tests every reachable cell until `pairs` is used up.
+  std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
+    if (!can_be_seen(unknown)) {
+      return std::nullopt;
+    }
+    if (places_.empty()) {
+      places_ = reachable_.cells();
+    }
+    for (const VoxelIndex& cell : places_) {
+      if (pairs == 0) {
+        return std::nullopt;
+      }
+      --pairs;
+      if (sees_a_part(cell, unknown)) {
+        return cell;
+      }
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] std::uint64_t operations() const { return operations_; }
+
+ private:
+  // A line of sight enters a cell through a face (where it touches an edge, VoxelRay also visits a face neighbour).
+  bool can_be_seen(const VoxelIndex& unknown) const {
+    return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                       [&](const VoxelIndex& step) { return clear(unknown + step); });
+  }
+  bool clear(const VoxelIndex& cell) const { return memory_.is_clear(cell); }
+  bool passes(const VoxelIndex& cell) {
+    ++operations_;
+    return clear(cell);
+  }
+
+  // Along an axis, the line of sight is the row of cells visited so far, so it needs no ray.
+  std::optional<VoxelIndex> look_straight(const VoxelIndex& unknown, const VoxelIndex& step) {
+    const Eigen::Vector3d direction(step.x, step.y, step.z);
+    const VoxelIndex last = frame_.cell_of(frame_.centre_of(unknown) + memory_.furthest_m() * direction);
+    for (VoxelIndex cell = unknown; cell != last;) {
+      cell = cell + step;
+      if (!passes(cell)) {
+        return std::nullopt;
+      }
+      if (memory_.is_reachable(cell) && in_range(cell, unknown) && can_face(cell, unknown)) {
+        return cell;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // Cheap tests first. Most pairs fail beside the unknown cell.
+  bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+    return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) &&
+           in_sight(viewpoint, unknown, frame_.centre_of(unknown)) && can_face(viewpoint, unknown);
+  }
+  // As `serves`, also where a line to the centre of a face is clear.
+  bool sees_a_part(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
+    return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) && can_face(viewpoint, unknown) &&
+           (in_sight(viewpoint, unknown, frame_.centre_of(unknown)) ||
+            std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+              return faces(viewpoint, unknown, step) && clear(unknown + step) &&
+                     in_sight(viewpoint, unknown, just_inside(unknown, step));
+            }));
+  }
+  static bool faces(const VoxelIndex& viewpoint, const VoxelIndex& unknown, const VoxelIndex& step) {
+    const VoxelIndex away = viewpoint - unknown;
+    return away.x * step.x + away.y * step.y + away.z * step.z > 0;
+  }
+  // A point of the cell just behind the centre of its face towards `step`.
+  [[nodiscard]] Eigen::Vector3d just_inside(const VoxelIndex& cell, const VoxelIndex& step) const {
+    return frame_.centre_of(cell) + 0.49 * frame_.size_m * Eigen::Vector3d(step.x, step.y, step.z);
+  }
+  bool in_sight(const VoxelIndex& viewpoint, const VoxelIndex& unknown, const Eigen::Vector3d& point) {
+    return VoxelRay(frame_, frame_.centre_of(viewpoint), point).all_from_the_end([&](const VoxelIndex& cell) {
+      return passes(cell) || cell == unknown;
+    });
+  }
+  // Whether a line of sight from `viewpoint` can enter `unknown` through a clear neighbour on its side.
+  bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
+    const VoxelIndex away = viewpoint - unknown;
+    return (away.x != 0 && clear(unknown + VoxelIndex{away.x > 0 ? 1 : -1, 0, 0})) ||
+           (away.y != 0 && clear(unknown + VoxelIndex{0, away.y > 0 ? 1 : -1, 0})) ||
+           (away.z != 0 && clear(unknown + VoxelIndex{0, 0, away.z > 0 ? 1 : -1}));
+  }
+  bool in_range(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
+    const double range_m = (frame_.centre_of(unknown) - frame_.centre_of(viewpoint)).norm();
+    return range_m >= sensor_.min_range_m && range_m <= sensor_.max_range_m;
+  }
+  bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
+    const Eigen::Vector3d from = frame_.centre_of(viewpoint);
+    const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
+    return !tried_.tried_from(unknown, viewpoint) && !tried_.rests(viewpoint) &&
+           (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
+  }
+
+  VoxelFrame frame_;
+  const Platform& platform_;
+  const RangeSensor& sensor_;
+  const ReachableSpace& reachable_;
+  const TriedViews& tried_;
+  detail::SightMemory& memory_;
+  std::vector<VoxelIndex> places_;  // all reachable cells, listed when they are first needed
+  std::uint64_t operations_ = 0;
+};
+
+inline bool is_sought(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
+  return map.in_region(cell) && map.at(cell) == Occupancy::Unknown && !tried.gave_up(cell);
+}
+
+// Whether an unknown neighbour of the frontier cell was given up.
+inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
+  return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+    const VoxelIndex unknown = cell + step;
+    return map.in_region(unknown) && map.at(unknown) == Occupancy::Unknown && tried.gave_up(unknown);
+  });
+}
+
+// The targets whose unknown cell touches an occupied cell; all targets if there is none.
+inline std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
+  const auto beside_surface = [&](const FrontierTarget& target) {
+    return std::any_of(kAllNeighbours.begin(), kAllNeighbours.end(),
+                       [&](const VoxelIndex& step) { return map.at(target.unknown + step) == Occupancy::Occupied; });
+  };
+  std::vector<FrontierTarget> beside;
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(beside), beside_surface);
+  return beside.empty() ? std::move(targets) : beside;
+}
+
+// Assigns each frontier cell without target to a cause. The platform comes close to a cell if a reachable cell lies
+// within half the largest side of its body plus one cell.
+inline void count_hidden(const OccupancyMap& map, const Platform& platform, const ReachableSpace& reachable,
+                         const TriedViews& tried, const std::vector<VoxelIndex>& hidden, Leftover& leftover) {
+  const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
+  const std::int32_t near = map.frame().cells_up_to(half.maxCoeff()) + 1;
+  for (const VoxelIndex& cell : hidden) {
+    const bool comes_close = reachable.any_in(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(near));
+    ++(looked_at_in_vain(map, cell, tried) ? leftover.in_vain
+       : comes_close                       ? leftover.unobservable
+                                           : leftover.unreachable);
+  }
+}
+
+}  // namespace detail
+
+VANTAGE_INLINE FrontierSurveyor::FrontierSurveyor(std::shared_ptr<const Platform> platform, const RangeSensor& sensor,
+                                                  const FrontierSurveyOptions& options)
+    : platform_(std::move(platform)),
+      sensor_(sensor),
+      options_(options),
+      memory_(std::make_unique<detail::SightMemory>()) {}
+VANTAGE_INLINE FrontierSurveyor::FrontierSurveyor(FrontierSurveyor&&) noexcept = default;
+VANTAGE_INLINE FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&) noexcept = default;
+VANTAGE_INLINE FrontierSurveyor::~FrontierSurveyor() = default;
+
+VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current,
+                                                       const TriedViews& tried, std::vector<VoxelIndex> frontier) {
+  reachable_.follow(map, *platform_, current);
+  return find_targets(map, tried, std::move(frontier));
+}
+
+VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey_from(const std::vector<VoxelIndex>& places,
+                                                            const OccupancyMap& map, const TriedViews& tried,
+                                                            std::vector<VoxelIndex> frontier) {
+  reachable_ = ReachableSpace(map.frame(), places);
+  return find_targets(map, tried, std::move(frontier));
+}
+
+VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const TriedViews& tried,
+                                                             std::vector<VoxelIndex> frontier) {
+  memory_->follow(map, reachable_, detail::furthest_m(map, sensor_), options_.sight_directions);
+  FrontierSurvey survey;
+  survey.frontier_cells = frontier.size();
+  if (frontier.empty() || !reachable_.start()) {
+    survey.leftover.unreachable = frontier.size();
+    return survey;
+  }
+  detail::ViewpointSearch search(map.frame(), *platform_, sensor_, reachable_, tried, *memory_);
+  const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex unknown = cell + step;
+      if (const auto viewpoint = detail::is_sought(map, unknown, tried) ? find(unknown) : std::nullopt) {
+        survey.targets.push_back({cell, unknown, *viewpoint});
+        return true;
+      }
+    }
+    return false;
+  };
+  std::vector<VoxelIndex>& hidden = frontier;  // the cells without target remain
+  std::erase_if(hidden, [&](const VoxelIndex& cell) {
+    return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
+  });
+  if (survey.targets.empty()) {
+    const auto sought = [&](const VoxelIndex& unknown) { return detail::is_sought(map, unknown, tried); };
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
+      if (target) {
+        survey.targets.push_back(*target);
+      }
+      return target.has_value();
+    });
+  }
+  memory_->forget_others();
+  if (survey.targets.empty()) {
+    // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too
+    // many.
+    std::size_t pairs = detail::kExhaustivePairs;
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
+    });
+    survey.exhausted = pairs > 0;
+  }
+  if (!sensor_.reports_no_return) {
+    survey.targets = detail::surfaces_first(map, std::move(survey.targets));
+  }
+  survey.ray_operations = search.operations();
+  detail::count_hidden(map, *platform_, reachable_, tried, hidden, survey.leftover);
+  return survey;
+}
+
+VANTAGE_INLINE FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,
+                                               const RangeSensor& sensor, const Pose& current,
+                                               const FrontierSurveyOptions& options, const TriedViews& tried) {
+  const std::shared_ptr<const Platform> borrowed(std::shared_ptr<void>(), &platform);
+  return FrontierSurveyor(borrowed, sensor, options).survey(map, current, tried, frontier_cells(map));
+}
+
+}  // namespace vantage

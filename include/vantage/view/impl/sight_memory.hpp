@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vantage/geometry/voxel_table.hpp>
+#include <vantage/map/brick_grid.hpp>
+#include <vantage/map/known_map.hpp>
+#include <vantage/map/occupancy_map.hpp>
+#include <vantage/robot/reachable_space.hpp>
+#include <vector>
+
+#include <vantage/map/impl/brick_tree.hpp>
+#include <vantage/view/impl/sight_tree.hpp>
+
+namespace vantage::detail {
+
+/// Remembers, from survey to survey, the viewpoint that was found for each unknown cell, until a cell that the search
+/// has looked at changes. Its answers are always the same as those of a new memory.
+///
+///     Block  4 x 4 x 4 cells: one bit each for clear and reachable, number of the survey in which one changed
+///     Answer viewpoint of an unknown cell (or none), blocks that its search has looked at,
+///            boxes that it has skipped because nothing in them was reachable
+///
+///     follow():       blocks written since the last survey are compared with the stored bits -> Block::changed
+///     look_around():  no looked-at block changed after the answer was found, and no skipped box
+///                     holds a reachable cell now?   yes: the stored answer    no: search again (SightTree)
+///
+/// All blocks are compared if the map is another one. The memory used grows with the known space, not with its
+/// bounding box.
+class SightMemory {
+ public:
+  /// Updates the clear and the reachable cells. `reachable` must be the same object in every call, and must have
+  /// followed `map` once since the last call. Searches use `direction_count` rays of length `furthest_m`, metres;
+  /// if one of these or the cell size changes, all answers are dropped.
+  void follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
+              std::size_t direction_count);
+
+  [[nodiscard]] double furthest_m() const { return furthest_m_; }
+  /// Whether sight passes this cell. During a search, the answer depends on this cell from now on.
+  [[nodiscard]] bool is_clear(const VoxelIndex& cell);
+  /// Whether the platform can bring the sensor to this cell, as of the last `follow`.
+  [[nodiscard]] bool is_reachable(const VoxelIndex& cell) const;
+
+  /// Searches along the rays from `unknown`: each continues while `passes(cell)`, and ends at the first reachable
+  /// cell with `serves(cell)`. Returns the result of the first ray in the order of directions, or the stored answer
+  /// if it is still valid. `passes` and `serves` must call `is_clear` for every cell that their result depends on. If
+  /// they depend on anything else, pass `anew` = true: then the search is done, and its result is not kept for later
+  /// surveys.
+  template <class Passes, class Serves>
+  [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
+                                                      const Serves& serves);
+  /// Deletes the answers that were not requested since the last `follow`.
+  void forget_others();
+
+ private:
+  struct Block {
+    std::uint64_t clear = 0;      // one bit per cell, in the order of a Brick's words
+    std::uint64_t reachable = 0;  // one bit per cell
+    std::uint32_t changed = 0;    // last survey in which a bit changed
+    std::uint32_t looked_at = 0;  // last search that looked at a cell of this block
+  };
+  struct Answer {
+    VoxelIndex unknown = {};
+    std::optional<VoxelIndex> viewpoint = {};
+    bool may_stand = false;                     // may be reused in later surveys
+    std::uint32_t found = 0;                    // survey of the search
+    std::uint32_t asked = 0;                    // survey of the last request
+    std::vector<std::uint32_t> looked_at = {};  // positions of blocks
+    std::vector<VoxelBox> without_places = {};  // boxes skipped because nothing in them was reachable
+  };
+
+  void begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count);
+  void follow_clear(const OccupancyMap& map);
+  void follow_places(const ReachableSpace& reachable);
+  template <class Member>
+  void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
+  // The answer of a cell, a new one if there is none. Valid until the next call.
+  [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
+  [[nodiscard]] bool stands(const Answer& answer) const;
+  static VoxelIndex block_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
+  static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (Brick::offset_of(cell) & 63U); }
+
+  double cell_size_m_ = 0.0;
+  double furthest_m_ = 0.0;
+  std::size_t direction_count_ = 0;
+  std::optional<SightTree> tree_;
+  KnownMap map_;  // of the last follow
+  OccupancyMap::Revision followed_ = 0;
+  BrickGrid<Block> blocks_;  // indexed by block address as if it were a cell
+  BrickTree places_;         // bricks with reachable cells
+  // The brick of blocks of the last is_clear since `follow`; no block moves while others are stored.
+  BrickGrid<Block>::Values* last_blocks_ = nullptr;
+  VoxelIndex last_brick_;
+  std::uint32_t last_number_ = BrickDirectory::kNone;
+  std::uint32_t survey_ = 0;
+  std::uint32_t question_ = 0;
+  Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
+  std::vector<Answer> answers_;
+  VoxelTable<std::uint32_t> numbers_;  // of the answers, by unknown cell
+};
+
+inline bool SightMemory::is_clear(const VoxelIndex& cell) {
+  const VoxelIndex address = block_of(cell);
+  const VoxelIndex brick = Brick::of_cell(address);
+  if (last_blocks_ == nullptr || brick != last_brick_) {
+    last_brick_ = brick;
+    last_number_ = blocks_.store(brick);  // stored even if unknown, so that a later change is noticed
+    last_blocks_ = &blocks_.values(last_number_);
+  }
+  const std::size_t offset = Brick::offset_of(address);
+  Block& block = (*last_blocks_)[offset];
+  if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + offset));
+  }
+  return (block.clear & bit_of(cell)) != 0;
+}
+
+inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
+  const VoxelIndex address = block_of(cell);
+  const bool near = last_blocks_ != nullptr && Brick::of_cell(address) == last_brick_;
+  const Block& block = near ? (*last_blocks_)[Brick::offset_of(address)] : blocks_[address];
+  return (block.reachable & bit_of(cell)) != 0;
+}
+
+template <class Passes, class Serves>
+std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
+                                                   const Serves& serves) {
+  Answer& answer = answer_of(unknown);
+  const bool asked_before = answer.asked == survey_;  // in this survey, from another frontier cell
+  answer.asked = survey_;
+  if (asked_before || (!anew && stands(answer))) {
+    return answer.viewpoint;
+  }
+  answer = {.unknown = unknown, .found = survey_, .asked = survey_};
+  asked_ = &answer;
+  ++question_;
+  answer.viewpoint = tree_->first(
+      unknown,
+      [&](const VoxelBox& cells) {
+        const bool may_hold = places_.touches(cells);
+        if (!may_hold) {
+          answer.without_places.push_back(cells);
+        }
+        return may_hold;
+      },
+      passes, [&](const VoxelIndex& cell) { return is_reachable(cell) && serves(cell); });
+  asked_ = nullptr;
+  answer.may_stand = !anew;
+  return answer.viewpoint;
+}
+
+}  // namespace vantage::detail
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/sight_memory.ipp>
+#endif

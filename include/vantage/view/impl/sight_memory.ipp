@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/view/impl/sight_memory.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include <vantage/geometry/impl/spread_directions.hpp>
+
+namespace vantage::detail {
+
+VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
+                                        std::size_t direction_count) {
+  if (cell_size_m_ != map.resolution_m() || furthest_m_ != furthest_m || direction_count_ != direction_count) {
+    begin(map, furthest_m, direction_count);
+  }
+  asked_ = nullptr;
+  last_blocks_ = nullptr;
+  ++survey_;
+  follow_clear(map);
+  follow_places(reachable);
+}
+
+VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
+  answers_.clear();
+  numbers_.clear();
+  cell_size_m_ = 0.0;  // starts again if the next lines throw
+  tree_.emplace(map.frame(), spread_directions(direction_count), furthest_m);
+  cell_size_m_ = map.resolution_m();
+  furthest_m_ = furthest_m;
+  direction_count_ = direction_count;
+}
+
+VANTAGE_INLINE void SightMemory::follow_clear(const OccupancyMap& map) {
+  if (!map_.is(map)) {
+    followed_ = 0;
+    for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
+      for_each_cell({{0, 0, 0}, {4, 4, 4}},
+                    [&](const VoxelIndex& step) {  // the bricks of the map in a brick of blocks
+                      const VoxelIndex blocks = blocks_.address(number);
+                      const VoxelIndex brick = VoxelIndex{blocks.x * 4, blocks.y * 4, blocks.z * 4} + step;
+                      if (map.find_brick(brick) == nullptr) {
+                        set(brick, {}, &Block::clear);
+                      }
+                    });
+    }
+    map_ = KnownMap(map);
+  }
+  map.for_each_written_since(followed_, [&](const VoxelIndex& address, const Brick& brick) {
+    set(address, map.clear_plane(brick), &Block::clear);
+  });
+  followed_ = map.revision();
+}
+
+VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable) {
+  if (reachable.started_anew()) {
+    for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
+      for (Block& block : blocks_.values(number)) {
+        block.changed = std::exchange(block.reachable, 0) != 0 ? survey_ : block.changed;
+      }
+    }
+    places_.clear();
+  }
+  for (const VoxelIndex& brick : reachable.changed()) {
+    const BrickPlane& cells = *reachable.find(brick);
+    set(brick, cells, &Block::reachable);
+    cells == BrickPlane{} ? places_.erase(brick) : places_.insert(brick);
+  }
+}
+
+// Sets the eight blocks of one brick of the map.
+template <class Member>
+void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member member) {
+  const VoxelIndex first{brick.x * 2, brick.y * 2, brick.z * 2};
+  BrickGrid<Block>::Values& blocks = blocks_.values(blocks_.store(Brick::of_cell(first)));
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    const auto at = static_cast<std::int32_t>(word);
+    Block& block = blocks[Brick::offset_of(first + VoxelIndex{at & 1, at >> 1 & 1, at >> 2})];
+    if (std::exchange(block.*member, cells[word]) != cells[word]) {
+      block.changed = survey_;
+    }
+  }
+}
+
+VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {
+  return answer.may_stand &&
+         std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
+                     [&](std::uint32_t at) {
+                       return blocks_.values(at / Brick::kCells)[at % Brick::kCells].changed <= answer.found;
+                     }) &&
+         std::none_of(answer.without_places.begin(), answer.without_places.end(),
+                      [&](const VoxelBox& cells) { return places_.touches(cells); });
+}
+
+VANTAGE_INLINE SightMemory::Answer& SightMemory::answer_of(const VoxelIndex& unknown) {
+  const auto next = static_cast<std::uint32_t>(answers_.size());
+  const std::uint32_t number = numbers_.place(unknown, next);
+  if (number == next) {
+    answers_.push_back({.unknown = unknown});
+  }
+  return answers_[number];
+}
+
+VANTAGE_INLINE void SightMemory::forget_others() {
+  if (std::erase_if(answers_, [&](const Answer& answer) { return answer.asked != survey_; }) > 0) {
+    numbers_.clear();
+    for (const Answer& answer : answers_) {
+      numbers_.place(answer.unknown, static_cast<std::uint32_t>(&answer - answers_.data()));
+    }
+  }
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vantage/geometry/voxel.hpp>
+#include <vector>
+
+namespace vantage::detail {
+
+/// Rays from the centre of a cell in many directions, as a tree of cells. Rays share the cells that they have in
+/// common from their start. Where a cell blocks, all rays through it end at once.
+///
+///     start --+-- cell -- cell --+-- cell ...     ray 0
+///             |                  +-- cell ...     ray 1
+///             +-- cell ...                        ray 2
+class SightTree {
+ public:
+  /// Rays of length `furthest_m`, metres, in these directions (unit vectors).
+  SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m);
+
+  /// Follows the rays from `start`, which itself is not tested. Each ray ends at the first cell where `clear(cell)`
+  /// is false or `accepts(cell)` is true. Returns the accepted cell of the first ray, in the order of directions,
+  /// that has one; none if no ray has. Rays do not enter a box of cells for which `may_accept(box)` is false.
+  template <class MayAccept, class Clear, class Accepts>
+  [[nodiscard]] std::optional<VoxelIndex> first(const VoxelIndex& start, const MayAccept& may_accept,
+                                                const Clear& clear, const Accepts& accepts) const {
+    Found found;
+    if (!branches_.empty()) {
+      follow(branches_.front(), start, may_accept, clear, accepts, found);
+    }
+    return found.cell;
+  }
+
+ private:
+  // Cells that several rays have in common, up to where they part or one ends.
+  struct Branch {
+    std::size_t direction = 0;  // the first ray of this branch
+    std::size_t first_step = 0;
+    std::size_t last_step = 0;
+    VoxelBox reach;                    // bounding box of the cells of this and all further branches
+    std::vector<std::size_t> further;  // ascending by direction
+  };
+  struct Found {
+    std::size_t direction = std::numeric_limits<std::size_t>::max();
+    std::optional<VoxelIndex> cell;
+  };
+
+  std::size_t grow(const std::vector<std::vector<VoxelIndex>>& rays, const std::vector<std::size_t>& together,
+                   std::size_t depth);
+
+  // Skips branches whose rays all come after the result found so far.
+  template <class MayAccept, class Clear, class Accepts>
+  void follow(const Branch& branch, const VoxelIndex& start, const MayAccept& may_accept, const Clear& clear,
+              const Accepts& accepts, Found& found) const {
+    if (branch.direction >= found.direction || !may_accept({start + branch.reach.lo, start + branch.reach.hi})) {
+      return;
+    }
+    for (std::size_t step = branch.first_step; step < branch.last_step; ++step) {
+      const VoxelIndex cell = start + steps_[step];
+      if (!clear(cell)) {
+        return;
+      }
+      if (accepts(cell)) {
+        found = {branch.direction, cell};
+        return;
+      }
+    }
+    for (const std::size_t next : branch.further) {
+      follow(branches_[next], start, may_accept, clear, accepts, found);
+    }
+  }
+
+  std::vector<VoxelIndex> steps_;  // cells relative to the start
+  std::vector<Branch> branches_;   // the first one is the root
+};
+
+}  // namespace vantage::detail
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/view/impl/sight_tree.ipp>
+#endif

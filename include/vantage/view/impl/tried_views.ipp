@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/view/tried_views.hpp>
+
+#include <vantage/settings/impl/option_rule.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline constexpr std::size_t kMostCells = std::size_t{1} << 18;
+inline constexpr std::size_t kMostPlaces = 256;
+inline constexpr std::size_t kMostScans = 64;
+inline constexpr int kMostFailures = 3;
+inline constexpr std::uint64_t kFirstRest = 8;  // plans
+inline constexpr double kNearerM = 0.01;        // smaller progress is ignored as jitter
+
+inline int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
+  return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+    return map.at(cell + step) != Occupancy::Unknown;
+  }));
+}
+
+inline double squared_distance(const VoxelIndex& a, const VoxelIndex& b) {
+  const VoxelIndex d = a - b;
+  return static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y + static_cast<double>(d.z) * d.z;
+}
+
+// Whether two places differ as seen from `unknown`: distance above half of the shorter distance to it.
+inline bool differ(const VoxelIndex& unknown, const VoxelIndex& a, const VoxelIndex& b) {
+  const double nearer = std::min(squared_distance(unknown, a), squared_distance(unknown, b));
+  return squared_distance(a, b) > 0.25 * nearer;
+}
+
+inline void add_if_it_differs(const VoxelIndex& unknown, const VoxelIndex& place, std::vector<VoxelIndex>& places) {
+  if (std::all_of(places.begin(), places.end(),
+                  [&](const VoxelIndex& other) { return differ(unknown, place, other); })) {
+    places.push_back(place);
+  }
+}
+
+inline bool touch(const VoxelIndex& a, const VoxelIndex& b) {
+  return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
+}
+
+inline double angle_rad(const Pose& a, const Pose& b) {
+  return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
+}
+
+// Distance in metres plus angle in radians.
+inline double off_by(const Pose& goal, const Pose& pose) {
+  return (goal.translation() - pose.translation()).norm() + angle_rad(goal, pose);
+}
+
+}  // namespace detail
+
+VANTAGE_INLINE double way_of(const std::vector<Pose>& path) {
+  double way = path.empty() ? 0.0 : detail::angle_rad(path.front(), path.back());
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    way += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return way;
+}
+
+VANTAGE_INLINE TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
+    : sensor_(sensor), options_(options) {
+  detail::require_option(std::isfinite(options.goal_tolerance_m) && options.goal_tolerance_m >= 0.0,
+                         "PlannerSetup::goal_tolerance_m", options.goal_tolerance_m, ">= 0");
+  detail::require_option(std::isfinite(options.goal_tolerance_rad) && options.goal_tolerance_rad >= 0.0,
+                         "PlannerSetup::goal_tolerance_rad", options.goal_tolerance_rad, ">= 0");
+  detail::require_option(options.patience >= 1, "patience", options.patience, ">= 1");
+}
+
+VANTAGE_INLINE void TriedViews::expect(const OccupancyMap& map, const Pose& goal, double way,
+                                       std::vector<VoxelIndex> sought, std::vector<VoxelIndex> hoped) {
+  expected_ = Expectation{goal, map.revision(), std::move(sought), std::move(hoped)};
+  Place& place = place_of(map.frame().cell_of(goal.translation()));
+  if (place.revision == map.revision()) {
+    return;  // this map was already planned in
+  }
+  const bool first = place.revision == 0;
+  place.revision = map.revision();
+  if (first || way < place.nearest_way - detail::kNearerM) {
+    place.nearest_way = way;
+    place.no_nearer = 0;
+  } else {
+    ++place.no_nearer;
+  }
+}
+
+VANTAGE_INLINE TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
+  const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& one) { return one.cell == cell; });
+  if (found != places_.end()) {
+    return *found;
+  }
+  if (places_.size() == detail::kMostPlaces) {
+    places_.pop_front();
+  }
+  return places_.emplace_back(Place{.cell = cell});
+}
+
+VANTAGE_INLINE bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
+  const bool same_map = map_.is_copied_from(map) && map.revision() >= reviewed_;
+  if (same_map && reviewed_ == map.revision()) {
+    if (expected_ && reported_ == GoalResult::Failed) {  // a failure is known without a new scan
+      fail(map.frame().cell_of(expected_->goal.translation()));
+      expected_.reset();
+      reported_.reset();
+      rest_now();
+    }
+    return false;
+  }
+  if (!same_map) {
+    *this = TriedViews(sensor_, options_);
+    cell_m_ = map.resolution_m();
+  }
+  map_ = KnownMap(map);
+  reviewed_ = map.revision();
+  ++plans_;
+  forget(map);
+  if (expected_) {
+    evaluate(map, current);
+  }
+  reported_.reset();
+  rest_now();
+  remember_scan(current);
+  return same_map;
+}
+
+VANTAGE_INLINE void TriedViews::remember_scan(const Pose& pose) {
+  if (scanned_from_.size() == detail::kMostScans) {
+    scanned_from_.pop_front();
+  }
+  scanned_from_.push_back(pose);
+}
+
+// Deletes evidence by the number of known neighbours, not by their states: a surface may change between free and
+// occupied forever, while known cells stay known (unless the host makes the map forget).
+VANTAGE_INLINE void TriedViews::forget(const OccupancyMap& map) {
+  const bool crowded = looks_.size() > detail::kMostCells;
+  std::vector<std::uint64_t> ages;
+  if (crowded) {
+    for (const auto& entry : looks_) {
+      ages.push_back(entry.second.latest);
+    }
+    std::nth_element(ages.begin(), ages.begin() + static_cast<std::ptrdiff_t>(ages.size() / 2), ages.end());
+  }
+  const std::uint64_t oldest = crowded ? ages[ages.size() / 2] : 0;
+  std::erase_if(looks_, [&](const auto& entry) {
+    const auto& [cell, looks] = entry;
+    return looks.latest < oldest || map.at(cell) != Occupancy::Unknown ||
+           detail::known_around(map, cell) > looks.known_neighbours;
+  });
+  may_hold_.clear();
+  for (const auto& entry : looks_) {
+    may_hold_.insert(entry.first);
+  }
+}
+
+VANTAGE_INLINE bool TriedViews::arrived(const Pose& current) const {
+  const double off_m = (expected_->goal.translation() - current.translation()).norm();
+  return off_m <= std::max(options_.goal_tolerance_m, cell_m_) &&
+         detail::angle_rad(expected_->goal, current) <= options_.goal_tolerance_rad;
+}
+
+// Evaluates what became of the last planned view.
+VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
+  const VoxelIndex goal = map.frame().cell_of(expected_->goal.translation());
+  if (reported_ == GoalResult::Preempted) {
+    std::erase_if(places_, [&](const Place& place) { return place.cell == goal && place.failures == 0; });
+  } else if (reported_ == GoalResult::Failed) {
+    fail(goal);
+  } else if (reported_ == GoalResult::Reached || arrived(current)) {
+    settle(goal, reported_ ? 0.0 : (expected_->goal.translation() - current.translation()).norm());
+    const VoxelIndex here = map.frame().cell_of(current.translation());
+    const auto look = [&](const VoxelIndex& cell, std::vector<VoxelIndex> Looks::*unseen) {
+      if (map.at(cell) != Occupancy::Unknown) {
+        return;
+      }
+      Looks& looks = new_look_at(map, cell);
+      const bool looked = was_in_view(map, current, cell);
+      if (looked) {
+        detail::add_if_it_differs(cell, here, looks.in_vain);
+      }
+      if (!looked || detail::differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
+        std::vector<VoxelIndex>& goals = looks.*unseen;
+        if (std::find(goals.begin(), goals.end(), goal) == goals.end()) {
+          goals.push_back(goal);
+        }
+      }
+    };
+    for (const VoxelIndex& cell : expected_->sought) {
+      look(cell, &Looks::missed);
+    }
+    const std::vector<VoxelIndex>& hoped = expected_->hoped;
+    if (std::all_of(hoped.begin(), hoped.end(),
+                    [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
+      for (const VoxelIndex& cell : hoped) {
+        look(cell, &Looks::hoped);
+      }
+    }
+  } else {
+    // The length of the way is only known after planning, so the last stretch is judged by the distance to the goal.
+    const bool nearer = detail::off_by(expected_->goal, current) <
+                        detail::off_by(expected_->goal, scanned_from_.back()) - detail::kNearerM;
+    if (const int no_nearer = place_of(goal).no_nearer; no_nearer >= 2 || (no_nearer == 1 && !nearer)) {
+      fail(goal);
+    }
+    return;  // still on the way
+  }
+  expected_.reset();
+}
+
+// The scan may have added a surface in front of the cell, so cells that touch it are not tested.
+VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose& pose,
+                                            const VoxelIndex& unknown) const {
+  const Eigen::Vector3d line = map.frame().centre_of(unknown) - pose.translation();
+  const double range_m = line.norm();
+  return range_m >= sensor_.min_range_m && range_m <= sensor_.max_range_m &&
+         sensor_.in_view(pose.linear().transpose() * line) &&
+         VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
+             .all_from_the_end(
+                 [&](const VoxelIndex& cell) { return detail::touch(cell, unknown) || map.is_clear(cell); });
+}
+
+// The robot stopped `off_m` from the goal. If it is off the cell and the same goal is planned again, the goal fails:
+// the robot would stop in the same place.
+VANTAGE_INLINE void TriedViews::settle(const VoxelIndex& goal, double off_m) {
+  Place& place = place_of(goal);
+  if (off_m < 0.5 * cell_m_) {
+    std::erase_if(places_, [&](const Place& one) { return one.cell == goal; });
+  } else if (place.nearest_way == 0.0) {
+    fail(goal);
+  } else {
+    place.nearest_way = 0.0;
+  }
+}
+
+VANTAGE_INLINE void TriedViews::fail(const VoxelIndex& goal) {
+  Place& place = place_of(goal);
+  place.no_nearer = 0;
+  ++place.failures;
+  place.rests_until = plans_ + (detail::kFirstRest << std::min(place.failures - 1, 8));
+}
+
+VANTAGE_INLINE void TriedViews::rest_now() {
+  resting_.clear();
+  for (const Place& place : places_) {
+    if (place.rests_until > plans_) {
+      resting_.push_back(place.cell);
+    }
+  }
+}
+
+VANTAGE_INLINE bool TriedViews::try_resting_again() {
+  bool any = false;
+  for (Place& place : places_) {
+    if (place.rests_until > plans_ && place.failures < detail::kMostFailures) {
+      place.rests_until = 0;
+      any = true;
+    }
+  }
+  rest_now();
+  return any;
+}
+
+VANTAGE_INLINE std::size_t TriedViews::places_given_up() const {
+  return static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), [&](const Place& place) {
+    return place.rests_until > plans_ && place.failures >= detail::kMostFailures;
+  }));
+}
+
+VANTAGE_INLINE TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& map, const VoxelIndex& unknown) {
+  Looks& looks = looks_[unknown];
+  may_hold_.insert(unknown);
+  looks.known_neighbours = detail::known_around(map, unknown);
+  looks.latest = plans_;
+  return looks;
+}
+
+VANTAGE_INLINE void TriedViews::in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place) {
+  detail::add_if_it_differs(unknown, place, new_look_at(map, unknown).in_vain);
+}
+
+VANTAGE_INLINE const TriedViews::Looks* TriedViews::looks_at(const VoxelIndex& unknown) const {
+  if (!may_hold_.contains(unknown)) {
+    return nullptr;
+  }
+  const auto found = looks_.find(unknown);
+  return found == looks_.end() ? nullptr : &found->second;
+}
+
+VANTAGE_INLINE bool TriedViews::tried_from(const VoxelIndex& unknown, const VoxelIndex& place) const {
+  const Looks* looks = looks_at(unknown);
+  const auto alike = [&](const VoxelIndex& other) { return !detail::differ(unknown, place, other); };
+  return looks != nullptr && (std::any_of(looks->in_vain.begin(), looks->in_vain.end(), alike) ||
+                              std::find(looks->missed.begin(), looks->missed.end(), place) != looks->missed.end());
+}
+
+VANTAGE_INLINE bool TriedViews::hoped_in_vain(const VoxelIndex& unknown, const VoxelIndex& place) const {
+  const Looks* looks = looks_at(unknown);
+  return looks != nullptr && (gave_up(unknown) || tried_from(unknown, place) ||
+                              looks->hoped.size() >= 2 * static_cast<std::size_t>(options_.patience) ||
+                              std::find(looks->hoped.begin(), looks->hoped.end(), place) != looks->hoped.end());
+}
+
+VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
+  const Looks* looks = looks_at(unknown);
+  const auto patience = static_cast<std::size_t>(options_.patience);
+  return looks != nullptr &&
+         (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
+}
+
+VANTAGE_INLINE bool TriedViews::rests(const VoxelIndex& place) const {
+  const double reach = std::max(options_.goal_tolerance_m / cell_m_, 1.0);
+  return std::any_of(resting_.begin(), resting_.end(), [&](const VoxelIndex& other) {
+    return detail::squared_distance(place, other) <= reach * reach;
+  });
+}
+
+}  // namespace vantage

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/view/unknown_sight.hpp>
+
+#include <vantage/geometry/impl/box_around.hpp>
+#include <vantage/geometry/impl/box_overlap.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
+
+namespace vantage {
+namespace detail {
+
+// Smaller probabilities are neglected.
+inline constexpr double kLeastChance = 0.01;
+
+// The number of cells that a ray from one cell to the other visits, both included.
+inline std::uint64_t cells_between(const VoxelIndex& a, const VoxelIndex& b) {
+  const VoxelIndex d = b - a;
+  return static_cast<std::uint64_t>(std::abs(d.x)) + static_cast<std::uint64_t>(std::abs(d.y)) +
+         static_cast<std::uint64_t>(std::abs(d.z)) + 1;
+}
+
+}  // namespace detail
+
+// A ray that ends in an unknown cell, with its continuation.
+struct UnknownSight::Ray {
+  Eigen::Vector3d sensor;
+  Eigen::Vector3d direction;
+  VoxelIndex end;
+  double range_m;
+};
+
+// The best probability of every cell, as a 16-bit fixed-point number.
+class UnknownSight::Chances {
+ public:
+  Chances(const VoxelBox& box, const Eigen::Vector3d& sensor, double min_range_m, const VoxelFrame& frame)
+      : best_(box, 0),
+        row_length_(static_cast<std::size_t>(box.extent().x)),
+        raised_(best_.size() / row_length_, 0),
+        sensor_(sensor),
+        min_range_m_(min_range_m),
+        frame_(frame) {}
+
+  void raise(const VoxelIndex& cell, double chance) {
+    if (best_.contains(cell)) {
+      const std::size_t offset = best_.offset_of(cell);
+      std::uint16_t& best = best_.values()[offset];
+      best = std::max(best, static_cast<std::uint16_t>(std::lround(chance * kWhole)));
+      raised_[offset / row_length_] = 1;
+    }
+  }
+  // Surfaces within the minimum range give no return.
+  [[nodiscard]] bool in_range(const VoxelIndex& cell) const {
+    return min_range_m_ <= 0.0 || (frame_.centre_of(cell) - sensor_).norm() >= min_range_m_;
+  }
+  [[nodiscard]] std::vector<SightedCell> cells() const {
+    std::vector<SightedCell> seen;
+    for (std::size_t row = 0; row < raised_.size(); ++row) {
+      if (raised_[row] != 0) {
+        append_row(row, seen);
+      }
+    }
+    return seen;
+  }
+
+  // A wanted cell on a ray.
+  struct Passed {
+    VoxelIndex cell;
+    double reached;  // probability that the ray reaches it
+  };
+  std::vector<Passed> on_ray;    // scratch memory of `follow`
+  std::uint64_t operations = 0;  // cells on the rays so far
+
+ private:
+  static constexpr double kWhole = 65535.0;
+
+  void append_row(std::size_t row, std::vector<SightedCell>& seen) const {
+    for (std::size_t i = row * row_length_; i < (row + 1) * row_length_; ++i) {
+      if (best_.values()[i] == 0) {
+        continue;
+      }
+      const VoxelIndex cell = best_.cell_at(i);
+      if (in_range(cell)) {
+        seen.push_back({cell, best_.values()[i] / kWhole});
+      }
+    }
+  }
+
+  VoxelGrid<std::uint16_t> best_;
+  std::size_t row_length_;
+  std::vector<std::uint8_t> raised_;  // per row along x: whether a cell has a probability
+  Eigen::Vector3d sensor_;
+  double min_range_m_;
+  VoxelFrame frame_;
+};
+
+VANTAGE_INLINE UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted,
+                                          const UnknownSightOptions& options)
+    : map_(&map),
+      frame_(map.frame()),
+      options_(options),
+      bounds_(map.bounds()),
+      contents_(detail::box_around(wanted)) {
+  detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
+                         "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
+  detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
+                         "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
+  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    const VoxelIndex first = Brick::first_cell(address);
+    if (detail::box_overlap(contents_.box(), {first, first + VoxelIndex{8, 8, 8}}).empty()) {
+      return;
+    }
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
+        if (const VoxelIndex cell = first + Brick::cell_at(offset); contents_.contains(cell)) {
+          contents_[cell] = Content::Surface;
+        }
+      });
+    }
+  });
+  for (const VoxelIndex& cell : wanted) {
+    const bool beside_surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const auto& step) {
+      return content_of(cell + step) == Content::Surface;
+    });
+    contents_[cell] = beside_surface ? Content::WantedBesideSurface : Content::Wanted;
+  }
+}
+
+VANTAGE_INLINE UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
+  if (contents_.contains(cell)) {
+    return contents_[cell];
+  }
+  return map_->at(cell) == Occupancy::Occupied ? Content::Surface : Content::Open;
+}
+
+VANTAGE_INLINE std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,
+                                                           const ViewRays& rays, std::uint64_t& operations) const {
+  const Eigen::Vector3d sensor = world_from_sensor.translation();
+  const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m());
+  const VoxelBox near{frame_.cell_of(sensor - range), frame_.cell_of(sensor + range) + VoxelIndex{1, 1, 1}};
+  const VoxelBox box = detail::box_overlap(contents_.box(), near);
+  if (box.empty()) {
+    return {};
+  }
+  std::vector<RayEnd> ends(rays.size());
+  caster.cast(world_from_sensor, rays, ends);
+  const VoxelIndex here = frame_.cell_of(sensor);
+  Chances chances(box, sensor, rays.min_range_m(), frame_);
+  for (const RayTile& tile : rays.tiles()) {
+    for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const RayEnd& end = ends[tile.ray[i]];
+      chances.operations += detail::cells_between(here, end.cell);
+      if (end.occupancy != Occupancy::Unknown || content_of(end.cell) == Content::Open) {
+        continue;
+      }
+      const Eigen::Vector3d direction = (world_from_sensor.linear() * tile.direction(i).cast<double>()).normalized();
+      follow({sensor, direction, end.cell, rays.max_range_m()}, chances);
+    }
+  }
+  operations += chances.operations;
+  return chances.cells();
+}
+
+VANTAGE_INLINE void UnknownSight::follow(const Ray& ray, Chances& chances) const {
+  auto& passed = chances.on_ray;
+  passed.clear();
+  double reached = 1.0;
+  bool returns = options_.reports_no_return;
+  const auto pass = [&](const VoxelIndex& cell, Content content) {
+    if (content != Content::Open) {
+      passed.push_back({cell, reached});
+      reached *= 1.0 - (content == Content::Wanted ? options_.opaque_share : options_.opaque_beside_surface);
+    }
+  };
+  pass(ray.end, content_of(ray.end));
+  // The depth of the cells increases along a ray, so the walk may start anywhere before the cell behind the end.
+  const auto depth_of = [&](const VoxelIndex& cell) {
+    return ray.direction.dot(frame_.centre_of(cell) - ray.sensor);
+  };
+  const double end_depth = depth_of(ray.end);
+  const double start_m = std::clamp(end_depth - frame_.size_m, 0.0, ray.range_m);
+  bool behind = false;
+  for (const VoxelIndex& cell :
+       VoxelRay(frame_, ray.sensor + start_m * ray.direction, ray.sensor + ray.range_m * ray.direction)) {
+    behind = behind || (cell != ray.end && depth_of(cell) > end_depth);
+    if (!behind) {
+      continue;
+    }
+    ++chances.operations;
+    if (!bounds_.contains(cell) || reached < detail::kLeastChance) {
+      break;  // the ray has left the bounding box of the map, or its probability is negligible
+    }
+    const Content content = content_of(cell);
+    if (content == Content::Surface) {
+      if (!chances.in_range(cell)) {
+        return;
+      }
+      returns = true;
+      break;
+    }
+    pass(cell, content);
+  }
+  for (const Chances::Passed& one : passed) {
+    // Without a return, the cell is observed only if the ray stops in it or behind it.
+    chances.raise(one.cell, returns ? one.reached : one.reached - reached);
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/view/unseen_surface.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline constexpr std::uint8_t kFaces = 0x3F;
+inline constexpr std::uint8_t kTakenForFree = 0x40;
+
+// Faces that are turned away slightly also count as observed, because they approximate a slanted surface that is
+// visible. For predictions a face must be turned towards the sensor more clearly.
+inline constexpr double kLookedAtCosine = -0.1;
+inline constexpr double kExpectedCosine = 0.2;
+
+// Probability that an unobserved cell beside known surface is occupied.
+inline constexpr double kChanceBesideSurface = 0.4;
+
+// Calls `visit(face)` for the faces whose normal has a cosine to the direction of the sensor above `least_cosine`.
+template <class Visit>
+void for_each_face_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
+  const double least = least_cosine * back.norm();
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    if (-back[axis] > least) {
+      visit(static_cast<std::uint8_t>(2 * axis));
+    }
+    if (back[axis] > least) {
+      visit(static_cast<std::uint8_t>(2 * axis + 1));
+    }
+  }
+}
+
+// A pseudo-random number in [0, 1) that is fixed for each cell.
+inline double draw_of(const VoxelIndex& cell) {
+  std::uint64_t h = static_cast<std::uint32_t>(cell.x) * 0x9E3779B97F4A7C15ULL ^
+                    static_cast<std::uint32_t>(cell.y) * 0xC2B2AE3D27D4EB4FULL ^
+                    static_cast<std::uint32_t>(cell.z) * 0x165667B19E3779F9ULL;
+  h = (h ^ h >> 31U) * 0xBF58476D1CE4E5B9ULL;
+  h = (h ^ h >> 27U) * 0x94D049BB133111EBULL;
+  return static_cast<double>((h ^ h >> 31U) >> 11U) * 0x1.0p-53;
+}
+
+// Returns the box if its faces can be numbered.
+inline const VoxelBox& with_numbered_faces(const VoxelBox& object) {
+  if (object.size() > std::numeric_limits<UnseenSurface::Face>::max() / 6) {
+    throw std::length_error("UnseenSurface: the box of the object has too many cells; coarser ones will do");
+  }
+  return object;
+}
+
+}  // namespace detail
+
+VANTAGE_INLINE UnseenSurface::UnseenSurface(const OccupancyMap& map, const VoxelBox& object)
+    : frame_(map.frame()), looked_(detail::with_numbered_faces(object), 0), caster_(map) {}
+
+VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor,
+                                        const ViewRays& rays) {
+  caster_.update();
+  pass_rays(map, world_from_sensor, rays);
+  // First assume that all unknown cells stop rays, except those treated as free. Then the visible cells are those
+  // that the sensor may have met.
+  CellSet stopping(looked_.box());
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    if (map.at(cell) == Occupancy::Unknown && (looked_[cell] & detail::kTakenForFree) == 0) {
+      stopping.insert(cell);
+    }
+  });
+  caster_.suppose(stopping);
+  caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
+    const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
+    std::uint8_t& looked = looked_[cell];
+    detail::for_each_face_towards(back, detail::kLookedAtCosine, [&](std::uint8_t face) {
+      looked = static_cast<std::uint8_t>(looked | 1U << face);
+    });
+    if (map.at(cell) == Occupancy::Unknown) {
+      looked |= detail::kTakenForFree;
+    }
+  });
+  suppose(map);
+}
+
+// Marks unknown cells that a ray has passed: those before known surface, or on a ray that meets none.
+VANTAGE_INLINE void UnseenSurface::pass_rays(const OccupancyMap& map, const Pose& world_from_sensor,
+                                             const ViewRays& rays) {
+  const Eigen::Vector3d from = world_from_sensor.translation();
+  const Box box = frame_.box_of(looked_.box());
+  std::vector<RayEnd> ends(rays.size());
+  caster_.cast(world_from_sensor, rays, ends);
+  for (const RayTile& tile : rays.tiles()) {
+    for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
+      const auto place = static_cast<std::size_t>(std::countr_zero(left));
+      const Eigen::Vector3d reach =
+          world_from_sensor.linear() * (tile.direction(place).cast<double>() * tile.stretch[place]);
+      // The part of the ray inside the box.
+      double enters = 0.0;
+      double leaves = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.min[axis] - from[axis]) / reach[axis];
+        const double b = (box.max[axis] - from[axis]) / reach[axis];
+        enters = std::max(enters, std::min(a, b));
+        leaves = std::min(leaves, std::max(a, b));
+      }
+      const RayEnd& end = ends[tile.ray[place]];
+      const bool stopped_before = end.occupancy != Occupancy::Free && !looked_.contains(end.cell) &&
+                                  (frame_.centre_of(end.cell) - from).squaredNorm() < (enters * reach).squaredNorm();
+      if (!(enters < leaves) || stopped_before) {
+        continue;
+      }
+      for (const VoxelIndex& cell : VoxelRay(frame_, from + enters * reach, from + leaves * reach)) {
+        if (!looked_.contains(cell)) {
+          continue;
+        }
+        const Occupancy state = map.at(cell);
+        if (state == Occupancy::Occupied) {
+          break;
+        }
+        if (state == Occupancy::Unknown) {
+          looked_[cell] |= detail::kTakenForFree;
+        }
+      }
+    }
+  }
+}
+
+VANTAGE_INLINE void UnseenSurface::suppose(const OccupancyMap& map) {
+  std::size_t known = 0;
+  std::size_t occupied = 0;
+  VoxelGrid<std::uint8_t> beside(looked_.box(), 0);
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    const Occupancy state = map.at(cell);
+    known += state == Occupancy::Unknown ? 0U : 1U;
+    if (state == Occupancy::Occupied) {
+      ++occupied;
+      for (const VoxelIndex& step : kAllNeighbours) {
+        if (beside.contains(cell + step)) {
+          beside[cell + step] = 1;
+        }
+      }
+    }
+  });
+  const double share = static_cast<double>(occupied) / static_cast<double>(std::max<std::size_t>(known, 1));
+  CellSet stopping(looked_.box());
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    if (map.at(cell) == Occupancy::Unknown && (looked_[cell] & detail::kTakenForFree) == 0 &&
+        detail::draw_of(cell) < (beside[cell] != 0 ? detail::kChanceBesideSurface : share)) {
+      stopping.insert(cell);
+    }
+  });
+  caster_.suppose(stopping);
+}
+
+VANTAGE_INLINE std::vector<UnseenSurface::Face> UnseenSurface::expected(const Pose& world_from_sensor,
+                                                                        const ViewRays& rays) const {
+  std::vector<Face> faces;
+  caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
+    const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
+    detail::for_each_face_towards(back, detail::kExpectedCosine, [&](std::uint8_t face) {
+      if ((unsigned{looked_[cell]} >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
+        faces.push_back(static_cast<Face>(looked_.offset_of(cell) * 6 + face));
+      }
+    });
+  });
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+VANTAGE_INLINE std::vector<CellFace> UnseenSurface::left() const {
+  std::vector<CellFace> faces;
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    if (!stops(cell)) {
+      return;
+    }
+    for (std::uint8_t face = 0; face < 6; ++face) {
+      if ((unsigned{looked_[cell]} >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
+        faces.push_back({cell, kFaceNeighbours[face]});
+      }
+    }
+  });
+  return faces;
+}
+
+VANTAGE_INLINE std::size_t UnseenSurface::looked_at() const {
+  std::size_t count = 0;
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    if (caster_.at(cell) != Occupancy::Occupied) {
+      return;
+    }
+    for (std::uint8_t face = 0; face < 6; ++face) {
+      count += (unsigned{looked_[cell]} >> face & 1U) != 0 && !stops(cell + kFaceNeighbours[face]) ? 1U : 0U;
+    }
+  });
+  return count;
+}
+
+}  // namespace vantage
