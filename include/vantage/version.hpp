@@ -7,7 +7,7 @@
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): #if can only compare macros.
 
 /// A version as one number that sorts like the version. Each part must be below 1000.
-#define VANTAGE_VERSION_NUMBER(major, minor, patch) ((major) * 1000000 + (minor) * 1000 + (patch))
+#define VANTAGE_VERSION_NUMBER(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
 
 /// Major part of the version.
 #define VANTAGE_VERSION_MAJOR 0

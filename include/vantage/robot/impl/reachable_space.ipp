@@ -19,22 +19,21 @@ inline std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const
                                                   const Pose& current, const AdmittedCells& admitted) {
   const VoxelFrame& frame = map.frame();
   const VoxelIndex home = frame.cell_of(current.translation());
-  std::vector<VoxelIndex> candidates;
+  // Distances are computed once: what is compared must not depend on how a compiler rounds in each comparison.
+  std::vector<std::pair<double, VoxelIndex>> candidates;
   // A body pressed against a wall must be able to move away by half its size plus one cell.
   constexpr std::int32_t kMostCells = 16;
   const double half_m = 0.5 * platform.body_box(current).extent().maxCoeff();
   const std::int32_t near = std::clamp(frame.cells_up_to(half_m) + 1, 2, kMostCells);
   for_each_cell(VoxelBox{home, home + VoxelIndex{1, 1, 1}}.grown(near), [&](const VoxelIndex& cell) {
     if (admitted.contains(cell)) {
-      candidates.push_back(cell);
+      const double distance_m = (frame.centre_of(cell) - current.translation()).norm();
+      candidates.emplace_back(cell == home ? -1.0 : distance_m, cell);
     }
   });
-  const auto distance_m = [&](const VoxelIndex& cell) {
-    return cell == home ? -1.0 : (frame.centre_of(cell) - current.translation()).norm();
-  };
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](const VoxelIndex& a, const VoxelIndex& b) { return distance_m(a) < distance_m(b); });
-  for (const VoxelIndex& cell : candidates) {
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [distance_m, cell] : candidates) {
     Pose there = current;
     there.translation() = frame.centre_of(cell);
     if (platform.admits_motion(map, current, there)) {
