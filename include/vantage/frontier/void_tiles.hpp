@@ -23,6 +23,10 @@ class VoidTiles {
   void add(const VoxelIndex& brick);
   /// The addresses of all tiles (in units of tiles), in the order in which they were added.
   [[nodiscard]] const std::vector<VoxelIndex>& tiles() const { return tiles_; }
+  /// Whether a tile is searched.
+  [[nodiscard]] bool contains(const VoxelIndex& tile) const { return near_.find(tile) != nullptr; }
+  /// Whether a tile holds a brick of the map.
+  [[nodiscard]] bool holds_brick(const VoxelIndex& tile) const { return held_.find(tile) != nullptr; }
   /// The bricks of a tile, as a box in units of bricks.
   [[nodiscard]] static VoxelBox bricks_of(const VoxelIndex& tile) {
     return {{tile.x * 8, tile.y * 8, tile.z * 8}, {tile.x * 8 + 8, tile.y * 8 + 8, tile.z * 8 + 8}};

@@ -2,20 +2,21 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/void_tiles.hpp>
 #include <vantage/geometry/lattice_hull.hpp>
+#include <vantage/map/brick_directory.hpp>
 #include <vantage/map/brick_set.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
 namespace vantage::detail {
 class ConnectedCells;
-}
+class HullChange;
+}  // namespace vantage::detail
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -29,8 +30,11 @@ namespace VANTAGE_EXPORT vantage {
 /// new occupied cells outside it. If a corner of the hull is no longer occupied, the hull shrinks to the remaining
 /// corners and grows again from there. A cell is tested again only if it lies beyond a plane that bounds only one of
 /// the old and the new hull. While all occupied cells lie in one plane, there is no hull to grow, and each update
-/// looks at the whole map; a map whose region is one layer of cells has no void cells and costs nothing. The map must
-/// outlive the tracker. (Dornhege & Kleiner 2011, IV-B.)
+/// looks at the whole map; a map whose region is one layer of cells has no void cells and costs nothing.
+///
+/// Cells inside the hull are stored for bricks of the map only. Elsewhere all of them are void cells; they are
+/// counted, and found from the planes of the hull where they are asked for. So memory follows what is known, and not
+/// the volume of the hull. The map must outlive the tracker. (Dornhege & Kleiner 2011, IV-B.)
 class VoidTracker {
  public:
   /// Computes the void cells of the map as it is now.
@@ -54,7 +58,7 @@ class VoidTracker {
   /// The number of void cells.
   [[nodiscard]] std::size_t cell_count() const { return cell_count_; }
   /// Whether a cell is a void cell.
-  [[nodiscard]] bool contains(const VoxelIndex& cell) const { return voids_.contains(cell); }
+  [[nodiscard]] bool contains(const VoxelIndex& cell) const;
   /// All void cells in raster order (z, then y, then x), as `void_cells`.
   [[nodiscard]] std::vector<VoxelIndex> cells() const;
   /// The void cells behind a frontier, in no particular order: those that are connected, through faces of void cells,
@@ -62,9 +66,11 @@ class VoidTracker {
   [[nodiscard]] std::vector<VoxelIndex> cells_behind(std::span<const VoxelIndex> frontier);
 
  private:
-  struct BrickVoids {
+  // A brick of the map.
+  struct Stored {
     VoxelIndex address;
     BrickPlane inside{};  // cells inside the hull
+    BrickPlane voids{};   // those of them that are unknown
   };
 
   [[nodiscard]] bool has_lost_a_corner() const;
@@ -72,9 +78,13 @@ class VoidTracker {
   void shrink(std::vector<VoxelIndex>& touched);
   void widen(const std::vector<VoxelIndex>& touched);
   void reshape(LatticeHull hull, std::vector<VoxelIndex>* reshaped = nullptr);
-  BrickVoids& brick_at(const VoxelIndex& address);
-  void refresh(BrickVoids& brick);
-  void collect_outside(const VoxelIndex& address, std::vector<VoxelIndex>& cells) const;
+  void apply(detail::HullChange& change, const VoxelIndex& tile, std::vector<VoxelIndex>* reshaped);
+  [[nodiscard]] Stored* find(const VoxelIndex& address);
+  [[nodiscard]] const Stored* find(const VoxelIndex& address) const;
+  void store(const VoxelIndex& address, const BrickPlane& inside);
+  void refresh(Stored& brick);
+  void collect_outside(const Stored& brick, std::vector<VoxelIndex>& cells) const;
+  void fill(detail::HullChange& whole, const VoxelIndex& tile, std::span<BrickPlane> bricks) const;
 
   const OccupancyMap* map_;
   OccupancyMap::Revision revision_ = 0;
@@ -83,10 +93,8 @@ class VoidTracker {
   std::vector<VoxelIndex> corners_;         // of `hull_`
   VoidTiles tiles_;
   std::size_t cell_count_ = 0;
-  std::unordered_map<VoxelIndex, std::uint32_t> numbers_;  // index in `bricks_` of each brick that the hull reaches
-  std::vector<BrickVoids> bricks_;
-  BrickSet voids_;
-  std::vector<VoxelIndex> changed_;  // bricks of `voids_`, since the last `cells_behind`
+  BrickDirectory numbers_;  // index in `bricks_` of each brick of the map
+  std::deque<Stored> bricks_;
   std::unique_ptr<detail::ConnectedCells> connected_;
   BrickSet behind_;  // result of the last `cells_behind`
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vantage/frontier/frontiers.hpp>
@@ -14,7 +15,8 @@ namespace vantage::detail {
 ///
 /// A cell that is inside only one hull lies beyond a plane of the other, and this plane is not shared. So only the
 /// space beyond unshared planes is searched. The search bisects boxes of bricks and drops a box if no part of it lies
-/// beyond an unshared plane, or if all of it lies outside both hulls.
+/// beyond an unshared plane, or if all of it lies outside both hulls. A box inside one hull and outside the other is
+/// counted as a whole, so that a count costs what the surfaces between the hulls hold, not the space between them.
 class HullChange {
  public:
   /// A hull given by its planes, ascending, and its corners.
@@ -22,13 +24,16 @@ class HullChange {
     std::span<const LatticeHull::Plane> planes;
     std::span<const VoxelIndex> corners;
   };
-  /// Called with the address of a brick and the cells of it that are inside the new hull.
-  using Visit = std::function<void(const VoxelIndex&, const BrickPlane&)>;
+  /// Called with the address of a brick, the cells of it that are inside the new hull, and the number of those that
+  /// were inside the old one.
+  using Visit = std::function<void(const VoxelIndex&, const BrickPlane&, std::size_t)>;
 
   HullChange(const Hull& before, const Hull& now);
 
-  /// Calls `visit` once for every such brick in the given tiles (VoidTiles). The tiles must be distinct.
-  void for_each_brick(std::span<const VoxelIndex> tiles, const Visit& visit);
+  /// Calls `visit` for every such brick of a box of bricks.
+  void for_each_brick(const VoxelBox& bricks, const Visit& visit);
+  /// By how many the cells of a box of bricks inside the hull have become more.
+  [[nodiscard]] std::int64_t growth(const VoxelBox& bricks);
 
  private:
   // The planes of one kind that cut a box, as a range of indices.
@@ -41,12 +46,17 @@ class HullChange {
   };
   using Planes = std::vector<HullPlane>;
 
+  template <class Whole>
   void visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone, const Cutting& added,
-                 const Visit& visit);
-  static Cutting narrow(Planes& planes, const Cutting& from, const VoxelBox& bricks);
-  [[nodiscard]] BrickPlane inside(const VoxelIndex& brick, const Cutting& common, const Cutting& added) const;
+                 const Whole& whole, const Visit& visit);
+  template <class Whole>
+  void visit_overlap(const VoxelBox& bricks, const Whole& whole, const Visit& visit);
+  [[nodiscard]] VoxelBox cells_of(const VoxelBox& bricks) const;
+  static Cutting narrow(Planes& planes, const Cutting& from, const VoxelBox& cells);
+  [[nodiscard]] BrickPlane inside(const VoxelIndex& brick, const Cutting& common, const Planes& planes,
+                                  const Cutting& own) const;
 
-  VoxelBox bricks_;
+  VoxelBox cells_;  // around both hulls
   // Three stacks. Each recursion pushes the planes that cut its box, and removes them when it returns.
   Planes common_;
   Planes gone_;

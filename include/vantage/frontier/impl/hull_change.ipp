@@ -4,15 +4,14 @@
 #include <vantage/frontier/impl/hull_change.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
-#include <vantage/frontier/void_tiles.hpp>
 
 #include <vantage/frontier/impl/lattice_point.hpp>
 #include <vantage/frontier/impl/on_facet.hpp>
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/geometry/impl/plane_distance.hpp>
+#include <vantage/map/impl/brick_plane.hpp>
 
 namespace vantage::detail {
 
@@ -76,35 +75,64 @@ VANTAGE_INLINE HullChange::HullChange(const Hull& before, const Hull& now) {
   if (now.planes.empty()) {
     added_.push_back(none);
   }
-  std::vector<VoxelIndex> bricks;
-  for (const std::span<const VoxelIndex> corners : {before.corners, now.corners}) {
-    std::transform(corners.begin(), corners.end(), std::back_inserter(bricks), Brick::of_cell);
-  }
-  bricks_ = box_around(bricks);
+  cells_ = box_around(box_around(before.corners), box_around(now.corners));
 }
 
-VANTAGE_INLINE void HullChange::for_each_brick(std::span<const VoxelIndex> tiles, const Visit& visit) {
-  for (const VoxelIndex& tile : tiles) {
-    const VoxelBox bricks = box_overlap(bricks_, VoidTiles::bricks_of(tile));
-    if (!bricks.empty()) {
-      visit_box(bricks, {0, common_.size()}, {0, gone_.size()}, {0, added_.size()}, visit);
-    }
+VANTAGE_INLINE VoxelBox HullChange::cells_of(const VoxelBox& bricks) const {
+  return box_overlap({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)}, cells_);
+}
+
+VANTAGE_INLINE void HullChange::for_each_brick(const VoxelBox& bricks, const Visit& visit) {
+  visit_overlap(
+      bricks, [](const VoxelBox&, bool) { return false; }, visit);
+}
+
+VANTAGE_INLINE std::int64_t HullChange::growth(const VoxelBox& bricks) {
+  std::int64_t growth = 0;
+  visit_overlap(
+      bricks,
+      [&](const VoxelBox& cells, bool is_inside) {
+        const auto size = static_cast<std::int64_t>(cells.size());
+        growth += is_inside ? size : -size;
+        return true;
+      },
+      [&](const VoxelIndex&, const BrickPlane& inside, std::size_t before) {
+        growth += static_cast<std::int64_t>(size_of(inside)) - static_cast<std::int64_t>(before);
+      });
+  return growth;
+}
+
+// `whole(cells, is inside)` may take a box inside one hull and outside the other.
+template <class Whole>
+void HullChange::visit_overlap(const VoxelBox& bricks, const Whole& whole, const Visit& visit) {
+  const VoxelBox overlap = cells_of(bricks);
+  if (!overlap.empty()) {
+    const VoxelIndex last = Brick::of_cell(overlap.hi - VoxelIndex{1, 1, 1});
+    visit_box({Brick::of_cell(overlap.lo), last + VoxelIndex{1, 1, 1}}, {0, common_.size()}, {0, gone_.size()},
+              {0, added_.size()}, whole, visit);
   }
 }
 
-VANTAGE_INLINE void HullChange::visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone,
-                                          const Cutting& added, const Visit& visit) {
-  const Cutting gone_here = narrow(gone_, gone, bricks);
-  const Cutting added_here = narrow(added_, added, bricks);
+template <class Whole>
+void HullChange::visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone, const Cutting& added,
+                           const Whole& whole, const Visit& visit) {
+  const VoxelBox cells = cells_of(bricks);
+  const Cutting gone_here = narrow(gone_, gone, cells);
+  const Cutting added_here = narrow(added_, added, cells);
   const bool outside_both = gone_here.beyond && added_here.beyond;
   if (!outside_both && !(gone_here.empty() && added_here.empty())) {
-    const Cutting common_here = narrow(common_, common, bricks);
-    if (!common_here.beyond && bricks.size() > 1) {
+    const Cutting common_here = narrow(common_, common, cells);
+    const bool gained = common_here.empty() && added_here.empty() && gone_here.beyond;
+    const bool lost = common_here.empty() && gone_here.empty() && added_here.beyond;
+    if (common_here.beyond || ((gained || lost) && whole(cells, gained))) {
+      // nothing of it is left to look at
+    } else if (bricks.size() > 1) {
       const auto [low, high] = halves(bricks);
-      visit_box(low, common_here, gone_here, added_here, visit);
-      visit_box(high, common_here, gone_here, added_here, visit);
-    } else if (!common_here.beyond) {
-      visit(bricks.lo, inside(bricks.lo, common_here, added_here));
+      visit_box(low, common_here, gone_here, added_here, whole, visit);
+      visit_box(high, common_here, gone_here, added_here, whole, visit);
+    } else {
+      visit(bricks.lo, inside(bricks.lo, common_here, added_, added_here),
+            size_of(inside(bricks.lo, common_here, gone_, gone_here)));
     }
     common_.resize(common_here.first);
   }
@@ -113,8 +141,8 @@ VANTAGE_INLINE void HullChange::visit_box(const VoxelBox& bricks, const Cutting&
 }
 
 // Pushes the planes beyond which a part of the box lies.
-VANTAGE_INLINE HullChange::Cutting HullChange::narrow(Planes& planes, const Cutting& from, const VoxelBox& bricks) {
-  const PointBox box({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
+VANTAGE_INLINE HullChange::Cutting HullChange::narrow(Planes& planes, const Cutting& from, const VoxelBox& cells) {
+  const PointBox box(cells);
   Cutting cutting{planes.size(), planes.size()};
   for (std::size_t i = from.first; i < from.last; ++i) {
     const HullPlane plane = planes[i];
@@ -129,21 +157,24 @@ VANTAGE_INLINE HullChange::Cutting HullChange::narrow(Planes& planes, const Cutt
   return cutting;
 }
 
-VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutting& common,
-                                             const Cutting& added) const {
-  BrickPlane inside{};
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
-    const PointBox box({first, first + VoxelIndex{4, 4, 4}});
-    inside[word] = ~std::uint64_t{0};
-    const auto cut_by = [&](const HullPlane& plane) {
+// The cells of a brick within the common planes and those of one hull.
+VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutting& common, const Planes& planes,
+                                             const Cutting& own) const {
+  if (own.beyond) {
+    return {};
+  }
+  BrickPlane inside = plane_of(brick, cells_);
+  const auto cut_by = [&](const HullPlane& plane) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
+      const PointBox box({first, first + VoxelIndex{4, 4, 4}});
       if (inside[word] != 0 && distance_from(plane, box.middle) + box.reach(plane) > 0.0) {
         inside[word] &= cells_within(plane, first);
       }
-    };
-    std::for_each_n(common_.begin() + static_cast<std::ptrdiff_t>(common.first), common.last - common.first, cut_by);
-    std::for_each_n(added_.begin() + static_cast<std::ptrdiff_t>(added.first), added.last - added.first, cut_by);
-  }
+    }
+  };
+  std::for_each_n(common_.begin() + static_cast<std::ptrdiff_t>(common.first), common.last - common.first, cut_by);
+  std::for_each_n(planes.begin() + static_cast<std::ptrdiff_t>(own.first), own.last - own.first, cut_by);
   return inside;
 }
 

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/geometry/raster_order.hpp>
 
 #include <vantage/frontier/impl/hull_change.hpp>
+#include <vantage/frontier/impl/lattice_point.hpp>
+#include <vantage/frontier/impl/on_facet.hpp>
+#include <vantage/geometry/impl/plane_distance.hpp>
 #include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/map/impl/connected_cells.hpp>
 
@@ -51,10 +55,10 @@ VANTAGE_INLINE bool VoidTracker::update() {
   }
   std::vector<VoxelIndex> outside;
   for (const VoxelIndex& address : touched) {
-    if (const auto known = numbers_.find(address); known != numbers_.end()) {
-      refresh(bricks_[known->second]);
+    if (Stored* const brick = find(address)) {
+      refresh(*brick);
+      collect_outside(*brick, outside);
     }
-    collect_outside(address, outside);
   }
   if (hull_.empty()) {
     start_anew();
@@ -73,11 +77,9 @@ VANTAGE_INLINE bool VoidTracker::has_lost_a_corner() const {
 
 // Rebuilds everything from all occupied cells.
 VANTAGE_INLINE void VoidTracker::start_anew() {
-  numbers_.clear();
+  numbers_ = {};
   bricks_.clear();
   cell_count_ = 0;
-  voids_ = {};
-  changed_.clear();
   *connected_ = {};
   behind_ = {};
   hull_ = {};
@@ -85,31 +87,39 @@ VANTAGE_INLINE void VoidTracker::start_anew() {
   corners_.clear();
   tiles_ = VoidTiles(*map_);
   std::vector<VoxelIndex> cells;
-  map_->for_each_brick(
-      [&](const VoxelIndex& address, const Brick& brick) { detail::append(brick.occupied, address, cells); });
+  map_->for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    store(address, {});
+    detail::append(brick.occupied, address, cells);
+  });
   reshape(LatticeHull(cells));
 }
 
-// Adds the tiles of the touched bricks, and finds the cells inside the hull in the new tiles.
+// Stores the touched bricks that are new in the map, adds their tiles, and finds the cells inside the hull in tiles
+// that were not searched before.
 VANTAGE_INLINE void VoidTracker::widen(const std::vector<VoxelIndex>& touched) {
   const std::size_t before = tiles_.tiles().size();
+  std::optional<detail::HullChange> whole;
+  for (const VoxelIndex& address : touched) {
+    if (find(address) == nullptr) {
+      BrickPlane inside{};
+      if (tiles_.contains(Brick::of_cell(address))) {
+        detail::HullChange& hull = whole ? *whole : whole.emplace(detail::HullChange({}, {planes_, corners_}));
+        hull.for_each_brick({address, address + VoxelIndex{1, 1, 1}},
+                            [&](const VoxelIndex&, const BrickPlane& cells, std::size_t) { inside = cells; });
+      }
+      store(address, inside);
+    }
+  }
   for (const VoxelIndex& address : touched) {
     tiles_.add(address);
   }
-  const std::span<const VoxelIndex> fresh = std::span(tiles_.tiles()).subspan(before);
-  if (fresh.empty()) {
-    return;
+  for (std::size_t tile = before; tile < tiles_.tiles().size(); ++tile) {
+    apply(whole ? *whole : whole.emplace(detail::HullChange({}, {planes_, corners_})), tiles_.tiles()[tile], nullptr);
   }
-  detail::HullChange({}, {planes_, corners_})
-      .for_each_brick(fresh, [&](const VoxelIndex& address, const BrickPlane& inside) {
-        BrickVoids& brick = brick_at(address);
-        brick.inside = inside;
-        refresh(brick);
-      });
 }
 
-// Replaces the hull by the hull of those corners that are still occupied. Appends to `touched` the changed bricks,
-// because their occupied cells may now lie outside.
+// Replaces the hull by the hull of those corners that are still occupied. Appends to `touched` the bricks of the map
+// in which the hull has changed, because their occupied cells may now lie outside.
 VANTAGE_INLINE void VoidTracker::shrink(std::vector<VoxelIndex>& touched) {
   std::vector<VoxelIndex> left;
   std::copy_if(corners_.begin(), corners_.end(), std::back_inserter(left),
@@ -117,82 +127,142 @@ VANTAGE_INLINE void VoidTracker::shrink(std::vector<VoxelIndex>& touched) {
   reshape(LatticeHull(left), &touched);
 }
 
-// Replaces the hull, and updates the bricks where the set of cells inside it has changed.
+// Replaces the hull where the set of cells inside it has changed.
 VANTAGE_INLINE void VoidTracker::reshape(LatticeHull hull, std::vector<VoxelIndex>* reshaped) {
   std::vector<LatticeHull::Plane> planes = hull.planes();
   std::vector<VoxelIndex> corners = hull.corners();
   detail::HullChange change({planes_, corners_}, {planes, corners});
-  change.for_each_brick(tiles_.tiles(), [&](const VoxelIndex& address, const BrickPlane& inside) {
-    BrickVoids& brick = brick_at(address);
-    brick.inside = inside;
-    refresh(brick);
-    if (reshaped != nullptr) {
-      reshaped->push_back(address);
-    }
-  });
+  for (const VoxelIndex& tile : tiles_.tiles()) {
+    apply(change, tile, reshaped);
+  }
   hull_ = std::move(hull);
   planes_ = std::move(planes);
   corners_ = std::move(corners);
 }
 
-VANTAGE_INLINE VoidTracker::BrickVoids& VoidTracker::brick_at(const VoxelIndex& address) {
-  const auto [known, is_new] = numbers_.try_emplace(address, static_cast<std::uint32_t>(bricks_.size()));
-  if (is_new) {
-    bricks_.push_back({address});
+// Applies a change of the hull to the bricks of a tile, and appends those of the map to `reshaped`.
+VANTAGE_INLINE void VoidTracker::apply(detail::HullChange& change, const VoxelIndex& tile,
+                                       std::vector<VoxelIndex>* reshaped) {
+  const VoxelBox bricks = VoidTiles::bricks_of(tile);
+  std::int64_t growth = 0;
+  bool changed = false;
+  if (!tiles_.holds_brick(tile)) {
+    growth = change.growth(bricks);
+    changed = growth != 0;  // a hull that changes contains the other one
+  } else {
+    change.for_each_brick(bricks, [&](const VoxelIndex& address, const BrickPlane& inside, std::size_t before) {
+      Stored* const brick = find(address);
+      if (brick == nullptr) {
+        growth += static_cast<std::int64_t>(detail::size_of(inside)) - static_cast<std::int64_t>(before);
+      } else {
+        brick->inside = inside;
+        refresh(*brick);
+        if (reshaped != nullptr) {
+          reshaped->push_back(address);
+        }
+      }
+      changed = true;
+    });
   }
-  return bricks_[known->second];
+  cell_count_ += static_cast<std::size_t>(growth);
+  if (changed) {
+    connected_->changed(tile);
+  }
+}
+
+VANTAGE_INLINE const VoidTracker::Stored* VoidTracker::find(const VoxelIndex& address) const {
+  const BrickDirectory::Number number = numbers_.find(address);
+  return number == BrickDirectory::kNone ? nullptr : &bricks_[number];
+}
+
+VANTAGE_INLINE VoidTracker::Stored* VoidTracker::find(const VoxelIndex& address) {
+  return const_cast<Stored*>(std::as_const(*this).find(address));
+}
+
+// As a brick with no cell known, which is how its cells were counted before.
+VANTAGE_INLINE void VoidTracker::store(const VoxelIndex& address, const BrickPlane& inside) {
+  numbers_.place(address) = static_cast<BrickDirectory::Number>(bricks_.size());
+  bricks_.push_back({address, inside, inside});
 }
 
 // The region needs no test: it is a box, so the hull of cells inside it stays inside it.
-VANTAGE_INLINE void VoidTracker::refresh(BrickVoids& brick) {
-  const Brick* stored = map_->find_brick(brick.address);
-  BrickPlane voids{};
+VANTAGE_INLINE void VoidTracker::refresh(Stored& brick) {
+  const Brick* const known = map_->find_brick(brick.address);
+  BrickPlane voids = brick.inside;
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    voids[word] = brick.inside[word] & ~(stored == nullptr ? 0 : stored->known[word]);
+    voids[word] &= ~(known == nullptr ? 0 : known->known[word]);
   }
-  const BrickPlane* const before = voids_.find(brick.address);
-  const std::size_t count_before = before == nullptr ? 0 : detail::size_of(*before);
-  if (voids_.assign(brick.address, voids)) {
-    cell_count_ += detail::size_of(voids) - count_before;
-    changed_.push_back(brick.address);
+  if (voids != brick.voids) {
+    cell_count_ += detail::size_of(voids) - detail::size_of(brick.voids);
+    brick.voids = voids;
+    connected_->changed(Brick::of_cell(brick.address));
   }
 }
 
-VANTAGE_INLINE void VoidTracker::collect_outside(const VoxelIndex& address, std::vector<VoxelIndex>& cells) const {
-  const Brick* brick = map_->find_brick(address);
-  if (brick == nullptr) {
-    return;
+VANTAGE_INLINE void VoidTracker::collect_outside(const Stored& brick, std::vector<VoxelIndex>& cells) const {
+  if (const Brick* const known = map_->find_brick(brick.address)) {
+    BrickPlane outside = known->occupied;
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      outside[word] &= ~brick.inside[word];
+    }
+    detail::append(outside, brick.address, cells);
   }
-  const auto known = numbers_.find(address);
-  BrickPlane outside = brick->occupied;
-  for (std::size_t word = 0; word < Brick::kWords && known != numbers_.end(); ++word) {
-    outside[word] &= ~bricks_[known->second].inside[word];
+}
+
+// The void cells of a tile. `whole` leads from an empty hull to this one.
+VANTAGE_INLINE void VoidTracker::fill(detail::HullChange& whole, const VoxelIndex& tile,
+                                      std::span<BrickPlane> bricks) const {
+  if (tiles_.contains(tile)) {
+    whole.for_each_brick(
+        VoidTiles::bricks_of(tile), [&](const VoxelIndex& address, const BrickPlane& inside, std::size_t) {
+          const Stored* const brick = find(address);
+          bricks[detail::ConnectedCells::in_tile(address)] = brick == nullptr ? inside : brick->voids;
+        });
   }
-  detail::append(outside, address, cells);
+}
+
+VANTAGE_INLINE bool VoidTracker::contains(const VoxelIndex& cell) const {
+  const VoxelIndex brick = Brick::of_cell(cell);
+  if (const Stored* const stored = find(brick)) {
+    const std::size_t offset = Brick::offset_of(cell);
+    return (stored->voids[offset >> 6U] >> (offset & 63U) & 1U) != 0;
+  }
+  return !hull_.empty() && tiles_.contains(Brick::of_cell(brick)) &&
+         std::all_of(planes_.begin(), planes_.end(), [&](const LatticeHull::Plane& plane) {
+           return detail::distance_from(plane.plane(), detail::lattice_point(cell)) <= detail::kOnFacet;
+         });
 }
 
 VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells() const {
   std::vector<VoxelIndex> cells;
   cells.reserve(cell_count_);
-  voids_.for_each_brick(
-      [&](const VoxelIndex& brick, const BrickPlane& voids) { detail::append(voids, brick, cells); });
+  detail::HullChange whole({}, {planes_, corners_});
+  for (const VoxelIndex& tile : tiles_.tiles()) {
+    whole.for_each_brick(VoidTiles::bricks_of(tile),
+                         [&](const VoxelIndex& address, const BrickPlane& inside, std::size_t) {
+                           const Stored* const brick = find(address);
+                           detail::append(brick == nullptr ? inside : brick->voids, address, cells);
+                         });
+  }
   std::sort(cells.begin(), cells.end(), RasterOrder{});
   return cells;
 }
 
 VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const VoxelIndex> frontier) {
-  connected_->update(voids_, changed_);
-  changed_.clear();
   std::vector<VoxelIndex> starts;
   for (const VoxelIndex& cell : frontier) {
     for (const VoxelIndex& step : kFaceNeighbours) {
-      if (contains(cell + step)) {
+      const Stored* const brick = find(Brick::of_cell(cell + step));
+      const std::size_t offset = Brick::offset_of(cell + step);
+      if (brick == nullptr || (brick->voids[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
         starts.push_back(cell + step);
       }
     }
   }
-  connected_->connect(starts,
-                      [&](const VoxelIndex& brick, const BrickPlane& cells) { (void)behind_.assign(brick, cells); });
+  detail::HullChange whole({}, {planes_, corners_});
+  connected_->connect(
+      starts, [&](const VoxelIndex& tile, std::span<BrickPlane> bricks) { fill(whole, tile, bricks); },
+      [&](const VoxelIndex& brick, const BrickPlane& cells) { (void)behind_.assign(brick, cells); });
   std::vector<VoxelIndex> cells;
   behind_.for_each_brick(
       [&](const VoxelIndex& brick, const BrickPlane& behind) { detail::append(behind, brick, cells); });

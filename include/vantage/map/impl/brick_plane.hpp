@@ -48,15 +48,21 @@ inline bool any(const BrickPlane& plane) {
 /// The cells of a brick that lie in a box.
 inline BrickPlane plane_of(const VoxelIndex& brick, const VoxelBox& box) {
   const VoxelIndex first = Brick::first_cell(brick);
+  const VoxelBox inside = box_overlap({first, first + VoxelIndex{8, 8, 8}}, box);
+  const auto layers = [](const Axis& axis, std::int32_t from, std::int32_t to) {
+    std::uint64_t cells = 0;
+    for (std::int32_t at = std::max(from, 0); at < std::min(to, 4); ++at) {
+      cells |= axis.first << (static_cast<unsigned>(at) * axis.stride);
+    }
+    return cells;
+  };
   BrickPlane plane{};
-  if (box.contains(first) && box.contains(first + VoxelIndex{7, 7, 7})) {
-    plane.fill(~std::uint64_t{0});
-    return plane;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    const VoxelIndex start = first + Brick::cell_at(64 * word);
+    plane[word] = layers(kAxes[0], inside.lo.x - start.x, inside.hi.x - start.x) &
+                  layers(kAxes[1], inside.lo.y - start.y, inside.hi.y - start.y) &
+                  layers(kAxes[2], inside.lo.z - start.z, inside.hi.z - start.z);
   }
-  for_each_cell(box_overlap({first, first + VoxelIndex{8, 8, 8}}, box), [&](const VoxelIndex& cell) {
-    const std::size_t offset = Brick::offset_of(cell);
-    plane[offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
-  });
   return plane;
 }
 

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <vantage/geometry/disjoint_sets.hpp>
-#include <vantage/geometry/raster_order.hpp>
 
 #include <vantage/map/impl/brick_plane.hpp>
 
 namespace vantage::detail {
 
-inline constexpr std::array<VoxelIndex, 3> kUnits{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 inline constexpr std::array<std::size_t, 3> kStrides{1, 8,
                                                      64};  // between the numbers of neighbouring bricks of a tile
 
@@ -23,6 +21,15 @@ inline bool reaches_up(const BrickPlane& cells, const Axis& axis) {
   bool found = false;
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     found = found || ((word & axis.word_bit) != 0 && (cells[word] >> (3 * axis.stride) & axis.first) != 0);
+  }
+  return found;
+}
+
+// Whether a brick has a cell at its lower end along an axis.
+inline bool reaches_down(const BrickPlane& cells, const Axis& axis) {
+  bool found = false;
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
+    found = found || ((word & axis.word_bit) == 0 && (cells[word] & axis.first) != 0);
   }
   return found;
 }
@@ -53,43 +60,49 @@ void ConnectedCells::for_each_touching(const Tile& tile, std::size_t lower, cons
   }
 }
 
-VANTAGE_INLINE void ConnectedCells::update(const BrickSet& cells, std::span<const VoxelIndex> changed) {
-  std::vector<VoxelIndex> stale(changed.size());
-  std::transform(changed.begin(), changed.end(), stale.begin(), Brick::of_cell);
-  std::sort(stale.begin(), stale.end(), RasterOrder{});
-  stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
-  for (const VoxelIndex& address : stale) {
-    const std::uint32_t number = numbers_.place(address, static_cast<std::uint32_t>(tiles_.size()));
-    if (number == tiles_.size()) {
-      tiles_.push_back({.address = address});
-    }
-    find_groups(cells, tiles_[number]);
-  }
-  for (const VoxelIndex& address : stale) {
-    for (std::size_t axis = 0; axis < kUnits.size(); ++axis) {
-      find_links(tiles_[*numbers_.find(address)], axis);
-      if (const std::uint32_t* below = numbers_.find(address - kUnits[axis])) {
-        find_links(tiles_[*below], axis);
-      }
-    }
+VANTAGE_INLINE void ConnectedCells::changed(const VoxelIndex& tile) {
+  if (const Number* number = numbers_.find(tile)) {
+    tiles_[*number].is_stale = true;
   }
 }
 
-VANTAGE_INLINE void ConnectedCells::find_groups(const BrickSet& cells, Tile& tile) {
-  tile.is_new = true;
+VANTAGE_INLINE ConnectedCells::Number ConnectedCells::fresh_tile(const VoxelIndex& address, const Fill& fill) {
+  const Number number = numbers_.place(address, static_cast<Number>(tiles_.size()));
+  if (number == tiles_.size()) {
+    tiles_.push_back({.address = address});
+  }
+  if (tiles_[number].is_stale) {
+    find_groups(tiles_[number], fill);
+  }
+  return number;
+}
+
+VANTAGE_INLINE void ConnectedCells::find_groups(Tile& tile, const Fill& fill) {
+  constexpr BrickPlane kNothing{};
+  BrickPlane all;
+  all.fill(~std::uint64_t{0});
+  filled_.assign(kBricks, kNothing);
+  fill(tile.address, filled_);
   tile.parts.clear();
-  const VoxelIndex first = Brick::first_cell(tile.address);
   for (std::size_t brick = 0; brick < kBricks; ++brick) {
-    const auto at = static_cast<std::int32_t>(brick);
-    if (const BrickPlane* held = cells.find(first + VoxelIndex{at & 7, at >> 3 & 7, at >> 6})) {
-      for_each_piece(*held, grown_through_faces, [&](const BrickPlane& part) { tile.parts.push_back({part, 0}); });
+    if (filled_[brick] == all) {
+      tile.parts.push_back({all, 0});
+    } else if (filled_[brick] != kNothing) {
+      for_each_piece(filled_[brick], grown_through_faces, [&](const BrickPlane& part) {
+        tile.parts.push_back({part, 0});
+      });
     }
     tile.first[brick + 1] = static_cast<std::uint32_t>(tile.parts.size());
   }
   DisjointSets sets(tile.parts.size());
-  for (std::size_t axis = 0; axis < kUnits.size(); ++axis) {
+  tile.opens.fill(false);
+  for (std::size_t axis = 0; axis < kStrides.size(); ++axis) {
     for (std::size_t brick = 0; brick < kBricks; ++brick) {
-      if (!is_last(brick, axis)) {
+      if (is_last(brick, axis)) {
+        tile.opens[2 * axis + 1] = tile.opens[2 * axis + 1] || reaches_up(filled_[brick], kAxes[axis]);
+        const BrickPlane& first = filled_[brick - 7 * kStrides[axis]];
+        tile.opens[2 * axis] = tile.opens[2 * axis] || reaches_down(first, kAxes[axis]);
+      } else {
         for_each_touching(tile, brick, tile, brick + kStrides[axis], axis,
                           [&](std::size_t a, std::size_t b) { sets.merge(a, b); });
       }
@@ -100,66 +113,77 @@ VANTAGE_INLINE void ConnectedCells::find_groups(const BrickSet& cells, Tile& til
     tile.parts[part].group = static_cast<std::uint32_t>(labels[part]);
   }
   tile.groups = static_cast<std::uint32_t>(sets.count());
+  ++tile.version;
+  tile.is_stale = false;
+  tile.is_new = true;
 }
 
-VANTAGE_INLINE void ConnectedCells::find_links(Tile& tile, std::size_t axis) {
-  std::vector<Link>& links = tile.links[axis];
-  links.clear();
-  const std::uint32_t* number = numbers_.find(tile.address + kUnits[axis]);
-  if (number == nullptr) {
-    return;
+// The links from a tile to the next one along an axis; both have groups.
+VANTAGE_INLINE const ConnectedCells::Links& ConnectedCells::fresh_links(Tile& tile, const Tile& next,
+                                                                        std::size_t axis) {
+  Links& links = tile.links[axis];
+  if (links.here == tile.version && links.there == next.version) {
+    return links;
   }
-  const Tile& next = tiles_[*number];
+  links.here = tile.version;
+  links.there = next.version;
+  links.groups.clear();
   for (std::size_t brick = 0; brick < kBricks; ++brick) {
     if (is_last(brick, axis)) {
       for_each_touching(tile, brick, next, brick - 7 * kStrides[axis], axis, [&](std::size_t a, std::size_t b) {
-        links.emplace_back(tile.parts[a].group, next.parts[b].group);
+        links.groups.emplace_back(tile.parts[a].group, next.parts[b].group);
       });
     }
   }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
+  std::sort(links.groups.begin(), links.groups.end());
+  links.groups.erase(std::unique(links.groups.begin(), links.groups.end()), links.groups.end());
+  return links;
 }
 
-VANTAGE_INLINE std::vector<std::vector<bool>> ConnectedCells::connected_with(
-    std::span<const VoxelIndex> starts) const {
-  std::vector<std::size_t> first_group{0};  // of each tile, when the groups of all tiles are counted up
-  for (const Tile& tile : tiles_) {
-    first_group.push_back(first_group.back() + tile.groups);
+VANTAGE_INLINE void ConnectedCells::reach(const Group& group) {
+  Tile& tile = tiles_[group.tile];
+  if (tile.reached.empty()) {
+    tile.reached.resize(tile.groups);
+    reached_.push_back(group.tile);
   }
-  DisjointSets sets(first_group.back());
-  for (std::size_t number = 0; number < tiles_.size(); ++number) {
-    for (std::size_t axis = 0; axis < kUnits.size(); ++axis) {
-      for (const auto& [here, there] : tiles_[number].links[axis]) {
-        sets.merge(first_group[number] + here,
-                   first_group[*numbers_.find(tiles_[number].address + kUnits[axis])] + there);
-      }
-    }
+  if (!tile.reached[group.group]) {
+    tile.reached[group.group] = true;
+    open_.push_back(group);
   }
-  std::vector<bool> is_root(first_group.back(), false);
+}
+
+VANTAGE_INLINE void ConnectedCells::search(std::span<const VoxelIndex> starts, const Fill& fill) {
   for (const VoxelIndex& start : starts) {
     const VoxelIndex brick = Brick::of_cell(start);
-    const std::uint32_t* const number = numbers_.find(Brick::of_cell(brick));
-    const auto in_tile = static_cast<std::size_t>((brick.x & 7) | (brick.y & 7) << 3 | (brick.z & 7) << 6);
+    const Number number = fresh_tile(Brick::of_cell(brick), fill);
+    const Tile& tile = tiles_[number];
+    const std::size_t at = in_tile(brick);
     const std::size_t offset = Brick::offset_of(start);
-    if (number == nullptr) {
-      continue;
-    }
-    const Tile& tile = tiles_[*number];
-    for (std::size_t part = tile.first[in_tile]; part < tile.first[in_tile + 1]; ++part) {
+    for (std::size_t part = tile.first[at]; part < tile.first[at + 1]; ++part) {
       if ((tile.parts[part].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
-        is_root[sets.find(first_group[*number] + tile.parts[part].group)] = true;
+        reach({number, tile.parts[part].group});
       }
     }
   }
-  std::vector<std::vector<bool>> connected;
-  for (std::size_t number = 0; number < tiles_.size(); ++number) {
-    std::vector<bool>& groups = connected.emplace_back(tiles_[number].groups);
-    for (std::size_t group = 0; group < groups.size(); ++group) {
-      groups[group] = is_root[sets.find(first_group[number] + group)];
+  while (!open_.empty()) {
+    const Group from = open_.back();
+    open_.pop_back();
+    for (std::size_t way = 0; way < kFaceNeighbours.size(); ++way) {
+      if (!tiles_[from.tile].opens[way]) {
+        continue;
+      }
+      const std::size_t axis = way / 2;
+      const Number beside = fresh_tile(tiles_[from.tile].address + kFaceNeighbours[way], fill);
+      const bool up = way % 2 == 1;
+      Tile& lower = tiles_[up ? from.tile : beside];
+      const Tile& upper = tiles_[up ? beside : from.tile];
+      for (const auto& [below, above] : fresh_links(lower, upper, axis).groups) {
+        if ((up ? below : above) == from.group) {
+          reach({beside, up ? above : below});
+        }
+      }
     }
   }
-  return connected;
 }
 
 }  // namespace vantage::detail

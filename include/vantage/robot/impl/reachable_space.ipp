@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/robot/reachable_space.hpp>
@@ -43,6 +44,15 @@ inline std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const
   return std::nullopt;
 }
 
+inline void fill_from(const BrickSet& cells, const VoxelIndex& tile, std::span<BrickPlane> bricks) {
+  const VoxelIndex first = Brick::first_cell(tile);
+  for_each_cell(VoxelBox{first, first + VoxelIndex{8, 8, 8}}, [&](const VoxelIndex& brick) {
+    if (const BrickPlane* const held = cells.find(brick)) {
+      bricks[ConnectedCells::in_tile(brick)] = *held;
+    }
+  });
+}
+
 }  // namespace detail
 
 VANTAGE_INLINE ReachableSpace::ReachableSpace() = default;
@@ -71,7 +81,9 @@ VANTAGE_INLINE void ReachableSpace::follow(const OccupancyMap& map, const Platfo
     connected_ = std::make_unique<detail::ConnectedCells>();
     is_another_ = true;
   }
-  connected_->update(admitted_.cells(), admitted_.changed());
+  for (const VoxelIndex& brick : admitted_.changed()) {
+    connected_->changed(Brick::of_cell(brick));
+  }
   const bool addressable = map.frame().addressable(current.translation());
   const auto start = addressable ? detail::nearest_admitted(map, platform, current, admitted_) : std::nullopt;
   const bool stands = !start && platform.admits(map, current);
@@ -88,7 +100,12 @@ VANTAGE_INLINE void ReachableSpace::follow(const OccupancyMap& map, const Platfo
   start_ = stands ? frame_.cell_of(current.translation()) : start;
   stands_at_m_ = stands ? std::optional<Eigen::Vector3d>(current.translation()) : std::nullopt;
   const std::vector<VoxelIndex> starts(start ? 1 : 0, start.value_or(VoxelIndex{}));
-  connected_->connect(starts, [&](const VoxelIndex& brick, const BrickPlane& cells) { assign(brick, cells); });
+  connected_->connect(
+      starts,
+      [&](const VoxelIndex& tile, std::span<BrickPlane> bricks) {
+        detail::fill_from(admitted_.cells(), tile, bricks);
+      },
+      [&](const VoxelIndex& brick, const BrickPlane& cells) { assign(brick, cells); });
   if (stands) {
     cells_.insert(*start_);
     changed_.push_back(Brick::of_cell(*start_));
