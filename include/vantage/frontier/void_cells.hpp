@@ -17,7 +17,8 @@ namespace VANTAGE_EXPORT vantage {
 /// Empty if the hull is empty. (Dornhege & Kleiner 2011, IV-B.)
 [[nodiscard]] std::vector<VoxelIndex> void_cells(const OccupancyMap& map);
 
-/// The number of void cells of the map.
+/// The number of void cells of the map, counted without visiting each: the cost follows what is known and the surface
+/// of the hull, not its volume.
 [[nodiscard]] std::size_t count_void_cells(const OccupancyMap& map);
 
 }  // namespace vantage

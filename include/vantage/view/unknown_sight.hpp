@@ -5,7 +5,7 @@
 #include <span>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
-#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/map/brick_grid.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
@@ -54,16 +54,16 @@ class UnknownSight {
  private:
   enum class Content : std::uint8_t { Open, Wanted, WantedBesideSurface, Surface };
   struct Ray;
+  class Reader;
   class Chances;
-  void follow(const Ray& ray, Chances& chances) const;
-
-  [[nodiscard]] Content content_of(const VoxelIndex& cell) const;
+  void follow(const Ray& ray, Reader& content_of, Chances& chances) const;
 
   const OccupancyMap* map_;
   VoxelFrame frame_;
   UnknownSightOptions options_;
-  VoxelBox bounds_;              // of the known cells
-  VoxelGrid<Content> contents_;  // of a box around the wanted cells
+  VoxelBox bounds_;                             // of the known cells
+  VoxelBox box_;                                // around the wanted cells
+  BrickGrid<Content> contents_{Content::Open};  // of the bricks that hold wanted cells
 };
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/frontier/void_tracker.hpp>
+#include <vantage/map/brick_set.hpp>
 
 #include "support/qhull.hpp"
 #include "support/sanitized.hpp"
@@ -128,6 +129,72 @@ TEST(VoidTracker, KnowsTheVoidCellsBehindAFrontier) {
   }
   EXPECT_GT(behind_count, 15'000U * kWorlds);
   EXPECT_GT(enclosed, 100U * kWorlds);
+}
+
+// Parts of a map lie far apart, so that most of the hull between them is not stored. Parts are added, corners of the
+// hull removed, and boxes in between become known and unknown again.
+TEST(VoidTracker, FindsWhatLiesBetweenPartsFarApart) {
+  std::mt19937 engine(79);
+  std::uniform_int_distribution<std::int32_t> far(-150, 150);
+  std::uniform_int_distribution<std::int32_t> high(-20, 20);
+  std::size_t compared = 0;
+  std::size_t between = 0;  // void cells outside the bricks of the map
+  std::size_t behind_count = 0;
+  for (int world = 0; world < 3; ++world) {
+    OccupancyMap map({.resolution_m = 0.1});
+    VoidTracker tracker(map);
+    for (int step = 0; step < 25; ++step) {
+      const VoxelIndex lo{far(engine), far(engine), high(engine)};
+      const std::vector<VoxelIndex> corners = tracker.hull().corners();
+      if (step % 5 == 4 && !corners.empty()) {
+        map.set(corners[engine() % corners.size()], Occupancy::Free);
+      } else {
+        for_each_cell({lo, lo + VoxelIndex{6, 6, 6}}, [&](const VoxelIndex& cell) {
+          map.set(cell, step % 5 < 2 ? Occupancy::Occupied : step % 5 == 2 ? Occupancy::Free : Occupancy::Unknown);
+        });
+      }
+      tracker.update();
+      const std::vector<VoxelIndex> expected = void_cells(map);
+      ASSERT_EQ(tracker.cell_count(), expected.size()) << "world " << world << ", step " << step;
+      ASSERT_EQ(count_void_cells(map), expected.size());
+      ASSERT_TRUE(tracker.cells() == expected);
+      BrickSet left;
+      for (const VoxelIndex& cell : expected) {
+        between += map.find_brick(Brick::of_cell(cell)) == nullptr ? 1U : 0U;
+        left.insert(cell);
+      }
+      for (int i = 0; i < 200; ++i) {
+        const VoxelIndex cell{far(engine), far(engine), high(engine)};
+        ASSERT_EQ(tracker.contains(cell), left.contains(cell));
+      }
+      if (step % 3 == 0) {
+        const std::vector<VoxelIndex> frontier = frontier_cells(map);
+        std::vector<VoxelIndex> reached;
+        const auto reach_beside = [&](const VoxelIndex& cell) {
+          for (const VoxelIndex& by : kFaceNeighbours) {
+            if (left.contains(cell + by)) {
+              const std::size_t offset = Brick::offset_of(cell + by);
+              left.plane(Brick::of_cell(cell + by))[offset >> 6U] &= ~(std::uint64_t{1} << (offset & 63U));
+              reached.push_back(cell + by);
+            }
+          }
+        };
+        std::for_each(frontier.begin(), frontier.end(), reach_beside);
+        for (std::size_t next = 0; next < reached.size(); ++next) {
+          reach_beside(VoxelIndex(reached[next]));
+        }
+        std::vector<VoxelIndex> behind = tracker.cells_behind(frontier);
+        std::sort(behind.begin(), behind.end());
+        std::sort(reached.begin(), reached.end());
+        ASSERT_TRUE(behind == reached) << "world " << world << ", step " << step;
+        behind_count += behind.size();
+      }
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 3U * 25U);
+  EXPECT_GT(between, 10'000'000U);
+  EXPECT_GT(behind_count, 1'000'000U);
 }
 
 // A plane has no volume, whatever becomes known in it.

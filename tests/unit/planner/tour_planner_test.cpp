@@ -177,10 +177,10 @@ BlockWays ways_of(const std::set<VoxelIndex>& cells, std::int32_t side) {
   for (const VoxelIndex& cell : cells) {
     set.insert(cell);
   }
-  BlockWays ways(VoxelFrame{kCellM}, side);
-  set.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& plane) { ways.add(brick, plane); });
-  ways.link();
-  return ways;
+  return BlockWays(VoxelFrame{kCellM}, side, [set = std::move(set)](const VoxelIndex& brick) {
+    const BrickPlane* const plane = set.find(brick);
+    return plane == nullptr ? BrickPlane{} : *plane;
+  });
 }
 
 // Through faces, edges and corners of cells, around corners only where both sides are free.
@@ -245,6 +245,42 @@ TEST(BlockWays, DoNotLeakThroughWallsAndAreAboutAsLongAsThoseOverCells) {
   EXPECT_GT(joined, 200U);
   EXPECT_GT(apart, 20U);
   EXPECT_NEAR(sum / fine_sum, 1.0, 0.12);
+}
+
+// A search that ends early finds the nearest of the wanted cells, in the order and with the lengths of a full one.
+TEST(BlockWays, ThatEndAtTheNearestAreAsLongAsAll) {
+  std::mt19937 engine(11);
+  std::size_t compared = 0;
+  std::size_t left_out = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    const std::set<VoxelIndex> cells = random_rooms(engine, seed % 2 == 0 ? 1 : 7);
+    const std::vector<VoxelIndex> list(cells.begin(), cells.end());
+    const std::int32_t side = seed % 4 < 3 ? 4 : 8;
+    const BlockWays ways = ways_of(cells, side);
+    const BlockWays bounded_ways = ways_of(cells, side);
+    const VoxelIndex from = list[engine() % list.size()];
+    std::vector<VoxelIndex> wanted;
+    for (int i = 0; i < 30; ++i) {
+      wanted.push_back(list[engine() % list.size()]);
+    }
+    const std::size_t most = 1 + engine() % 6;
+    const std::vector<double> lengths = ways.lengths_from(from);
+    const std::vector<double> bounded = bounded_ways.lengths_from(from, wanted, most);
+    std::vector<double> all;
+    std::vector<double> found;
+    for (const VoxelIndex& cell : wanted) {
+      all.push_back(ways.length_to(cell, from, lengths));
+      found.push_back(bounded_ways.length_to(cell, from, bounded));
+      left_out += found.back() == BlockWays::kNoWay && all.back() != BlockWays::kNoWay ? 1U : 0U;
+    }
+    std::sort(all.begin(), all.end());
+    std::sort(found.begin(), found.end());
+    for (std::size_t i = 0; i < most; ++i, ++compared) {
+      ASSERT_EQ(found[i], all[i]);
+    }
+  }
+  EXPECT_GT(compared, 100U);
+  EXPECT_GT(left_out, 100U);
 }
 
 TEST(BlockWays, KnowNoWayToOrFromACellOutside) {

@@ -72,8 +72,9 @@ TEST(UnknownWays, AreAsLongAsCellByCell) {
   int compared = 0;
   for (int i = 0; i < 30; ++i) {
     const OccupancyMap map = partly_known(engine);
-    const UnknownWays ways(map, 20.0);
-    for (const VoxelIndex& from : {VoxelIndex{1, 1, 0}, VoxelIndex{1, kSide - 2, 0}, VoxelIndex{15, 20, 0}}) {
+    const std::vector<VoxelIndex> places{{1, 1, 0}, {1, kSide - 2, 0}, {15, 20, 0}};
+    const UnknownWays ways(map, 20.0, places);
+    for (const VoxelIndex& from : places) {
       if (map.at(from) != Occupancy::Free) {
         continue;
       }
@@ -94,16 +95,35 @@ TEST(UnknownWays, FollowTheKnownSpaceNotItsBox) {
     for_each_cell(VoxelBox{{at, at, at}, {at + 8, at + 8, at + 8}},
                   [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
   }
-  const UnknownWays ways(map, 20.0);
-  EXPECT_LE(ways.size(), 3U * 27U);
+  const UnknownWays ways(map, 20.0, std::vector<VoxelIndex>{{1, 1, 1}, {-5'999, -5'999, -5'999}});
   EXPECT_GT(ways.mean_m({1, 1, 1}), 0.0);
+  EXPECT_GT(ways.mean_m({-5'999, -5'999, -5'999}), 0.0);
+  EXPECT_EQ(ways.mean_m({6'001, 6'001, 6'001}), 0.0) << "nobody said that it would be asked for";
+  EXPECT_LE(ways.size(), 3U * 27U);
+}
+
+// However far a corridor is known, only the space around the place counts.
+TEST(UnknownWays, CostNoMoreInALargerMap) {
+  std::vector<std::size_t> sizes;
+  std::vector<double> means_m;
+  for (const std::int32_t length : {2'400, 8'000}) {
+    OccupancyMap map({.resolution_m = kCellM});
+    map.set_log_odds(VoxelBox{{0, -1, -1}, {length, 9, 9}}, 3.5);
+    map.set_log_odds(VoxelBox{{0, 0, 0}, {length, 8, 8}}, -2.0);
+    const VoxelIndex place{length - 4, 4, 4};
+    const UnknownWays ways(map, 5.0, std::vector<VoxelIndex>{place});
+    means_m.push_back(ways.mean_m(place));
+    sizes.push_back(ways.size());
+  }
+  EXPECT_EQ(sizes.front(), sizes.back());
+  EXPECT_NEAR(means_m.front(), means_m.back(), 1e-9);
 }
 
 TEST(UnknownWays, AreNoneWhereAllIsKnown) {
   const VoxelFrame frame{kCellM};
   OccupancyMap map({.resolution_m = kCellM, .region = frame.box_of(plane())});
   for_each_cell(plane(), [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
-  EXPECT_EQ(UnknownWays(map, 5.0).mean_m({3, 3, 0}), 0.0);
+  EXPECT_EQ(UnknownWays(map, 5.0, std::vector<VoxelIndex>{{3, 3, 0}}).mean_m({3, 3, 0}), 0.0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/frontier/void_tiles.hpp>
+#include <vantage/frontier/void_tracker.hpp>
 
 #include <vantage/frontier/impl/hull_row.hpp>
 #include <vantage/geometry/impl/box_overlap.hpp>
@@ -104,10 +105,6 @@ VANTAGE_INLINE std::vector<VoxelIndex> void_cells(const OccupancyMap& map) {
   return cells;
 }
 
-VANTAGE_INLINE std::size_t count_void_cells(const OccupancyMap& map) {
-  std::size_t count = 0;
-  detail::for_each_void_cell(map, [&](const VoxelIndex&) { ++count; });
-  return count;
-}
+VANTAGE_INLINE std::size_t count_void_cells(const OccupancyMap& map) { return VoidTracker(map).cell_count(); }
 
 }  // namespace vantage

@@ -5,8 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/geometry/voxel_table.hpp>
@@ -23,7 +26,8 @@ namespace vantage::detail {
 ///     +---------+---------+
 ///
 /// Lengths are between the centroids of pieces, the ends of a way are exact: within a few per cent for ways of many
-/// blocks.
+/// blocks. Pieces and links are made where a search first reaches them, so the cost follows the searches and not the
+/// set. The set must not change meanwhile.
 class BlockWays {
  public:
   /// A piece by its number.
@@ -31,15 +35,14 @@ class BlockWays {
   static constexpr Piece kNone = std::numeric_limits<Piece>::max();
   static constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
+  /// The cells of the set in a brick.
+  using CellsOf = std::function<BrickPlane(const VoxelIndex&)>;
+
   /// Blocks of `side` cells, 4 or 8.
-  BlockWays(const VoxelFrame& frame, std::int32_t side) : frame_(frame), side_(side) {}
+  BlockWays(const VoxelFrame& frame, std::int32_t side, CellsOf cells_of)
+      : frame_(frame), side_(side), cells_of_(std::move(cells_of)) {}
 
-  /// Adds cells of a brick, each brick once, before `link`.
-  void add(const VoxelIndex& brick, const BrickPlane& cells);
-  /// Links the pieces that touch.
-  void link();
-
-  /// The number of pieces.
+  /// The number of pieces made so far.
   [[nodiscard]] std::size_t size() const { return pieces_.size(); }
   /// The piece that holds a cell, or kNone.
   [[nodiscard]] Piece piece_of(const VoxelIndex& cell) const;
@@ -48,37 +51,50 @@ class BlockWays {
   /// The brick of a piece.
   [[nodiscard]] const VoxelIndex& brick_of(Piece piece) const { return pieces_[piece].brick; }
   /// The length of the way from the centre of `cell` to the centroid of each piece, metres; kNoWay if there is none.
-  [[nodiscard]] std::vector<double> lengths_from(const VoxelIndex& cell) const;
+  /// If cells are wanted, the search ends once `length_to` the nearest `most`
+  /// of them is known, and pieces further away have kNoWay.
+  [[nodiscard]] std::vector<double> lengths_from(const VoxelIndex& cell, std::span<const VoxelIndex> wanted = {},
+                                                 std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// The length of the way to the centre of `cell`, by the result of `lengths_from(from)`.
   [[nodiscard]] double length_to(const VoxelIndex& cell, const VoxelIndex& from,
                                  const std::vector<double>& lengths) const;
 
  private:
   static constexpr std::size_t kWays = 6;  // the directions of kFaceNeighbours
-  struct Node {
-    VoxelIndex brick;
-    BrickPlane cells;
-    Eigen::Vector3d centre_m;
-    std::array<std::vector<Piece>, kWays> beside;  // pieces that touch, by direction
-  };
   struct Link {
     Piece to;
     std::uint32_t length;  // in units of kUnitM
+  };
+  struct Node {
+    VoxelIndex brick;
+    VoxelIndex block;
+    BrickPlane cells;
+    Eigen::Vector3d centre_m;
+    std::array<std::optional<std::vector<Piece>>, kWays> beside = {};  // pieces that touch, ascending, by direction
+    std::optional<std::vector<Link>> links = {};
+  };
+  // Pieces of a block follow each other.
+  struct Block {
+    Piece first;
+    std::uint32_t size;
   };
   static constexpr double kUnitM = 1e-3;
 
   [[nodiscard]] VoxelIndex block_of(const VoxelIndex& cell) const;
   [[nodiscard]] std::uint32_t units(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
-  void add_piece(const VoxelIndex& brick, const BrickPlane& cells);
+  void add_piece(const VoxelIndex& brick, const BrickPlane& cells) const;
+  [[nodiscard]] Block pieces_in(const VoxelIndex& block) const;
+  [[nodiscard]] const std::vector<Piece>& beside(Piece piece, std::size_t way) const;
   [[nodiscard]] std::vector<Piece> beyond(const std::vector<Piece>& from, std::size_t way) const;
-  void link_all(Piece piece, std::vector<Piece>& linked) const;
+  [[nodiscard]] std::vector<Piece> all_around(Piece piece) const;
+  [[nodiscard]] const std::vector<Link>& links(Piece piece) const;
 
   VoxelFrame frame_;
   std::int32_t side_;
-  std::vector<Node> pieces_;                            // those of a block follow each other
-  VoxelTable<std::pair<Piece, std::uint32_t>> blocks_;  // first piece and number of pieces
-  std::vector<std::uint32_t> first_link_;               // by piece, and one past the last
-  std::vector<Link> links_;
+  CellsOf cells_of_;
+  mutable std::deque<Node> pieces_;
+  mutable VoxelTable<Block> blocks_;
+  mutable VoxelTable<bool> bricks_;  // whose pieces are made
 };
 
 }  // namespace vantage::detail

@@ -37,22 +37,7 @@ VANTAGE_INLINE std::uint32_t BlockWays::units(const Eigen::Vector3d& a, const Ei
   return static_cast<std::uint32_t>(std::lround((a - b).norm() / kUnitM));
 }
 
-VANTAGE_INLINE void BlockWays::add(const VoxelIndex& brick, const BrickPlane& cells) {
-  const auto add_pieces = [&](const BrickPlane& part) {
-    for_each_piece(part, grown_through_faces, [&](const BrickPlane& piece) { add_piece(brick, piece); });
-  };
-  if (side_ != 4) {
-    add_pieces(cells);
-    return;
-  }
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    BrickPlane part{};
-    part[word] = cells[word];
-    add_pieces(part);
-  }
-}
-
-VANTAGE_INLINE void BlockWays::add_piece(const VoxelIndex& brick, const BrickPlane& cells) {
+VANTAGE_INLINE void BlockWays::add_piece(const VoxelIndex& brick, const BrickPlane& cells) const {
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   VoxelIndex first;
@@ -64,43 +49,44 @@ VANTAGE_INLINE void BlockWays::add_piece(const VoxelIndex& brick, const BrickPla
     });
   }
   const auto number = static_cast<Piece>(pieces_.size());
-  ++blocks_.place(block_of(first), {number, 0U}).second;
-  pieces_.push_back({brick, cells, sum_m / static_cast<double>(count), {}});
+  ++blocks_.place(block_of(first), {number, 0U}).size;
+  pieces_.push_back({brick, block_of(first), cells, sum_m / static_cast<double>(count)});
 }
 
-VANTAGE_INLINE void BlockWays::link() {
-  for (Piece piece = 0; piece < pieces_.size(); ++piece) {
-    Node& node = pieces_[piece];
-    const auto some = static_cast<std::size_t>(
-        std::find_if(node.cells.begin(), node.cells.end(), [](std::uint64_t word) { return word != 0; }) -
-        node.cells.begin());
-    const VoxelIndex block = block_of(Brick::first_cell(node.brick) + Brick::cell_at(64 * some));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto* const next = blocks_.find(block + kFaceNeighbours[2 * axis + 1]);
-      for (std::uint32_t i = 0; next != nullptr && i < next->second; ++i) {
-        Node& other = pieces_[next->first + i];
-        if (steps_up(node.cells, other.cells, node.brick == other.brick, kAxes[axis])) {
-          node.beside[2 * axis + 1].push_back(next->first + i);
-          other.beside[2 * axis].push_back(piece);
-        }
+VANTAGE_INLINE BlockWays::Block BlockWays::pieces_in(const VoxelIndex& block) const {
+  const VoxelIndex brick = side_ == 4 ? VoxelIndex{block.x >> 1, block.y >> 1, block.z >> 1} : block;
+  if (!std::exchange(bricks_.place(brick), true)) {
+    const BrickPlane cells = cells_of_(brick);
+    const auto add_pieces = [&](const BrickPlane& part) {
+      for_each_piece(part, grown_through_faces, [&](const BrickPlane& piece) { add_piece(brick, piece); });
+    };
+    for (std::size_t word = 0; side_ == 4 && word < Brick::kWords; ++word) {
+      BrickPlane part{};
+      part[word] = cells[word];
+      add_pieces(part);
+    }
+    if (side_ != 4) {
+      add_pieces(cells);
+    }
+  }
+  const Block* const pieces = blocks_.find(block);
+  return pieces == nullptr ? Block{0, 0} : *pieces;
+}
+
+VANTAGE_INLINE const std::vector<BlockWays::Piece>& BlockWays::beside(Piece piece, std::size_t way) const {
+  Node& node = pieces_[piece];
+  if (!node.beside[way]) {
+    std::vector<Piece>& beside = node.beside[way].emplace();
+    const Block next = pieces_in(node.block + kFaceNeighbours[way]);
+    for (Piece other = next.first; other < next.first + next.size; ++other) {
+      const Node& lower = way % 2 == 1 ? node : pieces_[other];
+      const Node& upper = way % 2 == 1 ? pieces_[other] : node;
+      if (steps_up(lower.cells, upper.cells, lower.brick == upper.brick, kAxes[way / 2])) {
+        beside.push_back(other);
       }
     }
   }
-  for (Node& node : pieces_) {
-    for (std::vector<Piece>& beside : node.beside) {
-      std::sort(beside.begin(), beside.end());
-    }
-  }
-  std::vector<Piece> linked;
-  for (Piece piece = 0; piece < pieces_.size(); ++piece) {
-    first_link_.push_back(static_cast<std::uint32_t>(links_.size()));
-    linked.clear();
-    link_all(piece, linked);
-    for (const Piece to : linked) {
-      links_.push_back({to, units(pieces_[piece].centre_m, pieces_[to].centre_m)});
-    }
-  }
-  first_link_.push_back(static_cast<std::uint32_t>(links_.size()));
+  return *node.beside[way];
 }
 
 // The pieces beside any of `from` in a direction, sorted.
@@ -108,8 +94,8 @@ VANTAGE_INLINE std::vector<BlockWays::Piece> BlockWays::beyond(const std::vector
                                                                std::size_t way) const {
   std::vector<Piece> all;
   for (const Piece piece : from) {
-    const std::vector<Piece>& beside = pieces_[piece].beside[way];
-    all.insert(all.end(), beside.begin(), beside.end());
+    const std::vector<Piece>& found = beside(piece, way);
+    all.insert(all.end(), found.begin(), found.end());
   }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -117,17 +103,18 @@ VANTAGE_INLINE std::vector<BlockWays::Piece> BlockWays::beyond(const std::vector
 }
 
 // Through faces, edges and corners of the block.
-VANTAGE_INLINE void BlockWays::link_all(Piece piece, std::vector<Piece>& linked) const {
-  const auto& beside = pieces_[piece].beside;
+VANTAGE_INLINE std::vector<BlockWays::Piece> BlockWays::all_around(Piece piece) const {
+  std::vector<Piece> around;
   const auto take = [&](const std::vector<Piece>& pieces) {
-    linked.insert(linked.end(), pieces.begin(), pieces.end());
+    around.insert(around.end(), pieces.begin(), pieces.end());
   };
   const auto across = [&](std::size_t a, std::size_t b) {
-    return beside[a].empty() || beside[b].empty() ? std::vector<Piece>{}
-                                                  : in_both(beyond(beside[a], b), beyond(beside[b], a));
+    const std::vector<Piece>& on_a = beside(piece, a);
+    const std::vector<Piece>& on_b = beside(piece, b);
+    return on_a.empty() || on_b.empty() ? std::vector<Piece>{} : in_both(beyond(on_a, b), beyond(on_b, a));
   };
   for (std::size_t x = 0; x < kWays; ++x) {
-    take(beside[x]);
+    take(beside(piece, x));
     for (std::size_t y = (x / 2 + 1) * 2; y < kWays; ++y) {
       const std::vector<Piece> edge = across(x, y);
       take(edge);
@@ -136,41 +123,68 @@ VANTAGE_INLINE void BlockWays::link_all(Piece piece, std::vector<Piece>& linked)
       }
     }
   }
+  return around;
+}
+
+VANTAGE_INLINE const std::vector<BlockWays::Link>& BlockWays::links(Piece piece) const {
+  if (!pieces_[piece].links) {
+    std::vector<Link> links;
+    for (const Piece to : all_around(piece)) {
+      links.push_back({to, units(pieces_[piece].centre_m, pieces_[to].centre_m)});
+    }
+    pieces_[piece].links = std::move(links);
+  }
+  return *pieces_[piece].links;
 }
 
 VANTAGE_INLINE BlockWays::Piece BlockWays::piece_of(const VoxelIndex& cell) const {
-  const auto* const block = blocks_.find(block_of(cell));
+  const Block block = pieces_in(block_of(cell));
   const std::size_t offset = Brick::offset_of(cell);
-  for (std::uint32_t i = 0; block != nullptr && i < block->second; ++i) {
-    if ((pieces_[block->first + i].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
-      return block->first + i;
+  for (Piece piece = block.first; piece < block.first + block.size; ++piece) {
+    if ((pieces_[piece].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
+      return piece;
     }
   }
   return kNone;
 }
 
-// From the piece of the cell on, the first link starts at the cell itself.
-VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cell) const {
-  std::vector<double> lengths(pieces_.size(), kNoWay);
+// From the piece of the cell on, the first link starts at the cell itself. `length_to` a wanted cell differs from the
+// length of its piece by no more than a link. So the nearest are known once the search is two links behind the piece
+// at which it has met enough of them.
+VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cell, std::span<const VoxelIndex> wanted,
+                                                           std::size_t most) const {
   const Piece source = piece_of(cell);
   if (source == kNone) {
-    return lengths;
+    return {};
   }
   const Eigen::Vector3d from_m = frame_.centre_of(cell);
   constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max();
+  const double longest_link_m = 3.5 * side_ * frame_.size_m;  // between cells of two blocks that touch
+  const auto behind = static_cast<std::uint32_t>(std::ceil(2.0 * longest_link_m / kUnitM));
+  std::vector<Piece> goals;
+  for (const VoxelIndex& goal : wanted) {
+    goals.push_back(piece_of(goal));
+  }
+  std::sort(goals.begin(), goals.end());
+  std::size_t left = wanted.empty() ? kFar : std::min(most, wanted.size());
+  std::uint32_t end = kFar;
   std::vector<std::uint32_t> best(pieces_.size(), kFar);
   using Entry = std::pair<std::uint32_t, Piece>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   best[source] = 0;
   open.emplace(0U, source);
-  while (!open.empty()) {
+  while (!open.empty() && open.top().first <= end) {
     const auto [length, piece] = open.top();
     open.pop();
     if (length != best[piece]) {
       continue;
     }
-    for (std::uint32_t i = first_link_[piece]; i < first_link_[piece + 1]; ++i) {
-      const Link& link = links_[i];
+    const auto [first, last] = std::equal_range(goals.begin(), goals.end(), piece);
+    left -= std::min(left, static_cast<std::size_t>(last - first));
+    end = left == 0 && end == kFar ? length + behind : end;
+    const std::vector<Link>& around = links(piece);
+    best.resize(pieces_.size(), kFar);
+    for (const Link& link : around) {
       const std::uint32_t reached = piece == source ? units(from_m, pieces_[link.to].centre_m) : length + link.length;
       if (reached < best[link.to]) {
         best[link.to] = reached;
@@ -178,8 +192,11 @@ VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cel
       }
     }
   }
+  std::vector<double> lengths(best.size(), kNoWay);
   for (std::size_t piece = 0; piece < best.size(); ++piece) {
-    lengths[piece] = best[piece] == kFar ? kNoWay : kUnitM * best[piece];
+    if (best[piece] != kFar && best[piece] <= end) {
+      lengths[piece] = kUnitM * best[piece];
+    }
   }
   lengths[source] = (pieces_[source].centre_m - from_m).norm();
   return lengths;
@@ -188,20 +205,22 @@ VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cel
 VANTAGE_INLINE double BlockWays::length_to(const VoxelIndex& cell, const VoxelIndex& from,
                                            const std::vector<double>& lengths) const {
   const Piece piece = piece_of(cell);
-  if (piece == kNone || lengths[piece] == kNoWay) {
+  if (piece >= lengths.size() || lengths[piece] == kNoWay) {
     return kNoWay;
   }
   const Eigen::Vector3d at_m = frame_.centre_of(cell);
   const double straight_m = (at_m - frame_.centre_of(from)).norm();
-  if (piece == piece_of(from)) {
+  const Piece source = piece_of(from);
+  if (piece == source) {
     return straight_m;
   }
   double shortest_m = kNoWay;
-  const Piece source = piece_of(from);
-  for (std::uint32_t i = first_link_[piece]; i < first_link_[piece + 1]; ++i) {
-    const Piece last = links_[i].to;
-    const double way_m = last == source ? straight_m : lengths[last] + (at_m - pieces_[last].centre_m).norm();
-    shortest_m = std::min(shortest_m, way_m);
+  for (const Link& link : links(piece)) {
+    if (link.to == source) {
+      shortest_m = std::min(shortest_m, straight_m);
+    } else if (link.to < lengths.size()) {
+      shortest_m = std::min(shortest_m, lengths[link.to] + (at_m - pieces_[link.to].centre_m).norm());
+    }
   }
   return std::max(straight_m, shortest_m);
 }

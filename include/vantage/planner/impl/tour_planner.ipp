@@ -25,10 +25,10 @@ inline constexpr double kAllAroundRad = 2.0 * std::numbers::pi - 1e-3;
 inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
 
 inline BlockWays ways_through(const ReachableSpace& space, const VoxelFrame& frame) {
-  BlockWays ways(frame, side_for(frame.size_m));
-  space.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) { ways.add(brick, cells); });
-  ways.link();
-  return ways;
+  return BlockWays(frame, side_for(frame.size_m), [&space](const VoxelIndex& brick) {
+    const BrickPlane* const cells = space.find(brick);
+    return cells == nullptr ? BrickPlane{} : *cells;
+  });
 }
 
 // A site, and the view from beside its middle.
@@ -41,13 +41,13 @@ struct Stop {
 };
 
 // The nearest sites, nearest first.
-inline std::vector<Stop> nearest_stops(const Situation& situation, const TourOptions& options, const BlockWays& ways,
+inline std::vector<Stop> nearest_stops(const Situation& situation, const TourOptions& options,
+                                       std::vector<FrontierSite> sites, const BlockWays& ways,
                                        const std::vector<double>& lengths) {
   const VoxelFrame& frame = situation.map().frame();
   const VoxelIndex start = *situation.reachable().start();
   std::vector<Stop> stops;
-  for (FrontierSite& site :
-       detail::frontier_sites(situation.survey().targets, std::max(1, frame.cells_up_to(options.site_m)))) {
+  for (FrontierSite& site : sites) {
     const double way_m = ways.length_to(site.middle.viewpoint, start, lengths);
     stops.push_back({std::move(site), way_m, Pose::Identity()});
   }
@@ -98,8 +98,12 @@ inline OpenTourProblem problem_of(const Situation& situation, const std::vector<
                                   const LegCost& cost) {
   const std::size_t n = stops.size();
   OpenTourProblem problem;
+  std::vector<VoxelIndex> places;
+  for (const Stop& stop : stops) {
+    places.push_back(stop.place());
+  }
   for (const Stop& from : stops) {
-    const std::vector<double> lengths = ways.lengths_from(from.place());
+    const std::vector<double> lengths = ways.lengths_from(from.place(), places);
     for (const Stop& to : stops) {
       problem.legs.push_back(cost.between(from.view, to.view, ways.length_to(to.place(), from.place(), lengths)));
     }
@@ -109,7 +113,8 @@ inline OpenTourProblem problem_of(const Situation& situation, const std::vector<
   }
   const RangeSensor& sensor = situation.sensor();
   const detail::UnknownWays unknown(
-      situation.map(), std::min(sensor.max_range_m, sensor.resolving_range_m(situation.map().resolution_m())));
+      situation.map(), std::min(sensor.max_range_m, sensor.resolving_range_m(situation.map().resolution_m())),
+      places);
   for (const Stop& stop : stops) {
     problem.prices.push_back(cost.of_way(unknown.mean_m(stop.place())));
   }
@@ -133,8 +138,15 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const ReachableSpace& reachable = situation().reachable();
   const detail::BlockWays ways = detail::ways_through(reachable, situation().map().frame());
-  const std::vector<double> lengths = ways.lengths_from(*reachable.start());
-  const std::vector<detail::Stop> stops = detail::nearest_stops(situation(), options_, ways, lengths);
+  const std::int32_t site_cells = std::max(1, situation().map().frame().cells_up_to(options_.site_m));
+  std::vector<detail::FrontierSite> sites = detail::frontier_sites(situation().survey().targets, site_cells);
+  std::vector<VoxelIndex> places;
+  for (const detail::FrontierSite& site : sites) {
+    places.push_back(site.middle.viewpoint);
+  }
+  const std::vector<double> lengths = ways.lengths_from(*reachable.start(), places, options_.most_sites);
+  const std::vector<detail::Stop> stops =
+      detail::nearest_stops(situation(), options_, std::move(sites), ways, lengths);
   plan.statistics.views_scored += stops.size();
   const detail::LegCost cost(situation(), options_.cost);
   const std::size_t first =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/unknown_sight.hpp>
 
@@ -31,6 +32,33 @@ struct UnknownSight::Ray {
   Eigen::Vector3d direction;
   VoxelIndex end;
   double range_m;
+};
+
+// Reads cells one after the other, and keeps the last brick.
+class UnknownSight::Reader {
+ public:
+  explicit Reader(const UnknownSight& sight) : sight_(&sight) {}
+
+  [[nodiscard]] Content operator()(const VoxelIndex& cell) {
+    const VoxelIndex brick = Brick::of_cell(cell);
+    if (brick != brick_ || (values_ == nullptr && known_ == nullptr)) {
+      brick_ = brick;
+      const BrickDirectory::Number number = sight_->contents_.number_of(brick);
+      values_ = number == BrickDirectory::kNone ? nullptr : &sight_->contents_.values(number);
+      known_ = values_ == nullptr ? sight_->map_->find_brick(brick) : nullptr;
+    }
+    const std::size_t offset = Brick::offset_of(cell);
+    if (values_ != nullptr) {
+      return (*values_)[offset];
+    }
+    return known_ != nullptr && known_->at(offset) == Occupancy::Occupied ? Content::Surface : Content::Open;
+  }
+
+ private:
+  const UnknownSight* sight_;
+  VoxelIndex brick_;
+  const BrickGrid<Content>::Values* values_ = nullptr;
+  const Brick* known_ = nullptr;
 };
 
 // The best probability of every cell, as a 16-bit fixed-point number.
@@ -99,41 +127,29 @@ class UnknownSight::Chances {
 
 VANTAGE_INLINE UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted,
                                           const UnknownSightOptions& options)
-    : map_(&map),
-      frame_(map.frame()),
-      options_(options),
-      bounds_(map.bounds()),
-      contents_(detail::box_around(wanted)) {
+    : map_(&map), frame_(map.frame()), options_(options), bounds_(map.bounds()), box_(detail::box_around(wanted)) {
   detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
                          "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
-  map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    const VoxelIndex first = Brick::first_cell(address);
-    if (detail::box_overlap(contents_.box(), {first, first + VoxelIndex{8, 8, 8}}).empty()) {
-      return;
-    }
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
-        if (const VoxelIndex cell = first + Brick::cell_at(offset); contents_.contains(cell)) {
-          contents_[cell] = Content::Surface;
-        }
-      });
-    }
-  });
   for (const VoxelIndex& cell : wanted) {
-    const bool beside_surface = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const auto& step) {
-      return content_of(cell + step) == Content::Surface;
-    });
-    contents_[cell] = beside_surface ? Content::WantedBesideSurface : Content::Wanted;
+    contents_[cell] = Content::Wanted;
   }
-}
-
-VANTAGE_INLINE UnknownSight::Content UnknownSight::content_of(const VoxelIndex& cell) const {
-  if (contents_.contains(cell)) {
-    return contents_[cell];
+  for (std::size_t number = 0; number < contents_.bricks(); ++number) {
+    if (const Brick* const brick = map.find_brick(contents_.address(number))) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        for_each_offset(brick->occupied[word], word,
+                        [&](std::size_t offset) { contents_.values(number)[offset] = Content::Surface; });
+      }
+    }
   }
-  return map_->at(cell) == Occupancy::Occupied ? Content::Surface : Content::Open;
+  Reader content_of(*this);
+  for (const VoxelIndex& cell : wanted) {
+    if (std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                    [&](const auto& step) { return content_of(cell + step) == Content::Surface; })) {
+      contents_[cell] = Content::WantedBesideSurface;
+    }
+  }
 }
 
 VANTAGE_INLINE std::vector<SightedCell> UnknownSight::look(const RayCaster& caster, const Pose& world_from_sensor,
@@ -141,13 +157,14 @@ VANTAGE_INLINE std::vector<SightedCell> UnknownSight::look(const RayCaster& cast
   const Eigen::Vector3d sensor = world_from_sensor.translation();
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(rays.max_range_m());
   const VoxelBox near{frame_.cell_of(sensor - range), frame_.cell_of(sensor + range) + VoxelIndex{1, 1, 1}};
-  const VoxelBox box = detail::box_overlap(contents_.box(), near);
+  const VoxelBox box = detail::box_overlap(box_, near);
   if (box.empty()) {
     return {};
   }
   std::vector<RayEnd> ends(rays.size());
   caster.cast(world_from_sensor, rays, ends);
   const VoxelIndex here = frame_.cell_of(sensor);
+  Reader content_of(*this);
   Chances chances(box, sensor, rays.min_range_m(), frame_);
   for (const RayTile& tile : rays.tiles()) {
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
@@ -158,14 +175,14 @@ VANTAGE_INLINE std::vector<SightedCell> UnknownSight::look(const RayCaster& cast
         continue;
       }
       const Eigen::Vector3d direction = (world_from_sensor.linear() * tile.direction(i).cast<double>()).normalized();
-      follow({sensor, direction, end.cell, rays.max_range_m()}, chances);
+      follow({sensor, direction, end.cell, rays.max_range_m()}, content_of, chances);
     }
   }
   operations += chances.operations;
   return chances.cells();
 }
 
-VANTAGE_INLINE void UnknownSight::follow(const Ray& ray, Chances& chances) const {
+VANTAGE_INLINE void UnknownSight::follow(const Ray& ray, Reader& content_of, Chances& chances) const {
   auto& passed = chances.on_ray;
   passed.clear();
   double reached = 1.0;
