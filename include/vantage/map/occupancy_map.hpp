@@ -11,6 +11,7 @@
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/brick.hpp>
 #include <vantage/map/brick_directory.hpp>
+#include <vantage/map/brick_store.hpp>
 #include <vantage/map/map_identity.hpp>
 #include <vantage/map/occupancy.hpp>
 #include <vantage/map/occupancy_map_options.hpp>
@@ -45,13 +46,16 @@ class OccupancyMap {
   };
 
   OccupancyMap() : OccupancyMap(OccupancyMapOptions{}) {}
-  /// Throws std::invalid_argument, which names the option that is out of range.
+  /// Throws std::invalid_argument, which names the option that is out of range, and std::runtime_error if no file can
+  /// be made in OccupancyMapOptions::resident_folder.
   explicit OccupancyMap(const OccupancyMapOptions& options);
   ~OccupancyMap() = default;
-  /// Copies the cells and the change log. The copy gets its own identity.
+  /// Copies the cells and the change log. The copy gets its own identity. Throws std::runtime_error if it needs a
+  /// file (OccupancyMapOptions::resident_folder) and the disk is full.
   OccupancyMap(const OccupancyMap& other) = default;
-  /// Copies the cells and the change log. This map gets a new identity.
-  OccupancyMap& operator=(const OccupancyMap& other) = default;
+  /// Copies the cells and the change log. This map gets a new identity. Errors as the copy constructor; this map is
+  /// then as before.
+  OccupancyMap& operator=(const OccupancyMap& other);
   /// Takes over the map. `other` becomes an empty map with the same options.
   OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it allocates
   /// Takes over the map. `other` becomes an empty map with the same options.
@@ -98,8 +102,10 @@ class OccupancyMap {
   [[nodiscard]] Counts counts() const;
   /// The smallest box that contains all known cells; empty if there are none.
   [[nodiscard]] VoxelBox bounds() const { return may_have_shrunk_ ? box_of_known() : bounds_; }
-  /// Memory in use in bytes, directory included.
+  /// Bytes of the map, directory included, in memory or on disk (OccupancyMapOptions::resident_bytes).
   [[nodiscard]] std::size_t memory_bytes() const;
+  /// What of `memory_bytes` is kept in memory. Bricks on disk that were only read lately come on top.
+  [[nodiscard]] std::size_t resident_bytes() const;
   /// The number of bricks.
   [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
   /// The number of cell updates refused so far because of OccupancyMapOptions::max_bytes or the size of a scan.
@@ -121,13 +127,13 @@ class OccupancyMap {
   /// The brick at an address (in units of bricks), or null if it is not stored. Valid while the map lives.
   [[nodiscard]] const Brick* find_brick(const VoxelIndex& brick) const {
     const BrickDirectory::Number number = directory_.find(brick);
-    return number == BrickDirectory::kNone ? nullptr : &bricks_[number].cells;
+    return number == BrickDirectory::kNone ? nullptr : &bricks_[number];
   }
   /// Calls `visit(brick address, const Brick&)` for every brick, in order of creation.
   template <class Visit>
   void for_each_brick(Visit&& visit) const {
-    for (const Stored& stored : bricks_) {
-      visit(stored.address, stored.cells);
+    for (std::size_t number = 0; number < bricks_.size(); ++number) {
+      visit(entries_[number].address, bricks_[number]);
     }
   }
   /// Calls `visit(VoxelIndex, Occupancy)` for every known cell.
@@ -169,12 +175,12 @@ class OccupancyMap {
   void for_each_changed_since(Revision revision, Visit&& visit) const {
     require_past(revision);
     for (BrickDirectory::Number number = newest_; number != BrickDirectory::kNone;) {
-      const Stored& stored = bricks_[number];
-      if (stored.changed <= revision) {
+      const Entry& entry = entries_[number];
+      if (entry.changed <= revision) {
         break;
       }
-      visit(stored.address, stored.cells);
-      number = stored.older;
+      visit(entry.address, bricks_[number]);
+      number = entry.older;
     }
   }
 
@@ -186,7 +192,7 @@ class OccupancyMap {
     require_past(revision);
     for (std::size_t number = 0; number < written_.size(); ++number) {
       if (written_[number] > revision) {
-        visit(bricks_[number].address, bricks_[number].cells);
+        visit(entries_[number].address, bricks_[number]);
       }
     }
   }
@@ -226,14 +232,15 @@ class OccupancyMap {
   void assume_free(const Box& box);
 
  private:
-  struct Stored {
-    Brick cells;
+  // What is known of a brick without its cells, which may be on disk.
+  struct Entry {
     VoxelIndex address;
     Revision changed = 0;                                  // the last revision that changed the state of a cell
     BrickDirectory::Number newer = BrickDirectory::kNone;  // links of the list sorted by `changed`
     BrickDirectory::Number older = BrickDirectory::kNone;
   };
-  static constexpr std::size_t kBytesOfBrick = sizeof(Stored) + sizeof(void*) + sizeof(Revision);
+  static constexpr std::size_t kBytesOfEntry = sizeof(Entry) + sizeof(Brick*) + sizeof(Revision);
+  static constexpr std::size_t kBytesOfBrick = kBytesOfEntry + sizeof(Brick);
   friend class MapFollower;
   friend class ScanInserter;
 
@@ -247,15 +254,20 @@ class OccupancyMap {
   static void require_addressable_brick(const VoxelIndex& brick, const char* what);
   [[nodiscard]] BrickPlane in_region(const VoxelIndex& brick, BrickPlane cells) const;
   [[nodiscard]] VoxelBox writable(const VoxelBox& cells, const char* what) const;
-  // Returns kNone if the memory limit is reached.
+  // Returns kNone if the memory limit is reached or the disk is full.
   BrickDirectory::Number brick_for(const VoxelIndex& address);
+  // A brick, to write to in this revision.
+  Brick& writing(BrickDirectory::Number number) {
+    written_[number] = revision_;
+    return bricks_.to_write(number);
+  }
   void mark_changed(BrickDirectory::Number number);
   void write(const VoxelIndex& cell, Occupancy state, std::int8_t steps);
   std::size_t write_brick(const VoxelIndex& address, const BrickPlane& which, const Brick& cells);
   void note_unknown(const VoxelIndex& address, const BrickPlane& cells);
   void begin_revision();
   void grow_bounds(const VoxelBox& cells);
-  void grow_bounds(const Stored& brick);
+  void grow_bounds(const VoxelIndex& address, const Brick& brick);
   [[nodiscard]] VoxelBox box_of_known() const;
   [[nodiscard]] std::int8_t to_steps(double log_odds) const;
 
@@ -270,7 +282,8 @@ class OccupancyMap {
   std::int8_t max_steps_ = 0;
 
   BrickDirectory directory_;
-  std::deque<Stored> bricks_;
+  BrickStore bricks_;
+  std::deque<Entry> entries_;      // per brick
   VoxelBox bounds_;                // of the known cells, unless it may have shrunk
   bool may_have_shrunk_ = false;   // a cell at the border of `bounds_` became unknown
   std::vector<Revision> written_;  // per brick: the last revision that wrote to it

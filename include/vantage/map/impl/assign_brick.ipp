@@ -71,8 +71,7 @@ VANTAGE_INLINE std::size_t OccupancyMap::write_brick(const VoxelIndex& address, 
     cells_refused_ += known;
     return 0;
   }
-  written_[number] = revision_;
-  Brick& brick = bricks_[number].cells;
+  Brick& brick = writing(number);
   std::size_t changed = 0;
   std::uint64_t any_new = 0;
   BrickPlane gone{};
@@ -91,7 +90,7 @@ VANTAGE_INLINE std::size_t OccupancyMap::write_brick(const VoxelIndex& address, 
     mark_changed(number);
     note_unknown(address, gone);
     if (any_new != 0) {
-      grow_bounds(bricks_[number]);
+      grow_bounds(address, brick);
     }
   }
   return changed;

@@ -74,10 +74,10 @@ class ScanInserter {
       }
       return;
     }
-    map_.written_[number] = map_.revision_;
-    if (update_brick(map_.bricks_[number].cells, marks)) {
+    Brick& brick = map_.writing(number);
+    if (update_brick(brick, marks)) {
       map_.mark_changed(number);
-      map_.grow_bounds(map_.bricks_[number]);
+      map_.grow_bounds(address, brick);
     }
   }
 

@@ -38,13 +38,13 @@ VANTAGE_INLINE VoxelBox OccupancyMap::box_of_known() const {
 
 VANTAGE_INLINE void OccupancyMap::grow_bounds(const VoxelBox& cells) { bounds_ = detail::box_around(bounds_, cells); }
 
-VANTAGE_INLINE void OccupancyMap::grow_bounds(const Stored& brick) {
-  const VoxelIndex first = Brick::first_cell(brick.address);
+VANTAGE_INLINE void OccupancyMap::grow_bounds(const VoxelIndex& address, const Brick& brick) {
+  const VoxelIndex first = Brick::first_cell(address);
   if (bounds_.contains(first) && bounds_.contains(first + VoxelIndex{7, 7, 7})) {
     return;
   }
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const std::uint64_t known = brick.cells.known[word];
+    const std::uint64_t known = brick.known[word];
     if (known == 0) {
       continue;
     }

@@ -8,6 +8,7 @@
 #include <vantage/map/occupancy_map.hpp>
 
 #include <vantage/geometry/impl/box_overlap.hpp>
+#include <vantage/map/impl/brick_file.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
@@ -25,6 +26,12 @@ inline void validate(const OccupancyMapOptions& options) {
                          "OccupancyMapOptions::log_odds_min", options.log_odds_min, "< 0");
   detail::require_option(finite(options.log_odds_max) && options.log_odds_max > 0,
                          "OccupancyMapOptions::log_odds_max", options.log_odds_max, "> 0");
+  detail::require_option(options.resident_bytes == 0 || options.resident_bytes >= BrickFile::kBlockBytes,
+                         "OccupancyMapOptions::resident_bytes", options.resident_bytes, "0 or at least 65536");
+  if ((options.resident_bytes != 0) != !options.resident_folder.empty()) {
+    throw std::invalid_argument("OccupancyMapOptions::resident_folder is \"" + options.resident_folder.string() +
+                                "\", must be given with resident_bytes, and only then");
+  }
   if (options.region) {
     const VoxelFrame frame{options.resolution_m};
     if (options.region->empty() || !frame.addressable(options.region->min) ||
@@ -65,6 +72,10 @@ inline bool holds_addresses(const VoxelIndex& coarse, std::int32_t edge) {
 VANTAGE_INLINE OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
     : options_(options), frame_{options.resolution_m} {
   detail::validate(options);
+  if (options.resident_bytes != 0) {
+    BrickStore on_disk(options.resident_folder, options.resident_bytes);
+    bricks_.swap(on_disk);
+  }
   step_ = detail::choose_step(options);
   if (options.region) {
     region_ = frame_.cells_centred_in(*options.region);
@@ -163,6 +174,12 @@ VANTAGE_INLINE OccupancyMap::Counts OccupancyMap::counts() const {
   return counts;
 }
 
+VANTAGE_INLINE OccupancyMap& OccupancyMap::operator=(const OccupancyMap& other) {
+  OccupancyMap copy(other);
+  swap(copy);
+  return *this;
+}
+
 // The moved-from map gets a new identity, which allocates memory and may throw.
 // NOLINTNEXTLINE(performance-noexcept-move-constructor)
 VANTAGE_INLINE OccupancyMap::OccupancyMap(OccupancyMap&& other) : OccupancyMap(other.options_) { swap(other); }
@@ -185,7 +202,8 @@ VANTAGE_INLINE void OccupancyMap::swap(OccupancyMap& other) {
   std::swap(min_steps_, other.min_steps_);
   std::swap(max_steps_, other.max_steps_);
   std::swap(directory_, other.directory_);
-  std::swap(bricks_, other.bricks_);
+  bricks_.swap(other.bricks_);
+  std::swap(entries_, other.entries_);
   std::swap(bounds_, other.bounds_);
   std::swap(may_have_shrunk_, other.may_have_shrunk_);
   std::swap(written_, other.written_);
@@ -196,6 +214,10 @@ VANTAGE_INLINE void OccupancyMap::swap(OccupancyMap& other) {
 
 VANTAGE_INLINE std::size_t OccupancyMap::memory_bytes() const {
   return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * kBytesOfBrick;
+}
+
+VANTAGE_INLINE std::size_t OccupancyMap::resident_bytes() const {
+  return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * kBytesOfEntry + bricks_.resident_bytes();
 }
 
 VANTAGE_INLINE void OccupancyMap::require_past(Revision revision) const {
@@ -278,6 +300,7 @@ VANTAGE_INLINE void OccupancyMap::assume_free(const Box& box) {
 // Begins a revision that writes many cells. `set` does not, because a search of the bounds would dominate its cost.
 VANTAGE_INLINE void OccupancyMap::begin_revision() {
   ++revision_;
+  bricks_.release_read();
   if (std::exchange(may_have_shrunk_, false)) {
     bounds_ = box_of_known();
   }
@@ -295,8 +318,11 @@ VANTAGE_INLINE BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& 
     }
   }
   const auto number = static_cast<BrickDirectory::Number>(bricks_.size());
+  if (!bricks_.add()) {
+    return BrickDirectory::kNone;
+  }
   directory_.place(address) = number;
-  bricks_.emplace_back().address = address;
+  entries_.emplace_back().address = address;
   written_.push_back(revision_);
   return number;
 }
@@ -304,25 +330,25 @@ VANTAGE_INLINE BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& 
 // All bricks form a doubly linked list, ordered by the revision of their last change. A changed brick moves to the
 // head. So the list holds each brick once, and a reader visits only the bricks that are new to it.
 VANTAGE_INLINE void OccupancyMap::mark_changed(BrickDirectory::Number number) {
-  Stored& stored = bricks_[number];
-  if (stored.changed == revision_) {
+  Entry& entry = entries_[number];
+  if (entry.changed == revision_) {
     return;
   }
   if (newest_ != number) {
-    if (stored.newer != BrickDirectory::kNone) {
-      bricks_[stored.newer].older = stored.older;
+    if (entry.newer != BrickDirectory::kNone) {
+      entries_[entry.newer].older = entry.older;
     }
-    if (stored.older != BrickDirectory::kNone) {
-      bricks_[stored.older].newer = stored.newer;
+    if (entry.older != BrickDirectory::kNone) {
+      entries_[entry.older].newer = entry.newer;
     }
-    stored.newer = BrickDirectory::kNone;
-    stored.older = newest_;
+    entry.newer = BrickDirectory::kNone;
+    entry.older = newest_;
     if (newest_ != BrickDirectory::kNone) {
-      bricks_[newest_].newer = number;
+      entries_[newest_].newer = number;
     }
     newest_ = number;
   }
-  stored.changed = revision_;
+  entry.changed = revision_;
 }
 
 VANTAGE_INLINE void OccupancyMap::write(const VoxelIndex& cell, Occupancy state, std::int8_t steps) {
@@ -335,8 +361,7 @@ VANTAGE_INLINE void OccupancyMap::write(const VoxelIndex& cell, Occupancy state,
     ++cells_refused_;
     return;
   }
-  written_[number] = revision_;
-  Brick& brick = bricks_[number].cells;
+  Brick& brick = writing(number);
   const std::size_t offset = Brick::offset_of(cell);
   const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
   const std::size_t word = offset >> 6U;
