@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vantage/evaluation/spread.hpp>
 #include <vantage/evaluation/test_objects.hpp>
@@ -142,6 +144,12 @@ std::map<std::string, TrialJson> results_in(const std::string& file) {
   return results;
 }
 
+void require_written(const std::ofstream& out, const std::string& file) {
+  if (!out) {
+    throw std::runtime_error(file + ": cannot be written: " + std::generic_category().message(errno));
+  }
+}
+
 // The value after so many views, or the last one.
 double at_view(const TrialJson& list, std::size_t view) {
   return list.empty() ? 0.0 : list.at(std::min(view, list.size()) - 1).get<double>();
@@ -200,6 +208,7 @@ void evaluate_objects(EvaluateRequest& request) {
   std::ofstream out;
   if (!request.results.empty()) {
     out.open(request.results, std::ios::app);
+    require_written(out, request.results);
   }
   std::map<std::pair<std::string, std::string>, std::vector<TrialJson>> rows;
   const std::size_t all = request.objects.size() * request.sensors.size() * request.resolutions_m.size() *
@@ -217,7 +226,10 @@ void evaluate_objects(EvaluateRequest& request) {
             if (found == done.end()) {
               const std::size_t spread = planner == "evenly-spaced" ? taken : 0;
               found = done.emplace(trial.key(), result_of(trial, request.run, spread)).first;
-              out << found->second.dump() << '\n' << std::flush;
+              if (!request.results.empty()) {
+                out << found->second.dump() << '\n' << std::flush;
+                require_written(out, request.results);
+              }
             }
             if (planner == "next-best-view") {
               taken = found->second.at("seen").size();

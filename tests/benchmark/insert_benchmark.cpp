@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 #include <octomap/octomap.h>
 
+#include <algorithm>
 #include <benchmark/benchmark_scenes.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -90,6 +91,47 @@ void insert_into_full_map(benchmark::State& state) {
   state.counters["known_cells"] = static_cast<double>(map.counts().free + map.counts().occupied);
 }
 
+// 40 halls in a row, there and back: the bricks of all halls are needed again after all others were written to.
+template <class Note>
+void drive_through_halls(OccupancyMap& map, const Note& after_scan) {
+  constexpr int kHalls = 40;
+  Scan scan = hall_scan();
+  const double first_x = scan.world_from_sensor.translation().x();
+  for (int step = 0; step < 2 * kHalls; ++step) {
+    scan.world_from_sensor.translation().x() = first_x + 30.0 * std::min(step, 2 * kHalls - 1 - step);
+    map.insert(scan);
+    after_scan();
+  }
+}
+
+// The map may keep a fifth, or a twentieth, of itself in memory (1: all). One iteration is 80 scans.
+void insert_partly_on_disk(benchmark::State& state) {
+  OccupancyMapOptions options{.resolution_m = 0.1};
+  OccupancyMap in_memory(options);
+  drive_through_halls(in_memory, [] {});
+  if (state.range(0) > 1) {
+    options.resident_bytes = in_memory.memory_bytes() / static_cast<std::size_t>(state.range(0));
+    options.resident_folder = std::filesystem::temp_directory_path();
+  }
+  std::size_t most_resident = 0;
+  std::size_t refused = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    OccupancyMap map(options);
+    drive_through_halls(map, [&] { most_resident = std::max(most_resident, map.resident_bytes()); });
+    refused += map.cells_refused();
+  }
+  const OccupancyMap::Counts counts = in_memory.counts();
+  const double known = static_cast<double>(counts.free + counts.occupied);
+  const double on_heap =
+      static_cast<double>(in_memory.memory_bytes()) - static_cast<double>(in_memory.brick_count() * sizeof(Brick));
+  state.counters["map_mb"] = 1e-6 * static_cast<double>(in_memory.memory_bytes());
+  state.counters["limit_mb"] = 1e-6 * static_cast<double>(options.resident_bytes);
+  state.counters["resident_mb"] = 1e-6 * static_cast<double>(most_resident);
+  state.counters["bytes_per_known"] = static_cast<double>(in_memory.memory_bytes()) / known;
+  state.counters["always_resident_per_known"] = on_heap / known;
+  state.counters["refused"] = static_cast<double>(refused);
+}
+
 // The first keyframe of the recorded lidar scans, if VANTAGE_DATA is set.
 std::optional<Scan> recorded_lidar_scan() {
   const char* data = std::getenv("VANTAGE_DATA");
@@ -125,6 +167,13 @@ const bool kRegistered = [] {
       ->Arg(0)
       ->Arg(10)
       ->Arg(100)
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("insert/vantage/partly_on_disk", insert_partly_on_disk)
+      ->Arg(1)
+      ->Arg(5)
+      ->Arg(20)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime()
       ->Unit(benchmark::kMillisecond);
   return true;
 }();

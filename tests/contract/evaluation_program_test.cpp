@@ -131,6 +131,15 @@ TEST_F(Evaluation, RefusesBeforeTheFirstRun) {
   EXPECT_EQ(refused, 9U);
 }
 
+TEST_F(Evaluation, ObjectsNeedAFileOfResultsThatCanBeWritten) {
+  EXPECT_EQ(shell("vantage evaluate objects --results $OUT/runs"), 2);
+  EXPECT_EQ(err_, "vantage: " + (out() / "runs").string() + ": cannot be written: No such file or directory\n");
+  EXPECT_EQ(shell("vantage evaluate objects --objects mug --planners evenly-spaced --quick --max-views 1 --results "
+                  "/dev/full"),
+            2);
+  EXPECT_NE(err_.find("vantage: /dev/full: cannot be written: No space left on device\n"), std::string::npos) << err_;
+}
+
 TEST_F(Evaluation, LeavesOutWorldsWhoseDataIsNotThere) {
   EXPECT_EQ(shell("unset VANTAGE_DATA; " + std::string(kTiny) +
                   "--worlds timed --planners next-best-view --jobs 2 --out $OUT"),
