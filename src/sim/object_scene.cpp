@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/sim/object_scene.hpp>
 #include <vantage/view/candidate_views.hpp>
 
@@ -66,16 +67,47 @@ Settings planner_settings(const ObjectScene& scene) {
           {"aimed_candidates", "320"}};
 }
 
+namespace {
+
+// How large the box appears from a pose far away: the area of its faces towards the pose as seen from there, of
+// which only the part counts that nothing outside of the box hides.
+double apparent_area_m2(const Box& box, const Truth& truth, const Pose& pose) {
+  constexpr int kPoints = 6;  // per edge of a face
+  const VoxelFrame& frame = truth.map().frame();
+  const VoxelBox inside = frame.cells_touched_by(box);
+  const Eigen::Vector3d from = pose.translation();
+  const Eigen::Vector3d axis = optical_axis(pose);
+  double area_m2 = 0.0;
+  for (int normal = 0; normal < 3; ++normal) {
+    const int across = (normal + 1) % 3;
+    const int along = (normal + 2) % 3;
+    Eigen::Vector3d point;
+    point[normal] = axis[normal] < 0.0 ? box.max[normal] : box.min[normal];
+    int open = 0;
+    for (int i = 0; i < kPoints * kPoints; ++i) {
+      point[across] = box.min[across] + box.extent()[across] * (i % kPoints + 0.5) / kPoints;
+      point[along] = box.min[along] + box.extent()[along] * (i / kPoints + 0.5) / kPoints;
+      bool hidden = false;
+      for (const VoxelIndex& cell : VoxelRay(frame, from, point)) {
+        hidden = hidden || (!inside.contains(cell) && truth.map().at(cell) == Occupancy::Occupied);
+      }
+      open += hidden ? 0 : 1;
+    }
+    area_m2 += std::abs(axis[normal]) * box.extent()[across] * box.extent()[along] * open / (kPoints * kPoints);
+  }
+  return area_m2;
+}
+
+}  // namespace
+
 Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platform& platform, std::uint64_t seed) {
-  const Eigen::Vector3d extent = scene.box.extent();
-  const Eigen::Vector3d sides(extent.y() * extent.z(), extent.z() * extent.x(), extent.x() * extent.y());
   const std::vector<double> radius{scene.radii_m.front()};
   std::vector<std::pair<double, Pose>> views;
   double largest = 0.0;
   for (const Pose& view : views_around(scene.box.centre(), radius)) {
     const Pose pose = platform.facing(view.translation(), optical_axis(view));
     if (platform.admits(truth.map(), pose)) {
-      views.emplace_back(sides.dot(optical_axis(pose).cwiseAbs()), pose);
+      views.emplace_back(apparent_area_m2(scene.box, truth, pose), pose);
       largest = std::max(largest, views.back().first);
     }
   }

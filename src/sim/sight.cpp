@@ -13,16 +13,29 @@
 namespace vantage {
 namespace {
 
-// Cells that can be seen at all: those joined to a pose through free cells, and the surfaces that bound them,
-// because a line of sight goes from face to face.
+// Cells that can be seen at all: those joined to a pose through free cells of the region, and the surfaces that bound
+// them, because a line of sight goes from face to face. From a pose outside of the region it enters at a border cell.
 std::vector<VoxelIndex> candidates(const Sight& sight, const VoxelBox& region, const std::vector<VoxelIndex>& poses) {
   VoxelGrid<std::uint8_t> reached(region, 0);
   std::vector<VoxelIndex> queue;
+  bool outside = false;
   for (const VoxelIndex& pose : poses) {
+    outside = outside || !reached.contains(pose);
     if (reached.contains(pose) && reached[pose] == 0) {
       reached[pose] = 1;
       queue.push_back(pose);
     }
+  }
+  if (outside) {
+    const VoxelBox inner{region.lo + VoxelIndex{1, 1, 1}, region.hi - VoxelIndex{1, 1, 1}};
+    for_each_cell(region, [&](const VoxelIndex& cell) {
+      if (!inner.contains(cell) && reached[cell] == 0) {
+        reached[cell] = 1;
+        if (sight.is_free(cell)) {
+          queue.push_back(cell);
+        }
+      }
+    });
   }
   while (!queue.empty()) {
     const VoxelIndex cell = queue.back();

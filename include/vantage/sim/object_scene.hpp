@@ -44,8 +44,8 @@ struct ObjectScene {
                                        const ObjectSceneOptions& options);
 
 /// A first view of the object: drawn from the seed among those admitted views of the first shell in which the box
-/// appears at least 0.9 times as large as in the best of them. Throws std::invalid_argument if no view is
-/// admitted.
+/// appears at least 0.9 times as large as in the best of them; what the table hides of it does not count. Throws
+/// std::invalid_argument if no view is admitted.
 [[nodiscard]] Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platform& platform,
                                    std::uint64_t seed);
 

@@ -179,5 +179,29 @@ TEST(ObjectScene, LooksFromWhereTheObjectFits) {
   }
 }
 
+// A view from below the top of the table shows the table.
+TEST(ObjectScene, TheFirstViewOfAnObjectOnTheTableShowsIt) {
+  int views = 0;
+  for (const char* name : {"mug", "banana", "lamp", "blob"}) {
+    TriangleMesh object;
+    object.append(generated_object(name), Pose(Eigen::Translation3d(0.0, 0.0, kTableTopM)));
+    const RangeSensor sensor = small_camera();
+    const ObjectScene scene = object_scene(object, sensor, {.table = true, .resolution_m = 0.04});
+    const FreeFlyer platform({.radius_m = 0.05});
+    const Truth truth(scene.world, 0.04, scene.world.region);
+    const SeenSurface surface(TriangleScene(scene.world.mesh), sample_surface(object, 500), sensor);
+    std::size_t most = 0;
+    std::size_t fewest = 500;
+    for (std::uint64_t seed = 1; seed <= 25; ++seed, ++views) {
+      const Pose first = draw_first_view(scene, truth, platform, seed);
+      const std::size_t seen = surface.visible_from(first).size();
+      most = std::max(most, seen);
+      fewest = std::min(fewest, seen);
+    }
+    EXPECT_GT(2 * fewest, most) << name;
+  }
+  EXPECT_EQ(views, 100);
+}
+
 }  // namespace
 }  // namespace vantage
