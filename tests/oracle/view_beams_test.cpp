@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/raytrace/impl/slice_beam.hpp>
+#include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 #include <vector>
@@ -102,8 +102,6 @@ TEST(ViewBeams, LayersOfABeamAreThoseOfItsSlices) {
 struct FloodCase {
   struct Passage {
     SliceWindows windows;
-    SlicePlace place;
-    std::int64_t first = 0;
     std::array<WindowCells, 3> met{};  // by instruction set
   };
   static constexpr std::int64_t kLast = 40;
@@ -120,16 +118,13 @@ struct FloodCase {
     std::uniform_int_distribution<std::int64_t> gap(0, 2);
     for (std::int64_t slice = 4 * gap(engine); slice < kLast; slice += gap(engine)) {
       Passage& passage = passages.emplace_back();
-      passage.first = slice;
+      passage.windows.first = slice;
       passage.windows.count = 1 + engine() % SliceWindows::kMost;
       slice += static_cast<std::int64_t>(passage.windows.count);
-      const LateralCells cells = beam.cells_in(passage.first, slice - 1);
-      passage.place = beam.axes;
-      passage.place.first_u = cells.lo[0] & ~3;
-      passage.place.first_v = cells.lo[1] & ~3;
-      passage.place.along = beam.along(passage.first);
-      fits = fits && cells.hi[0] - passage.place.first_u < SliceWindows::kWidth &&
-             cells.hi[1] - passage.place.first_v < SliceWindows::kHeight;
+      const LateralCells cells = beam.cells_in(passage.windows.first, slice - 1);
+      passage.windows.place = {beam.axes, beam.along(passage.windows.first), cells.lo[0] & ~3, cells.lo[1] & ~3};
+      fits = fits && cells.hi[0] - passage.windows.place.first_u < SliceWindows::kWidth &&
+             cells.hi[1] - passage.windows.place.first_v < SliceWindows::kHeight;
       for (std::size_t k = 0; k < passage.windows.count; ++k) {
         for (std::uint32_t& row : passage.windows.rows[k]) {
           for (unsigned column = 0; column < 32; ++column) {
@@ -159,8 +154,7 @@ struct FloodCase {
     bool any_left = true;
     for (; any_left && reached < passages.size(); ++reached) {
       Passage& passage = passages[reached];
-      any_left =
-          flood.pass(passage.windows, passage.place, passage.first, passage.met[static_cast<std::size_t>(set)]);
+      any_left = flood.pass(passage.windows, passage.met[static_cast<std::size_t>(set)]);
     }
     return reached;
   }
@@ -181,7 +175,7 @@ struct FloodStop {
 };
 std::optional<FloodStop> first_stop(const FloodCase& of, const std::array<double, 2>& slopes) {
   const auto axis = [](const VoxelIndex& cell, std::size_t i) { return i == 0 ? cell.x : i == 1 ? cell.y : cell.z; };
-  const SlicePlace& axes = of.beam.axes;
+  const SliceAxes& axes = of.beam.axes;
   Eigen::Vector3d along;
   along[static_cast<Eigen::Index>(axes.major)] = axes.up ? 1.0 : -1.0;
   along[static_cast<Eigen::Index>(axes.u)] = slopes[0];
@@ -192,12 +186,13 @@ std::optional<FloodStop> first_stop(const FloodCase& of, const std::array<double
     const std::int64_t slice = std::abs(axis(cell, axes.major) - of.beam.first_along);
     for (std::size_t i = 0; i < of.passages.size(); ++i) {
       const FloodCase::Passage& passage = of.passages[i];
-      if (slice < passage.first || slice >= passage.first + static_cast<std::int64_t>(passage.windows.count)) {
+      if (slice < passage.windows.first ||
+          slice >= passage.windows.first + static_cast<std::int64_t>(passage.windows.count)) {
         continue;
       }
-      const auto number = static_cast<std::size_t>(slice - passage.first);
-      const auto row = static_cast<std::size_t>(axis(cell, axes.v) - passage.place.first_v);
-      const std::int32_t column = axis(cell, axes.u) - passage.place.first_u;
+      const auto number = static_cast<std::size_t>(slice - passage.windows.first);
+      const auto row = static_cast<std::size_t>(axis(cell, axes.v) - passage.windows.place.first_v);
+      const std::int32_t column = axis(cell, axes.u) - passage.windows.place.first_u;
       if ((passage.windows.rows[number].at(row) >> column & 1U) != 0) {
         return FloodStop{i, number, row, column, cell};
       }
@@ -235,12 +230,12 @@ TEST(ViewBeams, FloodsReachWhatRaysMeet) {
     }
     for (const FloodCase::Passage& passage : of.passages) {
       for (std::size_t k = 0; k < passage.windows.count; ++k) {
-        const std::int64_t slice = passage.first + static_cast<std::int64_t>(k);
+        const std::int64_t slice = passage.windows.first + static_cast<std::int64_t>(k);
         const LateralCells cells = of.beam.cells_in(slice, slice);
         for (std::int32_t v = cells.lo[1]; v <= cells.hi[1]; ++v) {
-          const auto row = static_cast<std::size_t>(v - passage.place.first_v);
+          const auto row = static_cast<std::size_t>(v - passage.windows.place.first_v);
           for (std::int32_t u = cells.lo[0]; u <= cells.hi[0]; ++u) {
-            const std::int32_t column = u - passage.place.first_u;
+            const std::int32_t column = u - passage.windows.place.first_u;
             blocking += passage.windows.rows[k][row] >> column & 1U;
             said += passage.met[0][k][row] >> column & 1U;
           }

@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <vantage/map/impl/mark_rays.hpp>
 #include <vantage/map/impl/ray_marker.hpp>
-#include <vantage/map/impl/tile_beam.hpp>
+#include <vantage/map/impl/undrawn_part.hpp>
 
 namespace vantage {
 namespace detail {

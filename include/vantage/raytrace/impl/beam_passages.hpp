@@ -4,15 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vantage/raytrace/impl/slice_beam.hpp>
+#include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_lanes.hpp>
-#include <vantage/raytrace/impl/tile_hits.hpp>
 
 namespace vantage {
 
 /// The passages of a beam (glossary in view_walk.hpp): the windows along its way in which a cell may stop a ray, in
-/// the order of the walk. They are recorded once for a group of tiles, and then restricted to the beam of one tile
-/// after the other.
+/// the order of the walk. They are recorded once for a group of tiles, and then asked for the beam of one tile after
+/// the other.
 class BeamPassages {
  public:
   static constexpr std::size_t kMost = 16;  ///< maximum number of passages
@@ -21,8 +20,6 @@ class BeamPassages {
   struct Passage {
     SliceWindows windows;
     alignas(64) WindowCells wanted{};  ///< cells to find: rays may meet them, and no ray has met them yet
-    SlicePlace place;
-    std::int64_t first = 0;  ///< first slice
   };
 
   /// The number of passages.
@@ -36,12 +33,10 @@ class BeamPassages {
   /// Adds the passage filled through `next`, which was recorded for this beam.
   void keep(const SliceBeam& beam);
 
-  /// Restricts the passages to a beam that is a part of the recorded beam: finds the columns and rows that it may
-  /// pass.
-  void turn_to(const SliceBeam& beam, InstructionSet set);
-  /// The slices that must be walked, a bit each, four bits per passage: those in which a cell may stop a ray of the
-  /// current beam, up to the last slice with a wanted cell. 0 if the beam can meet no wanted cell.
-  [[nodiscard]] std::uint64_t to_pass(InstructionSet set) const;
+  /// The slices that must be walked for a beam that is a part of the recorded beam, a bit each, four bits per
+  /// passage: those in which a cell may stop a ray of the beam, up to the last slice with a wanted cell. 0 if the
+  /// beam can meet no wanted cell.
+  [[nodiscard]] std::uint64_t to_pass(const SliceBeam& beam, InstructionSet set) const;
 
  private:
   template <class T>
@@ -54,9 +49,6 @@ class BeamPassages {
   alignas(64) PerPassage<double> leaves_{};
   alignas(64) PerPassage<double> from_u_{};  // position of the origin in the coordinates of the window
   alignas(64) PerPassage<double> from_v_{};
-  // bit mask of the columns, and below of the rows, that the current beam may pass
-  alignas(64) PerPassage<std::uint32_t> columns_{};
-  alignas(64) PerPassage<std::uint32_t> rows_{};
 };
 
 }  // namespace vantage

@@ -41,34 +41,34 @@ VANTAGE_TARGET_AVX512 inline std::uint32_t slices_with_avx512(const WindowPatch&
 
 VANTAGE_INLINE void BeamPassages::keep(const SliceBeam& beam) {
   const Passage& passage = passages_[size_];
-  enters_[size_] = beam.entered_at(passage.first);
-  leaves_[size_] = beam.entered_at(passage.first + static_cast<std::int64_t>(passage.windows.count));
-  from_u_[size_] = beam.within[0] + (beam.first[0] - passage.place.first_u);
-  from_v_[size_] = beam.within[1] + (beam.first[1] - passage.place.first_v);
+  enters_[size_] = beam.entered_at(passage.windows.first);
+  leaves_[size_] = beam.entered_at(passage.windows.first + static_cast<std::int64_t>(passage.windows.count));
+  from_u_[size_] = beam.within[0] + (beam.first[0] - passage.windows.place.first_u);
+  from_v_[size_] = beam.within[1] + (beam.first[1] - passage.windows.place.first_v);
   ++size_;
 }
 
-VANTAGE_INLINE void BeamPassages::turn_to(const SliceBeam& beam, InstructionSet set) {
-  compiled_for(set,
-               [&, least_u = beam.least[0], most_u = beam.most[0], least_v = beam.least[1], most_v = beam.most[1]] {
-                 VANTAGE_INDEPENDENT
+VANTAGE_INLINE std::uint64_t BeamPassages::to_pass(const SliceBeam& beam, InstructionSet set) const {
+  // bit mask of the columns and rows of the windows that the beam may pass
+  alignas(64) PerPassage<std::uint32_t> columns;
+  alignas(64) PerPassage<std::uint32_t> rows;
+  compiled_for(set, [this, of_columns = columns.data(), of_rows = rows.data(), least_u = beam.least[0],
+                     most_u = beam.most[0], least_v = beam.least[1], most_v = beam.most[1]] {
+    VANTAGE_INDEPENDENT
 #pragma GCC unroll 1
-                 for (std::size_t i = 0; i < kMost; ++i) {
-                   const double enters = enters_[i];
-                   const double leaves = leaves_[i];
-                   const double left = least_u * (least_u < 0.0 ? leaves : enters);
-                   const double right = most_u * (most_u > 0.0 ? leaves : enters);
-                   const double top = least_v * (least_v < 0.0 ? leaves : enters);
-                   const double bottom = most_v * (most_v > 0.0 ? leaves : enters);
-                   columns_[i] = bits_between(column_at(from_u_[i] + left - SliceBeam::kRounding),
-                                              column_at(from_u_[i] + right + SliceBeam::kRounding));
-                   rows_[i] = bits_between(row_at(from_v_[i] + top - SliceBeam::kRounding),
-                                           row_at(from_v_[i] + bottom + SliceBeam::kRounding));
-                 }
-               });
-}
-
-VANTAGE_INLINE std::uint64_t BeamPassages::to_pass(InstructionSet set) const {
+    for (std::size_t i = 0; i < kMost; ++i) {
+      const double enters = enters_[i];
+      const double leaves = leaves_[i];
+      const double left = least_u * (least_u < 0.0 ? leaves : enters);
+      const double right = most_u * (most_u > 0.0 ? leaves : enters);
+      const double top = least_v * (least_v < 0.0 ? leaves : enters);
+      const double bottom = most_v * (most_v > 0.0 ? leaves : enters);
+      of_columns[i] = bits_between(column_at(from_u_[i] + left - SliceBeam::kRounding),
+                                   column_at(from_u_[i] + right + SliceBeam::kRounding));
+      of_rows[i] = bits_between(row_at(from_v_[i] + top - SliceBeam::kRounding),
+                                row_at(from_v_[i] + bottom + SliceBeam::kRounding));
+    }
+  });
   const auto slices_of = [set](const WindowPatch& patch, const WindowCells& cells) {
 #if defined(__x86_64__)
     if (set == InstructionSet::Avx512) {
@@ -81,7 +81,7 @@ VANTAGE_INLINE std::uint64_t BeamPassages::to_pass(InstructionSet set) const {
   std::uint64_t blocking = 0;
   std::uint64_t wanted = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    const WindowPatch patch{columns_[i], rows_[i]};
+    const WindowPatch patch{columns[i], rows[i]};
     const std::uint32_t there = (1U << passages_[i].windows.count) - 1;
     blocking |= std::uint64_t{slices_of(patch, passages_[i].windows.rows) & there} << 4 * i;
     wanted |= std::uint64_t{slices_of(patch, passages_[i].wanted)} << 4 * i;

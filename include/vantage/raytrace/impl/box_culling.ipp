@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/box_culling.hpp>
-#include <vantage/raytrace/impl/lane_queries.hpp>
 
 namespace vantage {
 VANTAGE_INLINE BoxCulling::BoxCulling(const Pose& world_from_sensor, const Box& box, InstructionSet set)

@@ -133,6 +133,7 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
   ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
   TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
   CellStamps stamps(seen, set);
+  ViewWalk::Outlook outlook;
   RayBlock block;
   constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
   const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
@@ -154,15 +155,14 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
     for (std::size_t i = group.first; i < group.last; ++i) {
       const RayCone& cone = rays.cones()[i];
       const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(cone);
-      if (meeting == Meeting::None || (end_behind && !together.may_see(i - group.first))) {
+      if (meeting == Meeting::None || (end_behind && !together.look(i - group.first, outlook))) {
         continue;
       }
       const RayTile& tile = rays.tiles()[i];
       detail::prefetch_whole(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
-      const bool all = meeting == Meeting::All || (end_behind && together.culls(i - group.first));
-      std::uint64_t left = all ? tile.rays : culling.meeting(tile);
+      std::uint64_t left = meeting == Meeting::All || outlook.culls ? tile.rays : culling.meeting(tile);
       if (end_behind) {
-        left = together.walk(tile, i - group.first, left, stamps);
+        left = together.walk(tile, outlook, left, stamps);
       }
       if (left != 0) {
         placer.place_ends(tile, block);

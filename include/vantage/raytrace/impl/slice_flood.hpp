@@ -4,9 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <vantage/geometry/voxel.hpp>
-#include <vantage/raytrace/impl/slice_beam.hpp>
+#include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_lanes.hpp>
-#include <vantage/raytrace/impl/tile_hits.hpp>
 
 namespace vantage {
 
@@ -29,13 +28,13 @@ class SliceFlood {
   /// Starts a new beam. Returns false if its slopes are too close to 1 for a certain result; the flood then must not
   /// be used.
   [[nodiscard]] bool begin(const SliceBeam& beam);
-  /// Follows the beam through consecutive slices, given by windows that contain it, from slice `first` on. No cell
-  /// may stop a ray between the last call and this one. `met` receives the cells of the box that rays may meet.
-  /// Returns whether any ray may be left.
-  [[nodiscard]] bool pass(const SliceWindows& windows, const SlicePlace& place, std::int64_t first, WindowCells& met);
+  /// Follows the beam through consecutive slices, given by windows that contain it. No cell may stop a ray between
+  /// the last call and this one. `met` receives the cells of the box that rays may meet. Returns whether any ray may
+  /// be left.
+  [[nodiscard]] bool pass(const SliceWindows& windows, WindowCells& met);
 
  private:
-  void move(std::int64_t first, const SlicePlace& place);
+  void move(const SliceWindows& windows);
 
   VoxelBox box_;
   InstructionSet set_;

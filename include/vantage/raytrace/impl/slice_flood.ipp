@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vantage/geometry/impl/along.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
 #include <vantage/raytrace/impl/window_patch.hpp>
 
@@ -56,12 +57,11 @@ static_assert(SliceWindows::kMost < std::tuple_size_v<Course::PerSlice<int>>);
 // A ray with a slope smaller than this may, after rounding, appear to move in the other direction.
 inline constexpr double kStraight = SliceBeam::kRounding;
 
-// Computes the columns and rows in which rays enter and pass the slices from `first` on.
-inline void place_beam(const SliceBeam& beam, const SlicePlace& place, std::int64_t first, InstructionSet set,
-                       Course& course) {
-  compiled_for(set, [&beam, &course, enters_first = static_cast<double>(first) - beam.from_entry,
-                     from_u = beam.within[0] + (beam.first[0] - place.first_u),
-                     from_v = beam.within[1] + (beam.first[1] - place.first_v)] {
+// Computes the columns and rows in which rays enter and pass the slices of the windows.
+inline void place_beam(const SliceBeam& beam, const SliceWindows& windows, InstructionSet set, Course& course) {
+  compiled_for(set, [&beam, &course, enters_first = static_cast<double>(windows.first) - beam.from_entry,
+                     from_u = beam.within[0] + (beam.first[0] - windows.place.first_u),
+                     from_v = beam.within[1] + (beam.first[1] - windows.place.first_v)] {
     constexpr std::int32_t kSlices = std::tuple_size_v<Course::PerSlice<int>>;
     alignas(32) std::array<std::int32_t, kSlices + 1> left;
     alignas(32) std::array<std::int32_t, kSlices + 1> right;
@@ -101,20 +101,17 @@ inline std::uint32_t bits_of_row(std::int32_t first, std::int32_t end, std::int3
   return first < end ? bits_between(first, end - 1) : 0;
 }
 
-inline void place_box(const VoxelBox& box, const SliceBeam& beam, const SlicePlace& place, std::int64_t first,
-                      Course& course) {
-  const auto axis = [](const VoxelIndex& cell, std::size_t of) {
-    return of == 0 ? cell.x : of == 1 ? cell.y : cell.z;
-  };
+// Finds the cells of the box in the windows.
+inline void place_box(const VoxelBox& box, const SlicePlace& place, Course& course) {
   course.of_box = {
-      bits_of_row(axis(box.lo, place.u) - place.first_u, axis(box.hi, place.u) - place.first_u, kColumns),
-      bits_of_row(axis(box.lo, place.v) - place.first_v, axis(box.hi, place.v) - place.first_v, kRows)};
-  const std::int32_t along = beam.along(first);
-  const std::int32_t lo = axis(box.lo, place.major);
-  const std::int32_t hi = axis(box.hi, place.major);
+      bits_of_row(along(box.lo, place.u) - place.first_u, along(box.hi, place.u) - place.first_u, kColumns),
+      bits_of_row(along(box.lo, place.v) - place.first_v, along(box.hi, place.v) - place.first_v, kRows)};
+  const std::int32_t lo = along(box.lo, place.major);
+  const std::int32_t hi = along(box.hi, place.major);
+  const std::int32_t first = place.along;
   constexpr auto kSlices = static_cast<std::int32_t>(SliceWindows::kMost);
   course.slices_of_box =
-      place.up ? bits_of_row(lo - along, hi - along, kSlices) : bits_of_row(along + 1 - hi, along + 1 - lo, kSlices);
+      place.up ? bits_of_row(lo - first, hi - first, kSlices) : bits_of_row(first + 1 - hi, first + 1 - lo, kSlices);
 }
 
 // Propagates `cells`, in which rays enter the first slice, to the cells in which they leave the last one. `met`
@@ -225,16 +222,17 @@ VANTAGE_INLINE bool SliceFlood::begin(const SliceBeam& beam) {
          beam.most[1] <= kMostAskew;
 }
 
-// Moves the set of cells to the slice `first` and to the window of `place`. Between the slices the set grows by the
+// Moves the set of cells to the first of these windows. Between the slices the set grows by the
 // spread of the beam.
-VANTAGE_INLINE void SliceFlood::move(std::int64_t first, const SlicePlace& place) {
+VANTAGE_INLINE void SliceFlood::move(const SliceWindows& windows) {
+  const SlicePlace& place = windows.place;
   const std::array<std::int32_t, 2> before{std::exchange(first_u_, place.first_u),
                                            std::exchange(first_v_, place.first_v)};
   if (is_full_) {
     cells_.fill(~std::uint32_t{0});
     return;
   }
-  const auto gap = static_cast<double>(first - slice_);
+  const auto gap = static_cast<double>(windows.first - slice_);
   std::array<std::int32_t, 2> least{before[0] - place.first_u, before[1] - place.first_v};
   std::array<std::int32_t, 2> most = least;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -271,18 +269,17 @@ VANTAGE_INLINE void SliceFlood::move(std::int64_t first, const SlicePlace& place
   });
 }
 
-VANTAGE_INLINE bool SliceFlood::pass(const SliceWindows& windows, const SlicePlace& place, std::int64_t first,
-                                     WindowCells& met) {
-  move(first, place);
+VANTAGE_INLINE bool SliceFlood::pass(const SliceWindows& windows, WindowCells& met) {
+  move(windows);
   is_full_ = false;
-  slice_ = first + static_cast<std::int64_t>(windows.count);
+  slice_ = windows.first + static_cast<std::int64_t>(windows.count);
   detail::Course course;
   met = {};
   course.drift = {
       detail::all_if(beam_.most[0] > -detail::kStraight), detail::all_if(beam_.least[0] < detail::kStraight),
       detail::all_if(beam_.most[1] > -detail::kStraight), detail::all_if(beam_.least[1] < detail::kStraight)};
-  detail::place_beam(beam_, place, first, set_, course);
-  detail::place_box(box_, beam_, place, first, course);
+  detail::place_beam(beam_, windows, set_, course);
+  detail::place_box(box_, windows.place, course);
 #if defined(__x86_64__)
   if (set_ == InstructionSet::Avx512) {
     return detail::flood_avx512(windows, course, cells_, met);

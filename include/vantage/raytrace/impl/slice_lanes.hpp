@@ -6,8 +6,16 @@
 #include <cstdint>
 #include <vantage/map/impl/instruction_set.hpp>
 #include <vantage/map/impl/ray_block.hpp>
+#include <vantage/map/impl/slice_beam.hpp>
 
 namespace vantage {
+
+/// Position of the windows of a few slices in the map.
+struct SlicePlace : SliceAxes {
+  std::int32_t along = 0;    ///< coordinate of the first slice along the major axis
+  std::int32_t first_u = 0;  ///< coordinate of the first column of the windows, a multiple of 4
+  std::int32_t first_v = 0;  ///< coordinate of the first row of the windows, a multiple of 4
+};
 
 /// Windows of up to four consecutive slices. A window is a part of a slice with 32 x 16 cells; a set bit is a cell
 /// that stops rays.
@@ -17,7 +25,9 @@ struct SliceWindows {
   static constexpr std::size_t kMost = 4;      ///< maximum number of slices
 
   alignas(64) std::array<std::array<std::uint32_t, kHeight>, kMost> rows{};  ///< rows[slice][v], bit u
-  std::size_t count = 0;  ///< number of slices, in the order of the walk
+  std::size_t count = 0;   ///< number of slices, in the order of the walk
+  std::int64_t first = 0;  ///< number of the first slice
+  SlicePlace place;
 };
 
 /// A set of cells of one window, and of the windows of all slices.

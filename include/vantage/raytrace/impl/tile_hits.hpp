@@ -10,24 +10,6 @@
 
 namespace vantage {
 
-/// Position of the windows of a few slices in the map.
-struct SlicePlace {
-  std::size_t major = 0;     ///< axis across the slices
-  std::size_t u = 1;         ///< first lateral axis
-  std::size_t v = 2;         ///< second lateral axis
-  bool up = true;            ///< whether the walk goes towards larger coordinates
-  std::int32_t along = 0;    ///< coordinate of the first slice along the major axis
-  std::int32_t first_u = 0;  ///< coordinate of the first column of the windows, a multiple of 4
-  std::int32_t first_v = 0;  ///< coordinate of the first row of the windows, a multiple of 4
-
-  /// Converts coordinates along (major, u, v) to (x, y, z), for cells or words.
-  [[nodiscard]] VoxelIndex at(std::int32_t m, std::int32_t of_u, std::int32_t of_v) const {
-    return major == 0   ? VoxelIndex{m, of_u, of_v}
-           : major == 1 ? VoxelIndex{of_u, m, of_v}
-                        : VoxelIndex{of_u, of_v, m};
-  }
-};
-
 /// Receives the cells that stop the rays of a tile.
 class HitSink {
  public:

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <bit>
-#include <vantage/raytrace/impl/lane_queries.hpp>
+#include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/sliced_word.hpp>
 #include <vantage/raytrace/impl/tile_hits.hpp>
 

@@ -4,9 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
-#include <vantage/raytrace/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_lanes.hpp>
+#include <vantage/raytrace/impl/slice_walk.hpp>
 #include <vector>
 
 namespace vantage {
@@ -23,29 +24,27 @@ class ViewSlices {
   /// not be used.
   bool begin(const SliceBeam& beam, std::int64_t last);
 
-  /// Number of layers, from that of this slice on, in which no cell stops a ray.
+  /// The last slice.
+  [[nodiscard]] std::int64_t last() const { return last_; }
+  /// The first stop of a beam from this slice on. The beam must be a part of the one of `begin`, or the stop may not
+  /// be held.
+  [[nodiscard]] Stop next_stop(const SliceBeam& beam, std::int64_t slice);
+  /// Cuts the windows of a stop of this beam that is held and small enough (fits_windows). Only the slices from the
+  /// first to the last one in which one of the cells of the stop stops a ray are kept.
+  void cut(const SliceBeam& beam, const Stop& stop, SliceWindows& windows) const;
+
+ private:
+  // Number of layers, from that of this slice on, in which no cell stops a ray.
   [[nodiscard]] std::int32_t free_layers(std::int64_t slice) { return layer_of(slice).free; }
-  /// Whether the layer of this slice covers all these cells.
+  // Whether the layer of this slice covers all these cells.
   [[nodiscard]] bool hold(std::int64_t slice, const LateralCells& cells) {
     const Layer& layer = layer_of(slice);
     return cells.lo[0] >= layer.first_u && cells.hi[0] < layer.end_u && cells.lo[1] >= layer.first_v &&
            cells.hi[1] < layer.end_v;
   }
-  /// A range of slices of a layer, both ends included.
-  struct Slices {
-    std::int64_t first = 0;
-    std::int64_t last = -1;
-  };
-  /// Whether one of these cells stops a ray in a slice of this layer. Also true if the cells are too many to tell.
-  /// The layer must cover the cells and must not be free.
+  // Whether one of these cells stops a ray in a slice of this layer. Also true if the cells are too many to tell.
+  // The layer must cover the cells and must not be free.
   [[nodiscard]] bool any_stops(std::int64_t slice, const LateralCells& cells) const;
-  /// Cuts windows that start at the word of `place` and contain `cells`, from the slices [first, end) of a layer.
-  /// Only the slices from the first to the last one in which one of `cells` stops a ray are kept; the result names
-  /// them. If there is none, `last` is less than `first`. Preconditions as any_stops.
-  Slices cut(std::int64_t first, std::int64_t end, const LateralCells& cells, const SlicePlace& place,
-             SliceWindows& windows) const;
-
- private:
   // plane after those of the four slices: the cells that stop rays in any of them
   static constexpr std::size_t kAny = 4;
   static constexpr std::size_t kPlanes = 5;
@@ -87,6 +86,7 @@ class ViewSlices {
   BlockingGrid::Reader reader_;
   InstructionSet set_;
   SliceBeam beam_;
+  std::int64_t last_ = 0;
   std::vector<Layer> layers_;
   std::vector<std::uint64_t> rows_;
 };

@@ -77,6 +77,7 @@ VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, c
 // A beam is widest at its end. It must not be empty.
 VANTAGE_INLINE bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
   beam_ = beam;
+  last_ = last;
   layers_.clear();
   rows_.clear();
   constexpr std::int32_t kWidest = 128;
@@ -183,25 +184,57 @@ VANTAGE_INLINE bool ViewSlices::any_stops(std::int64_t slice, const LateralCells
   return detail::any_in_rows(rows, cells.extent(1), columns);
 }
 
-VANTAGE_INLINE ViewSlices::Slices ViewSlices::cut(std::int64_t first, std::int64_t end, const LateralCells& cells,
-                                                  const SlicePlace& place, SliceWindows& windows) const {
-  const Layer& layer = layers_[number_of(first)];
+VANTAGE_INLINE Stop ViewSlices::next_stop(const SliceBeam& beam, std::int64_t slice) {
+  const auto stops = [this](const Stop& stop) { return !stop.held || any_stops(stop.slice, stop.cells); };
+  while (slice <= last_) {
+    if (const std::int32_t free = free_layers(slice); free > 0) {
+      slice += beam.left_in_layer(slice) + std::int64_t{4} * (free - 1);
+      continue;
+    }
+    if (slice == 0) {  // rays start inside slice 0, so they pass only a part of it
+      const LateralCells cells = beam.cells_in(0, 0);
+      if (const Stop stop{0, 1, cells, hold(0, cells)}; stops(stop)) {
+        return stop;
+      }
+      slice = 1;
+      continue;
+    }
+    const LateralLayers cells = beam.layers_from(slice, set_);
+    for (std::size_t k = 0; k < LateralLayers::kLayers && slice <= last_; ++k) {
+      const std::int64_t next = slice + beam.left_in_layer(slice);
+      if (free_layers(slice) == 0) {
+        if (const Stop stop{slice, next, cells[k], hold(slice, cells[k])}; stops(stop)) {
+          return stop;
+        }
+      }
+      slice = next;
+    }
+  }
+  return {slice};
+}
+
+VANTAGE_INLINE void ViewSlices::cut(const SliceBeam& beam, const Stop& stop, SliceWindows& windows) const {
+  const LateralCells& cells = stop.cells;
+  SlicePlace& place = windows.place;
+  place = {beam.axes, 0, cells.lo[0] & ~3, cells.lo[1] & ~3};
+  const Layer& layer = layers_[number_of(stop.slice)];
   const std::int32_t column = (place.first_u - layer.first_u) / detail::kColumn;
   const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * detail::kColumn);
   const std::int32_t from_row = place.first_v - layer.first_v;
   const detail::Cut cut{shift, cells.lo[1] - place.first_v, cells.hi[1] - place.first_v,
                         ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
                             ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
-  Slices stopping{end, first - 1};
+  windows.first = stop.next;
+  std::int64_t last = stop.slice - 1;
   const auto cut_all = [&](const auto& cut_one) {
     std::size_t count = 0;  // windows before the first one that stops a ray are overwritten
-    for (std::int64_t slice = first; slice < end; ++slice) {
+    for (std::int64_t slice = stop.slice; slice < stop.next; ++slice) {
       const std::uint64_t* const from = rows_of(layer, column, beam_.along(slice) & 3) + from_row;
       if (cut_one(from, windows.rows[count].data())) {
-        stopping.first = std::min(stopping.first, slice);
-        stopping.last = slice;
+        windows.first = std::min(windows.first, slice);
+        last = slice;
       }
-      count += stopping.last >= first ? 1 : 0;
+      count += last >= stop.slice ? 1 : 0;
     }
   };
 #if defined(__x86_64__)
@@ -216,8 +249,8 @@ VANTAGE_INLINE ViewSlices::Slices ViewSlices::cut(std::int64_t first, std::int64
 #else
   cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window(from, cut, to); });
 #endif
-  windows.count = static_cast<std::size_t>(std::max<std::int64_t>(stopping.last - stopping.first + 1, 0));
-  return stopping;
+  windows.count = static_cast<std::size_t>(std::max<std::int64_t>(last - windows.first + 1, 0));
+  place.along = beam.along(windows.first);
 }
 
 }  // namespace vantage

@@ -8,10 +8,7 @@
 #include <vantage/map/impl/sensor_frame.hpp>
 #include <vantage/raytrace/impl/beam_passages.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
-#include <vantage/raytrace/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
-#include <vantage/raytrace/impl/slice_lanes.hpp>
-#include <vantage/raytrace/impl/tile_hits.hpp>
 #include <vantage/raytrace/impl/view_slices.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
@@ -27,18 +24,6 @@ namespace vantage {
 /// meet no cell, or only cells found before, need no walk. So the result is that of walking all rays.
 ///
 /// Glossary of raytrace/ (private headers):
-///
-///     v ^  slice 0     1     2     3  |  4     5     6     7
-///       |                             |                ...''''    upper edge of the beam: slope `most`
-///       |                             |     .....''''#
-///       |              .....''''''''''|'''''   #     #            #  a cell that stops rays (it is not known free)
-///       |   ....'''''''               |        #
-///       |  o                          |                           o  origin: the sensor
-///       |   ''''''''''.....           |
-///       |                  ''''''.....|.......                    lower edge of the beam: slope `least`
-///       |                             |       '''''''''''...
-///       +-----------------------------+-----------------------> major axis
-///            layer (4 slices)         |     layer (4 slices)
 ///
 /// - view: a pose of a sensor with its rays (ViewRays). tile: 8 x 8 neighbouring rays. group: 4 x 4 tiles.
 /// - cone: bounds the directions of a tile or a group. BoxCulling and FreeCone test cones before any ray is walked.
@@ -63,32 +48,28 @@ class ViewWalk {
 
   /// Starts a group of tiles.
   void enter(const TileGroup& group, const TileHulls& hulls);
-  /// Whether rays of a tile, given by its index in the group, may meet a cell of the box that no ray has met yet.
-  /// Call it before `walk` of that tile.
-  [[nodiscard]] bool may_see(std::size_t number);
-  /// Whether `walk` itself ignores the rays of a tile that miss the box, so that the caller need not cull them.
-  [[nodiscard]] bool culls(std::size_t number) const {
-    return (of_class_ >> number & 1U) != 0 && known_ == Known::Passages;
-  }
-  /// Walks the selected `rays` of a tile, given by its index in the group. The rays must not end before they have
-  /// left the box. Returns the rays that must be walked otherwise.
-  [[nodiscard]] std::uint64_t walk(const RayTile& tile, std::size_t number, std::uint64_t rays, HitSink& hits);
+  /// What the survey of a group tells about a tile.
+  struct Outlook {
+    bool is_mixed = true;      ///< whether its rays may belong to several classes
+    bool culls = false;        ///< whether `walk` itself ignores the rays that miss the box
+    SliceBeam beam;            ///< bounds the rays that may meet the box
+    std::uint64_t slices = 0;  ///< slices of the passages to walk
+    Stop stop;                 ///< the first stop, if there are no passages
+  };
+  /// Looks at a tile, given by its index in the group. Returns whether its rays may meet a cell of the box that no
+  /// ray has met yet; only then `outlook` is complete.
+  [[nodiscard]] bool look(std::size_t number, Outlook& outlook);
+  /// Walks the selected `rays` of a tile with this outlook. The rays must not end before they have left the box.
+  /// Returns the rays that must be walked otherwise.
+  [[nodiscard]] std::uint64_t walk(const RayTile& tile, const Outlook& outlook, std::uint64_t rays, HitSink& hits);
 
  private:
-  // State of a class of rays, see the glossary.
+  // State of a class of rays.
   struct Class {
     SliceBeam all;
     SliceBeam beam;  // bounds the rays that may meet the box
     ViewSlices slices;
-    std::int64_t last = 0;  // the last slice of the box
     bool is_narrow = false;
-  };
-  // The slices [slice, next) of one layer, in which a cell may stop a ray of the beam.
-  struct Stop {
-    std::int64_t slice = 0;  // none if larger than the last slice of the class
-    std::int64_t next = 0;
-    LateralCells cells{};  // where the rays may be in these slices
-    bool held = true;      // whether `slices` of the class covers the cells
   };
 
   // What the survey of some tiles has found: Free: they meet no cell of the box. Passages: passages_ tell which cells
@@ -100,19 +81,11 @@ class ViewWalk {
   [[nodiscard]] std::uint64_t measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
                                       const SliceBeam& beam);
   void spread_tiles();
-  void turn_to(const Class& of, const std::array<double, 2>& least, const std::array<double, 2>& most);
-  [[nodiscard]] std::uint64_t walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits);
-  void tighten(std::uint64_t active);
-  [[nodiscard]] Stop next_stop(Class& of, std::int64_t slice) const;
-  [[nodiscard]] Known record(Class& of, Stop stop);
+  static void narrow(SliceBeam& beam, const std::array<double, 2>& least, const std::array<double, 2>& most);
   [[nodiscard]] Known survey(std::uint64_t tiles, std::int64_t from);
-  [[nodiscard]] std::uint64_t follow_recorded(std::uint64_t active, HitSink& hits);
-  std::int64_t cut(const Class& of, const Stop& stop, SliceWindows& windows);
-  void walk_windows(const SliceWindows& windows, std::int64_t first, std::uint64_t active, SliceHits& met);
-  [[nodiscard]] std::uint64_t follow(Class& of, std::uint64_t active, Stop stop, HitSink& hits);
-  [[nodiscard]] std::uint64_t follow_quarters(Class& of, std::uint64_t active, std::int64_t slice, HitSink& hits);
-  void place_steps(double through);
-  void place_lanes(double enters);
+  [[nodiscard]] Known record(const SliceBeam& beam, Stop stop);
+  [[nodiscard]] std::uint64_t walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits);
+  [[nodiscard]] std::uint64_t walk_recorded(const Outlook& outlook, std::uint64_t active, HitSink& hits);
 
   const BlockingGrid& grid_;
   VoxelFrame frame_;
@@ -139,22 +112,12 @@ class ViewWalk {
   Known known_ = Known::Nothing;
   BeamPassages passages_;
 
-  // State of the tile: the slices of the passages to walk, or the first stop.
-  std::uint64_t to_pass_ = 0;
-  Stop stop_;
-
-  SliceBeam beam_;  // bounds the rays that are being walked
   SliceFlood flood_;
-  SlicePlace place_;
-  SliceLanes lanes_;
-  SliceWindows windows_;
-  // slopes: lateral cells per cell along the major axis
-  alignas(64) std::array<RayBlock::PerRay<double>, 2> slope_{};
+  SliceWalk walk_;
 };
 
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/raytrace/impl/view_walk.ipp>
-#include <vantage/raytrace/impl/view_walk_follow.ipp>
 #endif

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vantage/geometry/impl/along.hpp>
+#include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/view_walk.hpp>
 
 namespace vantage {
@@ -45,7 +47,8 @@ VANTAGE_INLINE ViewWalk::ViewWalk(const BlockingGrid& grid, const VoxelFrame& fr
       origin_(world_from_sensor.translation()),
       box_(box),
       set_(set),
-      flood_(box, set) {}
+      flood_(box, set),
+      walk_(set) {}
 
 VANTAGE_INLINE void ViewWalk::enter(const TileGroup& group, const TileHulls& hulls) {
   of_group_ = &class_of(group.cone.axis);
@@ -78,13 +81,46 @@ VANTAGE_INLINE ViewWalk::Known ViewWalk::survey(std::uint64_t tiles, std::int64_
       most[i] = std::max(most[i], most_[i][tile]);
     }
   }
-  turn_to(*of_group_, least, most);
-  if (beam_.is_empty()) {
+  SliceBeam beam = of_group_->beam;
+  narrow(beam, least, most);
+  if (beam.is_empty()) {
     return Known::Free;
   }
-  const Stop stop = next_stop(*of_group_, from);
+  const Stop stop = of_group_->slices.next_stop(beam, from);
   from_ = stop.slice;
-  return record(*of_group_, stop);
+  return record(beam, stop);
+}
+
+// Records the passages of the beam, from this stop on.
+VANTAGE_INLINE ViewWalk::Known ViewWalk::record(const SliceBeam& beam, Stop stop) {
+  ViewSlices& slices = of_group_->slices;
+  passages_.clear();
+  bool tells = flood_.begin(beam);
+  std::uint32_t any_of_box = 0;
+  for (; stop.slice <= slices.last(); stop = slices.next_stop(beam, stop.next)) {
+    tells = tells && stop.held && stop.fits_windows() && passages_.size() < BeamPassages::kMost;
+    if (!tells) {
+      fits_by_parts_ =
+          stop.cells.extent(0) < 2 * SliceWindows::kWidth && stop.cells.extent(1) < 2 * SliceWindows::kHeight;
+      return Known::Nothing;
+    }
+    BeamPassages::Passage& passage = passages_.next();
+    slices.cut(beam, stop, passage.windows);
+    if (passage.windows.count == 0) {
+      continue;
+    }
+    const bool any_left = flood_.pass(passage.windows, passage.wanted);
+    for (const WindowRows& rows : passage.wanted) {
+      for (const std::uint32_t row : rows) {
+        any_of_box |= row;
+      }
+    }
+    passages_.keep(beam);
+    if (!any_left) {
+      break;
+    }
+  }
+  return any_of_box != 0 ? Known::Passages : Known::Free;
 }
 
 // Computes the slopes of each tile from those of its four corners. Equal corners of all tiles are stored side by
@@ -93,7 +129,7 @@ VANTAGE_INLINE void ViewWalk::spread_tiles() {
   compiled_for(set_, [this] {
     constexpr std::size_t kTiles = TileHulls::kTiles;
     for (std::size_t i = 0; i < 2; ++i) {
-      const double* const slope = slope_[i].data();
+      const double* const slope = walk_.lines.slope[i].data();
       double* const least = least_[i].data();
       double* const most = most_[i].data();
       VANTAGE_INDEPENDENT
@@ -113,18 +149,19 @@ VANTAGE_INLINE void ViewWalk::spread_tiles() {
   });
 }
 
-// Sets the current beam to these slopes, limited to the beam of the class.
-VANTAGE_INLINE void ViewWalk::turn_to(const Class& of, const std::array<double, 2>& least,
-                                      const std::array<double, 2>& most) {
-  beam_ = of.beam;
+// Limits a beam to these slopes.
+VANTAGE_INLINE void ViewWalk::narrow(SliceBeam& beam, const std::array<double, 2>& least,
+                                     const std::array<double, 2>& most) {
   for (std::size_t i = 0; i < 2; ++i) {
-    beam_.least[i] = std::max(beam_.least[i], least[i]);
-    beam_.most[i] = std::min(beam_.most[i], most[i]);
+    beam.least[i] = std::max(beam.least[i], least[i]);
+    beam.most[i] = std::min(beam.most[i], most[i]);
   }
 }
 
-VANTAGE_INLINE bool ViewWalk::may_see(std::size_t number) {
-  if ((of_class_ >> number & 1U) == 0) {
+VANTAGE_INLINE bool ViewWalk::look(std::size_t number, Outlook& outlook) {
+  outlook.is_mixed = (of_class_ >> number & 1U) == 0;
+  outlook.culls = false;
+  if (outlook.is_mixed) {
     return true;
   }
   if (constexpr std::size_t kOfPart = TileHulls::kTiles / kParts; by_parts_ && part_ != number / kOfPart) {
@@ -134,32 +171,75 @@ VANTAGE_INLINE bool ViewWalk::may_see(std::size_t number) {
   if (known_ == Known::Free) {
     return false;
   }
-  turn_to(*of_group_, {least_[0][number], least_[1][number]}, {most_[0][number], most_[1][number]});
-  if (beam_.is_empty()) {
+  outlook.beam = of_group_->beam;
+  narrow(outlook.beam, {least_[0][number], least_[1][number]}, {most_[0][number], most_[1][number]});
+  if (outlook.beam.is_empty()) {
     return false;
   }
   if (known_ == Known::Passages) {
-    passages_.turn_to(beam_, set_);
-    to_pass_ = passages_.to_pass(set_);
-    return to_pass_ != 0;
+    outlook.culls = true;
+    outlook.slices = passages_.to_pass(outlook.beam, set_);
+    return outlook.slices != 0;
   }
-  stop_ = next_stop(*of_group_, from_);
-  return stop_.slice <= of_group_->last;
+  outlook.stop = of_group_->slices.next_stop(outlook.beam, from_);
+  return outlook.stop.slice <= of_group_->slices.last();
 }
 
-VANTAGE_INLINE std::uint64_t ViewWalk::walk(const RayTile& tile, std::size_t number, std::uint64_t rays,
+VANTAGE_INLINE std::uint64_t ViewWalk::walk(const RayTile& tile, const Outlook& outlook, std::uint64_t rays,
                                             HitSink& hits) {
-  if ((of_class_ >> number & 1U) == 0) {
+  if (outlook.is_mixed) {
     return walk_mixed(tile, rays, hits);
   }
   if (std::popcount(rays) < detail::kFewRays) {
     return rays;
   }
-  // Rays outside the beam meet no cell of the box.
-  if (known_ == Known::Nothing) {
-    return follow(*of_group_, rays & measure(tile.directions, beam_), stop_, hits);
+  rays &= measure(tile.directions, outlook.beam);  // rays outside the beam meet no cell of the box
+  return outlook.culls ? walk_recorded(outlook, rays, hits)
+                       : walk_.follow(of_group_->slices, outlook.beam, rays, outlook.stop, hits);
+}
+
+// Walks rays through the slices of the passages that the outlook names.
+VANTAGE_INLINE std::uint64_t ViewWalk::walk_recorded(const Outlook& outlook, std::uint64_t active, HitSink& hits) {
+  std::uint64_t others = 0;
+  SliceWindows windows;
+  walk_.start();
+  std::uint64_t left = outlook.slices;
+  while (left != 0 && active != 0) {
+    constexpr unsigned kMost = SliceWindows::kMost;
+    const auto number = static_cast<unsigned>(std::countr_zero(left)) / kMost;
+    const auto slices = static_cast<unsigned>(left >> kMost * number & ((1U << kMost) - 1));
+    left &= ~std::uint64_t{0} << kMost * number << kMost;
+    BeamPassages::Passage& passage = passages_[number];
+    const auto skipped = static_cast<std::size_t>(std::countr_zero(slices));
+    windows.count = static_cast<std::size_t>(std::bit_width(slices)) - skipped;
+    std::copy_n(passage.windows.rows.begin() + static_cast<std::ptrdiff_t>(skipped), windows.count,
+                windows.rows.begin());
+    windows.first = passage.windows.first + static_cast<std::int64_t>(skipped);
+    windows.place = passage.windows.place;
+    windows.place.along = outlook.beam.along(windows.first);
+    SliceHits met;
+    met.where.fill(-1);
+    walk_.walk(outlook.beam, windows, active, met);
+    others |= met.doubtful;
+    active &= ~(met.stopped | met.doubtful);
+    if (met.stopped == 0) {
+      continue;
+    }
+    std::uint64_t found = 0;
+    for (std::uint64_t stopped = met.stopped & changes_of(met.where, set_); stopped != 0; stopped &= stopped - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(stopped));
+      const auto where = static_cast<std::uint32_t>(met.where[lane]);
+      std::uint32_t& row = passage.wanted[skipped + (where >> 9U)][where >> 5U & 15U];
+      const std::uint32_t bit = std::uint32_t{1} << (where & 31U);
+      found |= std::uint64_t{(row & bit) != 0} << lane;
+      row &= ~bit;
+    }
+    met.stopped = found;
+    if (found != 0) {
+      hits.take(met, windows.place);
+    }
   }
-  return follow_recorded(rays & measure(tile.directions, beam_), hits);
+  return others;
 }
 
 // Walks a tile whose rays belong to several classes, class by class.
@@ -174,13 +254,42 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint
     } else if (std::popcount(of_class) < detail::kFewRays) {
       others |= of_class | (std::uint64_t{1} << first);
     } else {
-      beam_ = of.beam;
-      tighten(of_class);
-      others |= follow(of, of_class, next_stop(of, 0), hits);
+      SliceBeam beam = of.beam;
+      beam.tighten(walk_.lines, of_class, set_);
+      others |= walk_.follow(of.slices, beam, of_class, of.slices.next_stop(beam, 0), hits);
     }
     rays &= ~(of_class | std::uint64_t{1} << first);
   }
   return others;
+}
+
+// Computes the slopes of all rays of a tile. Returns those inside the beam.
+VANTAGE_INLINE std::uint64_t ViewWalk::measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
+                                               const SliceBeam& beam) {
+  RayBlock::PerRay<std::int32_t> flags;
+  const float* const x = directions[0].data();
+  const float* const y = directions[1].data();
+  const float* const z = directions[2].data();
+  double* const slope_u = walk_.lines.slope[0].data();
+  double* const slope_v = walk_.lines.slope[1].data();
+  compiled_for(set_, [=, &flags, sensor = sensor_, major = beam.axes.major, lateral_u = beam.axes.u,
+                      lateral_v = beam.axes.v, sign = beam.axes.up ? 1.0 : -1.0, least_u = beam.least[0],
+                      most_u = beam.most[0], least_v = beam.least[1], most_v = beam.most[1]] {
+    std::int32_t* const flag = flags.data();
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+      const double forwards = sign * sensor.rotated(major, x[i], y[i], z[i]);
+      const double per_cell = 1.0 / forwards;
+      const double u = sensor.rotated(lateral_u, x[i], y[i], z[i]) * per_cell;
+      const double v = sensor.rotated(lateral_v, x[i], y[i], z[i]) * per_cell;
+      slope_u[i] = u;
+      slope_v[i] = v;
+      flag[i] = static_cast<std::int32_t>(forwards > 0.0) & static_cast<std::int32_t>(u >= least_u) &
+                static_cast<std::int32_t>(u <= most_u) & static_cast<std::int32_t>(v >= least_v) &
+                static_cast<std::int32_t>(v <= most_v);
+    }
+  });
+  return equal_to(flags, 1, set_);
 }
 
 VANTAGE_INLINE ViewWalk::Class& ViewWalk::class_of(const Eigen::Vector3d& direction) {
@@ -200,9 +309,9 @@ VANTAGE_INLINE ViewWalk::Class& ViewWalk::class_of(const Eigen::Vector3d& direct
 VANTAGE_INLINE ViewWalk::Class ViewWalk::made(std::size_t major, bool up) const {
   const SliceBeam all(frame_, origin_, major, up);
   Class of{all, all, ViewSlices(grid_, set_)};
-  of.last = of.beam.last_slice_of(box_);
+  const std::int64_t last = of.beam.last_slice_of(box_);
   detail::spread_over(of.beam, box_);
-  of.is_narrow = of.last < SliceBeam::kLastOfLayers && (of.beam.is_empty() || of.slices.begin(of.beam, of.last));
+  of.is_narrow = last < SliceBeam::kLastOfLayers && (of.beam.is_empty() || of.slices.begin(of.beam, last));
   return of;
 }
 

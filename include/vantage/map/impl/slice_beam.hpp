@@ -1,13 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/impl/instruction_set.hpp>
-#include <vantage/raytrace/impl/tile_hits.hpp>
+#include <vantage/map/impl/ray_block.hpp>
 
 namespace vantage {
+
+/// The axes of a class of rays: those that advance fastest along the same axis, in the same direction.
+struct SliceAxes {
+  std::size_t major = 0;  ///< axis across the slices
+  std::size_t u = 1;      ///< first lateral axis
+  std::size_t v = 2;      ///< second lateral axis
+  bool up = true;         ///< whether the rays go towards larger coordinates along the major axis
+
+  /// Converts coordinates along (major, u, v) to (x, y, z), for cells or words.
+  [[nodiscard]] VoxelIndex at(std::int32_t m, std::int32_t of_u, std::int32_t of_v) const {
+    return major == 0   ? VoxelIndex{m, of_u, of_v}
+           : major == 1 ? VoxelIndex{of_u, m, of_v}
+                        : VoxelIndex{of_u, of_v, m};
+  }
+};
+
+/// The ends of 64 rays relative to their origin, along x, y and z, in cells.
+using RayExtents = std::array<RayBlock::PerRay<double>, 3>;
+
+/// Computes the extents of the rays of a block.
+void measure(const RayBlock& block, const Eigen::Vector3d& origin, double size_m, RayExtents& extents,
+             InstructionSet set);
+
+/// 64 rays of one class from one origin as lines: lateral position as a function of the distance along the major
+/// axis.
+struct RayLines {
+  /// Computes the lines of rays of these axes from their ends. The length of a ray that goes the other way is
+  /// negative.
+  void place(const RayExtents& extents, const SliceAxes& axes, InstructionSet set);
+
+  alignas(64) std::array<RayBlock::PerRay<double>, 2> slope;  ///< lateral cells per cell along the major axis
+  alignas(64) RayBlock::PerRay<double> length{};              ///< distance of the end along the major axis, in cells
+};
 
 /// A rectangle of cells along the two lateral axes; `lo` and `hi` are both included.
 struct LateralCells {
@@ -33,8 +68,21 @@ struct LateralLayers {
   alignas(32) std::array<PerLayer<std::int32_t>, 2> hi{};
 };
 
-/// A beam (glossary in view_walk.hpp): a bound on neighbouring rays of one class from one origin. It tells in which
-/// cells of each slice the rays may be.
+/// A beam: a bound on neighbouring rays of one class from one origin. It tells in which cells of each slice the rays
+/// may be. A slice is one sheet of cells across the major axis; slice 0 holds the origin. A layer is the slices of
+/// one sheet of words of 4 x 4 x 4 cells.
+///
+///     v ^  slice 0     1     2     3  |  4     5     6     7
+///       |                             |                ...''''    upper edge of the beam: slope `most`
+///       |                             |     .....''''#
+///       |              .....''''''''''|'''''   #     #            #  a cell that stops rays (it is not known free)
+///       |   ....'''''''               |        #
+///       |  o                          |                           o  origin: the sensor
+///       |   ''''''''''.....           |
+///       |                  ''''''.....|.......                    lower edge of the beam: slope `least`
+///       |                             |       '''''''''''...
+///       +-----------------------------+-----------------------> major axis
+///            layer (4 slices)         |     layer (4 slices)
 struct SliceBeam {
   /// Tolerance for lateral positions, in cells. The positions of a beam and of an exact walk differ by much less.
   static constexpr double kRounding = 1e-6;
@@ -73,6 +121,8 @@ struct SliceBeam {
   /// layers after it. `slice` must be in [1, kLastOfLayers].
   [[nodiscard]] LateralLayers layers_from(std::int64_t slice, InstructionSet set) const;
   static constexpr std::int64_t kLastOfLayers = 1 << 19;
+  /// Shrinks the beam to these rays.
+  void tighten(const RayLines& lines, std::uint64_t active, InstructionSet set);
   /// Whether the beam contains no ray.
   [[nodiscard]] bool is_empty() const { return least[0] > most[0] || least[1] > most[1]; }
   /// The last slice that overlaps a box.
@@ -87,7 +137,7 @@ struct SliceBeam {
     return towards_zero - (towards_zero > cell ? 1 : 0);
   }
 
-  SlicePlace axes;               ///< only the axes and `up` are used
+  SliceAxes axes;
   std::int32_t first_along = 0;  ///< coordinate of slice 0 along the major axis
   double from_entry = 0.0;  ///< distance from the face through which rays would enter slice 0 to the origin, in cells
   std::array<std::int32_t, 2> first{};        ///< cell of the origin along the lateral axes
@@ -99,5 +149,5 @@ struct SliceBeam {
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/raytrace/impl/slice_beam.ipp>
+#include <vantage/map/impl/slice_beam.ipp>
 #endif

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <vantage/raytrace/impl/lane_queries.hpp>
+#include <vantage/map/impl/lane_queries.hpp>
 
 #if defined(__x86_64__)
 #include <immintrin.h>

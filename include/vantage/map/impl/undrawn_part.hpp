@@ -15,13 +15,13 @@ struct UndrawnPart {
   std::int64_t faces_before = 0;
 };
 
-/// Follows the `usable` rays of a block (at least one) slice by slice, while all cells between them have marks. If
-/// the rays diverge too much, the result is all of them in full. Only unusable rays of `block` are changed.
-[[nodiscard]] UndrawnPart undrawn_part(RayBlock& block, std::uint64_t usable, const Eigen::Vector3d& origin,
+/// Follows the `usable` rays of a block (at least one) as one beam, slice by slice, while all cells between them have
+/// marks. If the rays diverge too much, the result is all of them in full.
+[[nodiscard]] UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usable, const Eigen::Vector3d& origin,
                                        const VoxelFrame& frame, const ScanMarks& marks);
 
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/map/impl/tile_beam.ipp>
+#include <vantage/map/impl/undrawn_part.ipp>
 #endif

@@ -22,5 +22,5 @@ namespace vantage {
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/raytrace/impl/lane_queries.ipp>
+#include <vantage/map/impl/lane_queries.ipp>
 #endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vantage/map/impl/slice_beam.hpp>
+#include <vantage/raytrace/impl/slice_lanes.hpp>
+#include <vantage/raytrace/impl/tile_hits.hpp>
+
+namespace vantage {
+
+/// A stop of a beam: the next slices [slice, next) of one layer in which a cell may stop one of its rays.
+struct Stop {
+  std::int64_t slice = 0;  ///< there is no stop if this lies behind the last slice
+  std::int64_t next = 0;
+  LateralCells cells{};  ///< where the rays may be in these slices
+  bool held = true;      ///< whether the slices know all these cells
+
+  /// Whether windows that start at a word boundary can contain the cells.
+  [[nodiscard]] bool fits_windows() const {
+    return cells.hi[0] - (cells.lo[0] & ~3) < SliceWindows::kWidth &&
+           cells.hi[1] - (cells.lo[1] & ~3) < SliceWindows::kHeight;
+  }
+};
+
+/// The walk of 64 rays of one class through slices: as one beam through free layers, and as lanes where a cell may
+/// stop them.
+class SliceWalk {
+ public:
+  explicit SliceWalk(InstructionSet set) : set_(set) {}
+
+  /// Follows the `active` rays, which lie inside `beam`, from this stop on to the cells that stop them, and up to the
+  /// last slice. `slices` (GridSlices or ViewSlices) finds the stops and their windows. Returns the rays that must be
+  /// walked otherwise: doubtful ones, and those that spread too far.
+  template <class Slices>
+  [[nodiscard]] std::uint64_t follow(Slices& slices, SliceBeam beam, std::uint64_t active, Stop stop, HitSink& hits);
+  /// Prepares `walk` for the current lines; `follow` does so itself.
+  void start() { place_steps(1.0); }
+  /// Walks the `active` rays through the windows; the ends of the rays are ignored.
+  void walk(const SliceBeam& beam, const SliceWindows& windows, std::uint64_t active, SliceHits& met);
+
+  /// The rays. The walk starts with the slopes set.
+  RayLines lines;
+  /// The smallest length of a ray, if rays may end before the last slice.
+  double shortest = std::numeric_limits<double>::infinity();
+
+ private:
+  void place_steps(double through);
+  void place_lanes(const SliceBeam& beam, const SlicePlace& place, double enters);
+  [[nodiscard]] std::uint64_t ending_by(double distance) const;
+  void end_rays(std::uint64_t ending, double to_first, SliceHits& met) const;
+
+  InstructionSet set_;
+  SliceLanes lanes_;
+  SliceWindows windows_;
+};
+
+template <class Slices>
+std::uint64_t SliceWalk::follow(Slices& slices, SliceBeam beam, std::uint64_t active, Stop stop, HitSink& hits) {
+  std::uint64_t others = 0;
+  start();
+  for (; active != 0 && stop.slice <= slices.last(); stop = slices.next_stop(beam, stop.next)) {
+    if (!stop.held) {
+      return others | active;
+    }
+    if (!stop.fits_windows()) {
+      for (unsigned quarter = 0; quarter < 4; ++quarter) {
+        const std::uint64_t some = active & std::uint64_t{0xFFFF} << 16U * quarter;
+        if (some == active) {
+          return others | active;
+        }
+        if (some != 0) {
+          beam.tighten(lines, some, set_);
+          others |= follow(slices, beam, some, slices.next_stop(beam, stop.slice), hits);
+        }
+      }
+      return others;
+    }
+    slices.cut(beam, stop, windows_);
+    if (windows_.count == 0) {
+      continue;
+    }
+    const std::uint64_t before = active;
+    std::uint64_t ending = 0;
+    const double leaves = beam.entered_at(windows_.first + static_cast<std::int64_t>(windows_.count));
+    if (shortest <= leaves + SliceBeam::kRounding) {
+      active &= ~ending_by(beam.entered_at(windows_.first) - SliceBeam::kRounding);
+      ending = active & ending_by(leaves + SliceBeam::kRounding);
+    }
+    SliceHits met;
+    met.where.fill(-1);
+    walk(beam, windows_, active, met);
+    end_rays(ending, beam.from_entry - static_cast<double>(windows_.first), met);
+    if (met.stopped != 0) {
+      hits.take(met, windows_.place);
+    }
+    others |= met.doubtful;
+    active &= ~(met.stopped | met.doubtful | ending);
+    if (active != before && active != 0) {
+      beam.tighten(lines, active, set_);
+    }
+  }
+  return others;
+}
+
+}  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/slice_walk.ipp>
+#endif
