@@ -3,7 +3,7 @@
 
 #include <bit>
 #include <vantage/raytrace/impl/beam_passages.hpp>
-#include <vantage/raytrace/impl/window_patch.hpp>
+#include <vantage/raytrace/impl/slice_windows.hpp>
 
 namespace vantage {
 namespace detail {

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
-#include <vantage/raytrace/impl/box_culling.hpp>
-#include <vantage/raytrace/impl/free_cone.hpp>
 #include <vantage/raytrace/impl/single_walk.hpp>
 #include <vantage/raytrace/impl/tile_walk.hpp>
+#include <vantage/raytrace/impl/view_culling.hpp>
 #include <vantage/raytrace/impl/view_placer.hpp>
 #include <vantage/raytrace/impl/view_walk.hpp>
 #include <vantage/raytrace/ray_caster.hpp>

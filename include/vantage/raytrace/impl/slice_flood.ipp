@@ -5,7 +5,7 @@
 #include <utility>
 #include <vantage/geometry/impl/along.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
-#include <vantage/raytrace/impl/window_patch.hpp>
+#include <vantage/raytrace/impl/slice_windows.hpp>
 
 namespace vantage {
 namespace detail {

@@ -6,33 +6,9 @@
 #include <cstdint>
 #include <vantage/map/impl/instruction_set.hpp>
 #include <vantage/map/impl/ray_block.hpp>
-#include <vantage/map/impl/slice_beam.hpp>
+#include <vantage/raytrace/impl/slice_windows.hpp>
 
 namespace vantage {
-
-/// Position of the windows of a few slices in the map.
-struct SlicePlace : SliceAxes {
-  std::int32_t along = 0;    ///< coordinate of the first slice along the major axis
-  std::int32_t first_u = 0;  ///< coordinate of the first column of the windows, a multiple of 4
-  std::int32_t first_v = 0;  ///< coordinate of the first row of the windows, a multiple of 4
-};
-
-/// Windows of up to four consecutive slices. A window is a part of a slice with 32 x 16 cells; a set bit is a cell
-/// that stops rays.
-struct SliceWindows {
-  static constexpr std::int32_t kWidth = 32;   ///< cells along the first lateral axis, u
-  static constexpr std::int32_t kHeight = 16;  ///< cells along the second lateral axis, v
-  static constexpr std::size_t kMost = 4;      ///< maximum number of slices
-
-  alignas(64) std::array<std::array<std::uint32_t, kHeight>, kMost> rows{};  ///< rows[slice][v], bit u
-  std::size_t count = 0;   ///< number of slices, in the order of the walk
-  std::int64_t first = 0;  ///< number of the first slice
-  SlicePlace place;
-};
-
-/// A set of cells of one window, and of the windows of all slices.
-using WindowRows = std::array<std::uint32_t, SliceWindows::kHeight>;
-using WindowCells = std::array<WindowRows, SliceWindows::kMost>;
 
 /// 64 rays from one origin that walk through slices together, one SIMD lane each.
 ///

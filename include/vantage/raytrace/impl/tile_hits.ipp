@@ -3,7 +3,7 @@
 
 #include <bit>
 #include <vantage/map/impl/lane_queries.hpp>
-#include <vantage/raytrace/impl/sliced_word.hpp>
+#include <vantage/raytrace/impl/sliced_words.hpp>
 #include <vantage/raytrace/impl/tile_hits.hpp>
 
 namespace vantage {

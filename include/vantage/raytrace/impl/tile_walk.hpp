@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <vantage/raytrace/impl/grid_slices.hpp>
+#include <vantage/raytrace/impl/slices.hpp>
 
 namespace vantage {
 

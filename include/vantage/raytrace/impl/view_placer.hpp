@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <stdexcept>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/impl/ray_block.hpp>
 #include <vantage/raytrace/view_rays.hpp>
@@ -12,7 +13,16 @@ namespace vantage {
 class ViewPlacer {
  public:
   /// Throws std::invalid_argument if the pose is not rigid or a ray is not addressable.
-  ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame);
+  ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame)
+      : placer_{SensorFrame(world_from_sensor), rays.max_range_m(), frame.size_m * kFurthestVoxel, frame.size_m} {
+    if (!is_rigid(world_from_sensor)) {
+      throw std::invalid_argument("the pose of a view must be a rotation and a translation");
+    }
+    const Eigen::Vector3d reach = world_from_sensor.translation().cwiseAbs().array() + 2.0 * rays.max_range_m();
+    if (!frame.addressable(reach)) {
+      throw std::invalid_argument("the rays of a view reach further than cells can be addressed");
+    }
+  }
 
   /// Computes the ends of the rays of a tile from their directions.
   void place_ends(const RayTile& tile, RayBlock& block) const {
@@ -26,7 +36,3 @@ class ViewPlacer {
 };
 
 }  // namespace vantage
-
-#if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/raytrace/impl/view_placer.ipp>
-#endif

@@ -9,7 +9,7 @@
 #include <vantage/raytrace/impl/beam_passages.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
-#include <vantage/raytrace/impl/view_slices.hpp>
+#include <vantage/raytrace/impl/slices.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
 namespace vantage {
@@ -21,25 +21,8 @@ namespace vantage {
 /// Idea. For each group of tiles, one beam around all its rays is followed through the slices, and a flood finds
 /// which cells of the box the rays may meet. Often there is none, and the group is done. Otherwise the beam of each
 /// tile is tested for such cells that no ray has met yet, and its rays are walked only if there are any. Rays that
-/// meet no cell, or only cells found before, need no walk. So the result is that of walking all rays.
-///
-/// Glossary of raytrace/ (private headers):
-///
-/// - view: a pose of a sensor with its rays (ViewRays). tile: 8 x 8 neighbouring rays. group: 4 x 4 tiles.
-/// - cone: bounds the directions of a tile or a group. BoxCulling and FreeCone test cones before any ray is walked.
-/// - level: resolution of a caster; a cell has an edge of 2^level finest cells. brick: 8 x 8 x 8 cells, see Brick.
-/// - word: 4 x 4 x 4 cells as 64 bits. page: 8 x 8 x 8 words. distance: free words around a word (BlockingGrid).
-/// - class: rays with the same major axis, along which they advance fastest, and the same direction on it. The other
-///   two axes are the lateral axes u and v. slope: lateral cells per cell along the major axis.
-/// - slice: one sheet of cells across the major axis; slice 0 holds the origin. layer: the slices of one sheet of
-///   words.
-/// - window: 32 x 16 cells of a slice as a bit mask (SliceWindows). patch: a rectangle in a window.
-/// - beam: a range of slopes that bounds rays of a class (SliceBeam). It says in which cells of a slice they may be.
-/// - stop: the next slices in which a cell may stop a ray of a beam. passage: the windows of a stop, and the cells in
-///   them that are still wanted (BeamPassages).
-/// - walk: following rays from cell to cell. SingleWalk walks one ray exactly. SliceLanes walks 64 rays as SIMD
-///   lanes; a ray that passes too close to an edge between cells is doubtful and is walked exactly.
-/// - flood: following a beam as a set of cells instead of as rays (SliceFlood).
+/// meet no cell, or only cells found before, need no walk. So the result is that of walking all rays. (Glossary in
+/// slices.hpp.)
 class ViewWalk {
  public:
   /// For views from this pose that look for cells of `box`. The grid must outlive the object.

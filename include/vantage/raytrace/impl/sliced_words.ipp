@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <vantage/raytrace/impl/word_rows.hpp>
+#include <vantage/raytrace/impl/sliced_words.hpp>
 
 #if defined(__x86_64__)
 #include <immintrin.h>

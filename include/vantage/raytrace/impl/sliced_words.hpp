@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vantage/map/impl/instruction_set.hpp>
 
 namespace vantage {
 
@@ -37,4 +40,15 @@ inline std::uint64_t swap_index_bits(std::uint64_t word) {
   return major == 0 ? swap_index_bits<0, 2>(swap_index_bits<1, 3>(word)) : word;
 }
 
+/// The rows of four slices, four rows per slice.
+using WordRows = std::array<std::uint32_t, 16>;
+
+/// Converts up to eight adjacent words, ordered by slices (in_slices), to rows of cells. Word i gives the columns 4 i
+/// to 4 i + 3.
+[[nodiscard]] WordRows rows_of_words(std::span<const std::uint64_t> words, InstructionSet set);
+
 }  // namespace vantage
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/raytrace/impl/sliced_words.ipp>
+#endif

@@ -12,6 +12,42 @@
 
 namespace vantage {
 
+// How rays are cast. Every noun of raytrace/impl/ is named here once.
+//
+//                  view: a pose and its rays (ViewRays)
+//                  group: 4 x 4 tiles; tile: 8 x 8 neighbouring rays, a RayBlock once its ends are placed
+//                  (ViewPlacer) cone: bounds the directions of a tile or a group
+//                    |
+//      BoxCulling    |  cones that miss the box of interest          BlockingGrid
+//      FreeCone      |  cones without a cell that stops a ray          word: 4 x 4 x 4 cells as 64 bits
+//                    v                                                 page: 8 x 8 x 8 words
+//     visible_cells: ViewWalk                cast: TileWalk            distance: how many words around a word are
+//     free
+//       group by group                         tile by tile                  |
+//       SliceFlood: a beam as a set of cells   class by class                v
+//       BeamPassages: what it found             |                    slices: sheets of cells across the major axis
+//       Outlook: what that tells of a tile      |                    layer: the four slices of a sheet of words
+//                    |                          |                      GridSlices reads words for one tile,
+//                    +----------+---------------+                      ViewSlices rows of cells for all tiles of a
+//                    view
+//                               v                                            |
+//                           SliceWalk  <--- Stop, SliceWindows --------------+
+//                             SliceBeam through free layers
+//                             SliceLanes in windows, 64 rays at a time
+//                             |            |
+//                             |            +--- doubtful rays ---> SingleWalk: one ray, exactly
+//                             v                                            |
+//                          HitSink: TileHits or CellStamps  <--------------+
+//
+// class    rays with the same major axis, along which they advance fastest, and the same direction on it (SliceAxes);
+//          the other two axes are the lateral axes u and v
+// slope    lateral cells per cell along the major axis; RayLines holds the slopes and lengths of 64 rays
+// beam     a range of slopes that bounds rays of a class, drawn in map/impl/slice_beam.hpp
+// stop     the next slices in which a cell may stop a ray of a beam
+// window   32 x 16 cells of a slice as a bit mask; SlicePlace tells where it lies; patch: a rectangle in it
+// passage  the windows of a stop, and the cells in them that are still wanted
+// level    resolution of a caster: a cell has an edge of 2^level finest cells
+
 /// The cells that stop the rays of one class of a view, slice by slice, inside the beam that leads to the box. All
 /// tiles of the class cut their windows out of it. A layer (the four slices of a sheet of words) is read when it is
 /// first needed.
@@ -91,8 +127,32 @@ class ViewSlices {
   std::vector<std::uint64_t> rows_;
 };
 
+/// The slices of a grid for a single tile: reads the words on the way of its beam when they are needed.
+class GridSlices {
+ public:
+  /// The grid must outlive the object.
+  GridSlices(const BlockingGrid& grid, InstructionSet set) : reader_(grid), set_(set) {}
+
+  /// Starts a new walk up to slice `last`.
+  void begin(std::int64_t last) { last_ = last; }
+  /// The last slice.
+  [[nodiscard]] std::int64_t last() const { return last_; }
+  /// The first stop of a beam from this slice on.
+  [[nodiscard]] Stop next_stop(const SliceBeam& beam, std::int64_t slice);
+  /// Cuts the windows of a stop of this beam, which must be small enough (fits_windows). Keeps none if no cell of the
+  /// stop stops a ray.
+  void cut(const SliceBeam& beam, const Stop& stop, SliceWindows& windows);
+
+ private:
+  [[nodiscard]] std::int32_t free_layers(const SliceAxes& axes, const LateralCells& cells, std::int32_t along);
+
+  BlockingGrid::Reader reader_;
+  InstructionSet set_;
+  std::int64_t last_ = 0;
+};
+
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/raytrace/impl/view_slices.ipp>
+#include <vantage/raytrace/impl/slices.ipp>
 #endif
