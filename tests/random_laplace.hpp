@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <random>
 #include <vantage/field/laplace_problem.hpp>
+#include <vantage/field/potential.hpp>
 #include <vector>
 
 namespace vantage {
+
+/// The value of every cell of a problem, by position; NaN where the potential has none.
+inline std::vector<double> values_of(const Potential& potential, const LaplaceProblem& problem) {
+  std::vector<double> values;
+  for (const VoxelIndex& cell : problem.cells()) {
+    values.push_back(potential.at(cell).value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return values;
+}
 
 /// A small random domain: a box with edges of 1 to 6 cells, possibly flat, without some random cells, with a random
 /// source and sinks. Cells that are not connected with the source are included; the problem must drop them.

@@ -9,6 +9,7 @@
 #include <vantage/field/laplace_multigrid.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/field/potential.hpp>
 #include <vantage/field/streamline.hpp>
 #include <vantage/frontier/frontier_tracker.hpp>
 #include <vantage/frontier/frontier_voids.hpp>

@@ -93,19 +93,24 @@ Picture growth_strip(const RunRecord& run, const std::filesystem::path& record) 
 }
 
 Picture field_picture(const HarmonicField& field, const OccupancyMap& map, const std::string& title) {
+  std::vector<VoxelIndex> cells;
+  std::vector<double> phi;
   std::vector<VoxelIndex> frontier;
-  for (std::size_t i = 0; i < field.problem.size(); ++i) {
-    if (field.problem.kind(static_cast<LaplaceProblem::Position>(i)) == LaplaceCell::Sink) {
-      frontier.push_back(field.problem.cells()[i]);
+  const Potential& potential = field.potential;
+  potential.domain().for_each_cell([&](const VoxelIndex& cell) {
+    cells.push_back(cell);
+    phi.push_back(*potential.at(cell));
+    if (potential.domain().is_sink(cell)) {
+      frontier.push_back(cell);
     }
-  }
+  });
   FieldContent content;
   content.title = title;
-  content.cells = field.problem.cells();
-  content.phi = field.phi;
+  content.cells = cells;
+  content.phi = phi;
   content.frontier = frontier;
   content.streamline = field.streamline;
-  content.sensor_m = map.frame().centre_of(field.problem.cell(field.problem.source()));
+  content.sensor_m = map.frame().centre_of(potential.source());
   return draw_field(map, content);
 }
 

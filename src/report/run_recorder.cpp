@@ -80,29 +80,25 @@ bool on_lattice(const VoxelIndex& cell, std::int32_t step) {
   return cell.x % step == 0 && cell.y % step == 0 && cell.z % step == 0;
 }
 
-// Descent of phi per cell along each axis; a closed face contributes nothing.
-Eigen::Vector3f fall_at(const HarmonicField& field, LaplaceProblem::Position at) {
-  const auto& neighbours = field.problem.neighbours(at);
-  const auto phi = [&](LaplaceProblem::Position neighbour) {
-    return field.phi[static_cast<std::size_t>(neighbour == LaplaceProblem::kClosed ? at : neighbour)];
-  };
-  Eigen::Vector3d fall;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    fall[static_cast<Eigen::Index>(axis)] = phi(neighbours[2 * axis]) - phi(neighbours[2 * axis + 1]);
-  }
+// Descent of the potential per cell along each axis; a closed face contributes nothing.
+Eigen::Vector3f fall_at(const Potential& potential, const VoxelIndex& cell, double own) {
+  const auto at = [&](std::size_t face) { return potential.at(cell + kFaceNeighbours[face]).value_or(own); };
+  const Eigen::Vector3d fall(at(0) - at(1), at(2) - at(3), at(4) - at(5));
   const double steepest = fall.cwiseAbs().maxCoeff();
   return steepest > 0.0 ? (fall / steepest).normalized().cast<float>() : Eigen::Vector3f(Eigen::Vector3f::Zero());
 }
 
 // Samples of a field on a lattice, with the least spacing that leaves at most `most` samples.
-std::vector<FieldArrow> samples_of(const HarmonicField& field, std::size_t most) {
+std::vector<FieldArrow> samples_of(const Potential& field, std::size_t most) {
   std::vector<FieldArrow> samples;
   if (most == 0) {
     return samples;
   }
-  const double share = static_cast<double>(field.problem.size()) / static_cast<double>(most);
+  std::vector<VoxelIndex> cells;
+  field.domain().for_each_cell([&](const VoxelIndex& cell) { cells.push_back(cell); });
+  std::sort(cells.begin(), cells.end(), RasterOrder{});
+  const double share = static_cast<double>(cells.size()) / static_cast<double>(most);
   auto step = static_cast<std::int32_t>(std::max(1.0, std::floor(std::cbrt(share))));
-  const std::vector<VoxelIndex>& cells = field.problem.cells();
   const auto count = [&] {
     return static_cast<std::size_t>(
         std::count_if(cells.begin(), cells.end(), [&](const VoxelIndex& cell) { return on_lattice(cell, step); }));
@@ -110,10 +106,10 @@ std::vector<FieldArrow> samples_of(const HarmonicField& field, std::size_t most)
   while (count() > most) {
     ++step;
   }
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (on_lattice(cells[i], step)) {
-      samples.push_back(
-          {cells[i], fall_at(field, static_cast<LaplaceProblem::Position>(i)), static_cast<float>(field.phi[i])});
+  for (const VoxelIndex& cell : cells) {
+    if (on_lattice(cell, step)) {
+      const double phi = *field.at(cell);
+      samples.push_back({cell, fall_at(field, cell, phi), static_cast<float>(phi)});
     }
   }
   return samples;
@@ -203,7 +199,7 @@ void RunRecorder::record(const OccupancyMap& map, ViewRecord view, const Plan* p
     cycle.choose_ms = plan->statistics.evaluate_ms + plan->statistics.choose_ms;
     cycle.path_ms = plan->statistics.path_ms;
     if (field != nullptr) {
-      cycle.field = samples_of(*field, state.setup.field_samples);
+      cycle.field = samples_of(field->potential, state.setup.field_samples);
     }
   }
   cycle.view = std::move(view);

@@ -116,15 +116,13 @@ void multigrid(benchmark::State& state, const std::string& name) {
 // number of cells without lower neighbour then (its benefit).
 void directions(benchmark::State& state, const std::string& name) {
   const Scene& scene = scene_of(name);
-  const LaplaceProblem problem = problem_of(scene.domain, scene.source);
-  const std::vector<double> with = LaplaceMultigrid(scene.domain, scene.source).values(problem);
+  const LaplaceMultigrid with(scene.domain, scene.source);
   const LaplaceMultigrid plain(scene.domain, scene.source, {.tolerance = 1e-10, .uniform_source = 0.0});
-  const std::vector<double> without = plain.values(problem);
   std::size_t changed = 0;
   for (auto _ : state) {
-    for (LaplaceProblem::Position i = 0; i < static_cast<LaplaceProblem::Position>(problem.size()); ++i) {
-      changed += steepest_neighbour(problem, with, i) != steepest_neighbour(problem, without, i) ? 1U : 0U;
-    }
+    with.potential().domain().for_each_cell([&](const VoxelIndex& cell) {
+      changed += steepest_neighbour(with.potential(), cell) != steepest_neighbour(plain.potential(), cell) ? 1U : 0U;
+    });
   }
   state.counters["changed_%"] = 100.0 * static_cast<double>(changed) / static_cast<double>(scene.unknowns);
   state.counters["stuck_without"] = static_cast<double>(plain.report().stuck_cells);

@@ -7,21 +7,12 @@ namespace vantage {
 LaplaceProblem problem_of(const LaplaceDomain& domain, const VoxelIndex& source) {
   std::vector<VoxelIndex> cells;
   std::vector<VoxelIndex> sinks;
-  for (const LaplaceDomain::Brick& brick : domain.bricks()) {
-    const VoxelIndex first{brick.address.x * 16, brick.address.y * 8, brick.address.z * 8};
-    for (std::int32_t row = 0; row < 64; ++row) {
-      for (std::int32_t x = 0; x < 16; ++x) {
-        const auto bit = 1U << static_cast<std::uint32_t>(x);
-        const VoxelIndex cell = first + VoxelIndex{x, row % 8, row / 8};
-        if ((brick.cells[static_cast<std::size_t>(row)] & bit) != 0) {
-          cells.push_back(cell);
-        }
-        if ((brick.sinks[static_cast<std::size_t>(row)] & bit) != 0) {
-          sinks.push_back(cell);
-        }
-      }
+  domain.for_each_cell([&](const VoxelIndex& cell) {
+    cells.push_back(cell);
+    if (domain.is_sink(cell)) {
+      sinks.push_back(cell);
     }
-  }
+  });
   return {std::move(cells), sinks, source};
 }
 

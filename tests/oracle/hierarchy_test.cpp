@@ -31,12 +31,6 @@ std::vector<RoomsOptions> worlds_of_levels() {
           {.extent = {70, 45, 37}, .room_cells = 13, .clutter = 0.02, .unexplored = 0.5, .seed = 33}};
 }
 
-bool is_sink(const LaplaceDomain& domain, const VoxelIndex& cell) {
-  return domain.contains(cell) &&
-         (domain.bricks()[domain.position_of_brick(cell)].sinks[LaplaceDomain::row_of(cell)] &
-          LaplaceDomain::bit_of(cell)) != 0;
-}
-
 // Calls visit(cell, brick, row, x) for each cell that is not a sink.
 template <class Visit>
 void for_each_unknown(const LaplaceDomain& domain, const Visit& visit) {
@@ -44,7 +38,7 @@ void for_each_unknown(const LaplaceDomain& domain, const Visit& visit) {
     const VoxelIndex& address = domain.bricks()[b].address;
     for (std::int32_t i = 0; i < 1024; ++i) {
       const VoxelIndex cell{address.x * 16 + i % 16, address.y * 8 + i / 16 % 8, address.z * 8 + i / 128};
-      if (domain.contains(cell) && !is_sink(domain, cell)) {
+      if (domain.contains(cell) && !domain.is_sink(cell)) {
         visit(cell, b, static_cast<std::size_t>(i / 16), static_cast<std::size_t>(i % 16));
       }
     }
@@ -65,8 +59,8 @@ TEST(HierarchyOracle, CellsAndBlocksKnowTheirFaces) {
         const VoxelIndex other = cell + kFaceNeighbours[side];
         const bool same = other.x >> 1 == cell.x >> 1 && other.y >> 1 == cell.y >> 1 && other.z >> 1 == cell.z >> 1;
         open += domain.contains(other) ? 1U : 0U;
-        beside_sink |= is_sink(domain, other) ? detail::kBesideSink : 0U;
-        if (is_sink(domain, other)) {
+        beside_sink |= domain.is_sink(other) ? detail::kBesideSink : 0U;
+        if (domain.is_sink(other)) {
           ++faces[block][6];
         } else if (domain.contains(other) && !same) {
           ++faces[block][side];
@@ -201,7 +195,7 @@ TEST(HierarchyOracle, NoStuckCellIsWithoutADoubt) {
   for (const RoomsOptions& options : worlds_of_levels()) {
     const LaplaceDomain domain = domain_of(options);
     const FineLevel fine = detail::make_fine_level(domain);
-    const detail::CellPlace source = detail::CellPlace::of(domain, RandomRooms(options).source);
+    const detail::CellPlace source = detail::CellPlace(domain, RandomRooms(options).source);
     for (const double step : {0x1p-53, 0x1p-52, 0x1p-50, 0.01}) {
       detail::Refinement refinement(fine, source, 0.0);
       detail::HalfField<float> correction(fine.brick_count * detail::kHalfBrick, 0.0F);

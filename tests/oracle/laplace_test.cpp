@@ -188,11 +188,12 @@ TEST(LaplaceOracle, UniformSourceLeavesNoCellStuck) {
       continue;
     }
     const LaplaceSolution plain = relax_laplace(problem, {.tolerance = 1e-12});
-    stuck_without += count_stuck_cells(problem, plain.phi) > 0 ? 1U : 0U;
+    stuck_without += count_stuck_cells(Potential(problem, plain.phi)) > 0 ? 1U : 0U;
     const LaplaceSolution certain = relax_laplace(problem, {.tolerance = 1e-12, .uniform_source = 1e-4});
     // Behind the source, away from the sinks, phi exceeds 1; the source itself is not an interior cell.
-    ASSERT_EQ(count_stuck_cells(problem, certain.phi), 0U) << "world " << world;
-    ASSERT_TRUE(descend(problem, certain.phi, problem.source()).reaches_sink);
+    const Potential potential(problem, certain.phi);
+    ASSERT_EQ(count_stuck_cells(potential), 0U) << "world " << world;
+    ASSERT_TRUE(descend(potential, potential.source()).reaches_sink);
     ++cases;
   }
   EXPECT_GE(cases, 200U);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -10,6 +11,7 @@
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/voxel.hpp>
+#include <vantage/map/brick_set.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
@@ -47,11 +49,15 @@ class LaplaceDomain {
   void insert(const VoxelIndex& cell);
   /// Adds a cell, if necessary, and makes it a sink.
   void insert_sink(const VoxelIndex& cell);
+  /// Adds cells of a brick of a map or of a BrickSet, and makes `sinks`, a subset of `cells`, sinks.
+  void insert(const VoxelIndex& map_brick, const BrickPlane& cells, const BrickPlane& sinks = {});
   /// The brick at an address; an empty one is added if there is none. The reference is valid until another brick is
   /// added.
   [[nodiscard]] Brick& brick_at(const VoxelIndex& address);
   /// Whether the domain holds a cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const;
+  /// Whether the domain holds a cell and the cell is a sink.
+  [[nodiscard]] bool is_sink(const VoxelIndex& cell) const;
 
   /// All bricks, in the order in which they were added; in raster order after `keep_component`.
   [[nodiscard]] const std::vector<Brick>& bricks() const { return bricks_; }
@@ -63,6 +69,18 @@ class LaplaceDomain {
   /// Position in `bricks()` of the brick of a cell, or kNone.
   [[nodiscard]] std::uint32_t position_of_brick(const VoxelIndex& cell) const;
 
+  /// Calls `visit(cell)` for each cell, sinks included, brick by brick; ordered by z, then y, then x within a brick.
+  template <class Visit>
+  void for_each_cell(Visit&& visit) const {
+    for (const Brick& brick : bricks_) {
+      const VoxelIndex first{brick.address.x * 16, brick.address.y * 8, brick.address.z * 8};
+      for (std::int32_t row = 0; row < static_cast<std::int32_t>(kRows); ++row) {
+        for (std::uint32_t left = brick.cells[static_cast<std::size_t>(row)]; left != 0; left &= left - 1) {
+          visit(first + VoxelIndex{std::countr_zero(left), row % 8, row / 8});
+        }
+      }
+    }
+  }
   /// Number of cells, sinks included. Linear in the number of bricks.
   [[nodiscard]] std::size_t cell_count() const;
   /// Number of sinks. Linear in the number of bricks.

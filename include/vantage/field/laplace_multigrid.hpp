@@ -3,21 +3,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <vantage/compiler.hpp>
 #include <vantage/field/laplace_domain.hpp>
 #include <vantage/field/laplace_problem.hpp>
-#include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/field/potential.hpp>
 #include <vantage/geometry/voxel.hpp>
-#include <vector>
 
 namespace VANTAGE_EXPORT vantage {
 
 /// Options of LaplaceMultigrid.
 struct MultigridOptions {
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< boundary condition at closed faces
   double tolerance = 1e-8;  ///< stop when the residual is below this share of the source (Euclidean norm), in (0, 1)
   /// A small extra source, distributed evenly over all unknowns: its total as a share of the source at the sensor, >=
   /// 0. Without it the field has no certificate: in dead ends, phi is constant or its differences vanish in double
@@ -75,8 +72,8 @@ struct MultigridReport {
 };
 
 /// Solves the Laplace problem of Shade & Newman 2011, IV (see LaplaceProblem) with conjugate gradients and a
-/// multigrid preconditioner. Time and memory are linear in the number of cells. NeumannScheme::Mirror has an
-/// unsymmetric operator; it is solved by BiCGSTAB with the same preconditioner and takes a few times longer.
+/// multigrid preconditioner. Time and memory are linear in the number of cells. A closed face drops out of the
+/// equation of its cell (NeumannScheme::FiniteVolume).
 ///
 ///     const LaplaceMultigrid field(known_free_domain(map), sensor_cell);
 ///     if (field.report().certified) ... field.phi(cell) ...
@@ -96,27 +93,19 @@ class LaplaceMultigrid {
   LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source, const MultigridOptions& options = {});
   /// Solves a problem given as a list of cells. Throws std::invalid_argument if an option is invalid.
   explicit LaplaceMultigrid(const LaplaceProblem& problem, const MultigridOptions& options = {});
-  LaplaceMultigrid(const LaplaceMultigrid&) = delete;
-  LaplaceMultigrid& operator=(const LaplaceMultigrid&) = delete;
-  /// Takes over the solution. The source of the move may then only be destroyed or assigned to.
-  LaplaceMultigrid(LaplaceMultigrid&&) noexcept;
-  /// Takes over the solution. The source of the move may then only be destroyed or assigned to.
-  LaplaceMultigrid& operator=(LaplaceMultigrid&&) noexcept;
-  ~LaplaceMultigrid();
 
   /// Statistics of the solution.
-  [[nodiscard]] const MultigridReport& report() const;
-  /// The component of the source; bricks in raster order.
-  [[nodiscard]] const LaplaceDomain& domain() const;
+  [[nodiscard]] const MultigridReport& report() const { return report_; }
+  /// The solution. Its domain is the component of the source; bricks in raster order.
+  [[nodiscard]] const Potential& potential() const { return potential_; }
+  /// Moves the solution out.
+  [[nodiscard]] Potential take() && { return std::move(potential_); }
   /// Potential of a cell; nullopt outside the component of the source.
-  [[nodiscard]] std::optional<double> phi(const VoxelIndex& cell) const;
-  /// The potential of every cell of `problem`, by position. Throws std::invalid_argument if a cell is not in the
-  /// component of the source.
-  [[nodiscard]] std::vector<double> values(const LaplaceProblem& problem) const;
+  [[nodiscard]] std::optional<double> phi(const VoxelIndex& cell) const { return potential_.at(cell); }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  MultigridReport report_;
+  Potential potential_;
 };
 
 }  // namespace vantage

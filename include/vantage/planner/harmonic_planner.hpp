@@ -8,8 +8,8 @@
 #include <optional>
 #include <string_view>
 #include <vantage/compiler.hpp>
-#include <vantage/field/laplace_problem.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
+#include <vantage/field/potential.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vector>
@@ -53,7 +53,7 @@ struct HarmonicStrategy {
 /// Options of HarmonicPlanner.
 struct HarmonicOptions {
   FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< contribution of a closed face (boundary without flow)
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< closed faces; Mirror (eq. 9) needs GaussSeidel
   double tolerance = 1e-4;         ///< GaussSeidel: largest relative change of the last sweep, in [1e-15, 1] (eq. 10)
   std::size_t max_sweeps = 50000;  ///< GaussSeidel: maximum number of sweeps per field, in [1, 1e7]
   double uniform_source = 1e-4;    ///< see RelaxationOptions; 0: the field of the paper
@@ -63,8 +63,7 @@ struct HarmonicOptions {
 
 /// The field of a plan, for display.
 struct HarmonicField {
-  LaplaceProblem problem;                   ///< domain, sinks and source
-  std::vector<double> phi;                  ///< the solution, by position in the problem
+  Potential potential;                      ///< the solution: domain, sinks, source and values
   std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the chosen sink, metres, world
   LaplaceReport report;                     ///< how the solver ended
   /// Cells without a strictly lower neighbour. 0: descent from every cell ends at a sink.
@@ -102,9 +101,9 @@ class HarmonicPlanner final : public FrontierPlanner {
  private:
   void prepare(Plan& plan) override;
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
-  void solve(NearGoals drawing, PlanStatistics& statistics);
-  void solve_by_multigrid();
-  void relax();
+  void solve(const NearGoals& near, PlanStatistics& statistics);
+  void solve_by_multigrid(LaplaceDomain domain, const VoxelIndex& source);
+  void relax(const LaplaceDomain& domain, const std::vector<VoxelIndex>& sinks, const VoxelIndex& source);
   [[nodiscard]] std::vector<VoxelIndex> way_down();
   [[nodiscard]] NearGoals sinks() const;
   [[nodiscard]] bool can_look(const FrontierTarget& target, const VoxelIndex& from, std::uint64_t& operations) const;

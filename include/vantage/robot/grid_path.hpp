@@ -15,7 +15,7 @@ struct NearGoals {
   std::vector<VoxelIndex> goals;  ///< without duplicates, nearest first
   /// The cells that the search has met: those with a path that is at most `detour_m` longer than that to the nearest
   /// goal, and their neighbours.
-  std::vector<VoxelIndex> met;
+  BrickSet met;
 };
 
 /// Shortest paths through the cells of a ReachableSpace. A step leads to one of the 26 neighbours and cuts no corner:

@@ -11,8 +11,6 @@
 namespace vantage {
 namespace {
 
-using Position = LaplaceProblem::Position;
-
 TEST(Streamline, DescentFallsStrictlyThroughFacesAndEnds) {
   std::mt19937 engine(21);
   std::size_t arrived = 0;
@@ -21,15 +19,15 @@ TEST(Streamline, DescentFallsStrictlyThroughFacesAndEnds) {
     const LaplaceProblem problem = RandomLaplace(engine).problem();
     // Descent must also end, and report where, after a few sweeps without convergence.
     const LaplaceSolution rough = relax_laplace(problem, {.max_sweeps = 2});
-    const Descent descent = descend(problem, rough.phi, problem.source());
-    ASSERT_EQ(descent.cells.front(), problem.source());
+    const Potential potential(problem, rough.phi);
+    const Descent descent = descend(potential, potential.source());
+    ASSERT_EQ(descent.cells.front(), problem.cell(problem.source()));
     for (std::size_t i = 1; i < descent.cells.size(); ++i) {
-      const auto& neighbours = problem.neighbours(descent.cells[i - 1]);
-      ASSERT_NE(std::find(neighbours.begin(), neighbours.end(), descent.cells[i]), neighbours.end());
-      ASSERT_LT(rough.phi[static_cast<std::size_t>(descent.cells[i])],
-                rough.phi[static_cast<std::size_t>(descent.cells[i - 1])]);
+      const VoxelIndex step = descent.cells[i] - descent.cells[i - 1];
+      ASSERT_NE(std::find(kFaceNeighbours.begin(), kFaceNeighbours.end(), step), kFaceNeighbours.end());
+      ASSERT_LT(*potential.at(descent.cells[i]), *potential.at(descent.cells[i - 1]));
     }
-    ASSERT_EQ(descent.reaches_sink, problem.kind(descent.cells.back()) == LaplaceCell::Sink);
+    ASSERT_EQ(descent.reaches_sink, problem.kind(*problem.position_of(descent.cells.back())) == LaplaceCell::Sink);
     (descent.reaches_sink ? arrived : stuck) += 1;
   }
   EXPECT_EQ(arrived + stuck, 300U);
@@ -50,7 +48,7 @@ TEST(Streamline, SmoothCurveStaysInTheDomainAndEndsInASink) {
     ++solvable;
     const LaplaceSolution solution = relax_laplace(problem, {.tolerance = 1e-10});
     const Eigen::Vector3d from = frame.centre_of(problem.cell(problem.source())) + Eigen::Vector3d(0.03, -0.05, 0.02);
-    const auto curve = streamline(problem, solution.phi, frame, from);
+    const auto curve = streamline(Potential(problem, solution.phi), frame, from);
     if (!curve) {
       continue;
     }
@@ -75,7 +73,7 @@ TEST(Streamline, InAnEmptyBoxItGoesNearlyStraightToTheSink) {
   const LaplaceProblem problem(cells, std::span(&sink, 1), {3, 4, 5});
   const LaplaceSolution solution = relax_laplace(problem, {.tolerance = 1e-8, .over_relaxation = 1.8});
   const VoxelFrame frame{0.1};
-  const auto curve = streamline(problem, solution.phi, frame, frame.centre_of({3, 4, 5}));
+  const auto curve = streamline(Potential(problem, solution.phi), frame, frame.centre_of({3, 4, 5}));
   ASSERT_TRUE(curve);
   double length = 0.0;
   for (std::size_t i = 1; i < curve->size(); ++i) {
@@ -90,8 +88,8 @@ TEST(Streamline, CountsCellsWithoutAWayDown) {
   const VoxelIndex sink{4, 0, 0};
   const LaplaceProblem problem(cells, std::span(&sink, 1), {1, 0, 0});
   const std::vector<double> level{1.0, 1.0, 0.5, 0.5, 0.0};
-  EXPECT_EQ(count_stuck_cells(problem, level), 2U);  // the dead end behind the source, and the step
-  EXPECT_EQ(count_stuck_cells(problem, std::vector<double>{2.0, 1.0, 0.5, 0.2, 0.0}), 0U);
+  EXPECT_EQ(count_stuck_cells(Potential(problem, level)), 2U);  // the dead end behind the source, and the step
+  EXPECT_EQ(count_stuck_cells(Potential(problem, std::vector<double>{2.0, 1.0, 0.5, 0.2, 0.0})), 0U);
 }
 
 }  // namespace

@@ -53,6 +53,9 @@ TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
   const Pose current = pose_looking({0.5, 0.5, 0.5}, 0.0);
   for (const FieldSolver solver : {FieldSolver::Multigrid, FieldSolver::GaussSeidel}) {
     for (const NeumannScheme neumann : {NeumannScheme::FiniteVolume, NeumannScheme::Mirror}) {
+      if (solver == FieldSolver::Multigrid && neumann == NeumannScheme::Mirror) {
+        continue;  // refused
+      }
       const PlannerSetup setup = setup_with(all_around());
       HarmonicPlanner planner(setup,
                               {.solver = solver, .neumann = neumann, .strategy = HarmonicStrategy::faithful()});
@@ -66,17 +69,15 @@ TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
       const HarmonicField& field = *planner.field();
       EXPECT_TRUE(field.followed);
       EXPECT_EQ(field.stuck_cells, 0U);
-      EXPECT_EQ(field.phi.size(), plan.statistics.reachable_cells);
-      EXPECT_EQ(field.phi[static_cast<std::size_t>(field.problem.source())], 1.0);
-      EXPECT_EQ(field.problem.cell(field.problem.source()), map.frame().cell_of(current.translation()));
+      const LaplaceDomain& domain = field.potential.domain();
+      EXPECT_EQ(domain.cell_count(), plan.statistics.reachable_cells);
+      EXPECT_EQ(field.potential.at(field.potential.source()), 1.0);
+      EXPECT_EQ(field.potential.source(), map.frame().cell_of(current.translation()));
       std::size_t sinks = 0;
-      for (std::size_t i = 0; i < field.phi.size(); ++i) {
-        if (field.problem.kind(static_cast<LaplaceProblem::Position>(i)) == LaplaceCell::Sink) {
-          EXPECT_EQ(field.phi[i], 0.0);
-          ++sinks;
-        }
-      }
-      EXPECT_EQ(sinks, field.problem.sink_count());
+      domain.for_each_cell([&](const VoxelIndex& cell) {
+        sinks += domain.is_sink(cell) && field.potential.at(cell) == 0.0 ? 1U : 0U;
+      });
+      EXPECT_EQ(sinks, domain.sink_count());
       EXPECT_GE(sinks, 1U);
       EXPECT_EQ(plan.statistics.solver_sweeps, field.report.sweeps);
     }
@@ -133,6 +134,16 @@ TEST(HarmonicPlanner, LooksFromTheFirstPlaceThatSeesTheBoundary) {
   EXPECT_GE(shorter, 4U);
 }
 
+TEST(HarmonicPlanner, EquationNineIsRelaxed) {
+  const PlannerSetup setup = setup_with(all_around());
+  try {
+    (void)HarmonicPlanner(setup, {.neumann = NeumannScheme::Mirror});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "HarmonicOptions::neumann is mirror, must be finite-volume with solver=multigrid");
+  }
+}
+
 // Near frontiers come first, even if a large frontier further away attracts more flow.
 TEST(HarmonicPlanner, ClearsWhatIsNearBeforeItGoesFar) {
   OccupancyMap map = box_with_opening();
@@ -180,10 +191,9 @@ TEST(HarmonicPlanner, APlatformThatKeepsItsHeightSolvesInThePlane) {
   ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
   expect_admitted(map, *setup.platform, current, plan);
   ASSERT_TRUE(planner.field());
-  for (const VoxelIndex& cell : planner.field()->problem.cells()) {
-    EXPECT_EQ(cell.z, 5);
-  }
-  EXPECT_GT(planner.field()->problem.size(), 200U);
+  const LaplaceDomain& domain = planner.field()->potential.domain();
+  domain.for_each_cell([](const VoxelIndex& cell) { EXPECT_EQ(cell.z, 5); });
+  EXPECT_GT(domain.cell_count(), 200U);
   for (const Pose& pose : plan.path) {
     EXPECT_NEAR(pose.translation().z(), 1.1, 1e-9);
     EXPECT_NEAR(optical_axis(pose).z(), 0.0, 1e-9);

@@ -12,10 +12,6 @@
 
 namespace vantage::detail {
 
-/// One number per cell of one colour, in all bricks.
-template <class T>
-using HalfField = AlignedVector<T>;
-
 /// The values of one colour in a brick and in its six neighbours.
 template <class T>
 struct Around {

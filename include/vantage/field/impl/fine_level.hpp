@@ -10,26 +10,18 @@
 #include <vector>
 
 #include <vantage/field/impl/aligned_vector.hpp>
+#include <vantage/field/impl/cell_values.hpp>
 #include <vantage/field/impl/thread_team.hpp>
 
 namespace vantage::detail {
 
-/// Cells of one colour in a brick. Red cells have even x + y + z, black cells odd.
-inline constexpr std::size_t kHalfBrick = 512;
 /// Rows of a brick along x; each holds eight cells of either colour.
 inline constexpr std::size_t kBrickRows = 64;
 /// Blocks of 2 x 2 x 2 cells in a brick: 8 along x, 4 along y and z.
 inline constexpr std::size_t kBrickBlocks = 128;
-/// The colours of cells.
-inline constexpr std::size_t kRed = 0;
-inline constexpr std::size_t kBlack = 1;
 /// Masks for the four bits of a cell: number of open faces, and whether a neighbour is a sink.
 inline constexpr std::uint32_t kDegree = 7;
 inline constexpr std::uint32_t kBesideSink = 8;
-
-/// Position of a cell among the cells of its colour in a brick, given its row and x.
-[[nodiscard]] inline std::size_t half_offset(std::size_t row, std::size_t x) { return row * 8 + x / 2; }
-[[nodiscard]] inline std::size_t colour_of(std::size_t row, std::size_t x) { return (row ^ row >> 3U ^ x) & 1U; }
 
 /// The bricks of one thread. In the second and third of three passes, the bricks near another thread's bricks are
 /// handled late, after all threads have finished the others.

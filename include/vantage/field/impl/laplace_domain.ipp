@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -191,6 +190,28 @@ VANTAGE_INLINE bool LaplaceDomain::contains(const VoxelIndex& cell) const {
   return position != kNone && (bricks_[position].cells[row_of(cell)] & bit_of(cell)) != 0;
 }
 
+VANTAGE_INLINE bool LaplaceDomain::is_sink(const VoxelIndex& cell) const {
+  const std::uint32_t position = position_of_brick(cell);
+  return position != kNone && (bricks_[position].sinks[row_of(cell)] & bit_of(cell)) != 0;
+}
+
+// Four cells of a row of the map's sub-brick are adjacent in a row here.
+VANTAGE_INLINE void LaplaceDomain::insert(const VoxelIndex& map_brick, const BrickPlane& cells,
+                                          const BrickPlane& sinks) {
+  if (cells == BrickPlane{}) {
+    return;
+  }
+  Brick& brick = brick_at({map_brick.x >> 1, map_brick.y, map_brick.z});
+  for (std::size_t word = 0; word < cells.size(); ++word) {
+    const std::size_t shift = static_cast<std::size_t>(map_brick.x & 1) * 8 + (word & 1U) * 4;
+    for (std::size_t line = 0; cells[word] != 0 && line < 16; ++line) {
+      const std::size_t row = ((word >> 2U) * 4 + line / 4) * 8 + (word >> 1U & 1U) * 4 + line % 4;
+      brick.cells[row] |= static_cast<std::uint16_t>((cells[word] >> (4 * line) & 15U) << shift);
+      brick.sinks[row] |= static_cast<std::uint16_t>((sinks[word] >> (4 * line) & 15U) << shift);
+    }
+  }
+}
+
 VANTAGE_INLINE std::uint32_t LaplaceDomain::position_of_brick(const VoxelIndex& cell) const {
   const auto found = positions_.find(brick_of_cell(cell));
   return found == positions_.end() ? kNone : found->second;
@@ -274,24 +295,11 @@ VANTAGE_INLINE void LaplaceDomain::sort_bricks(bool have_gone) {
 VANTAGE_INLINE LaplaceDomain known_free_domain(const OccupancyMap& map) {
   LaplaceDomain domain;
   map.for_each_brick([&](const VoxelIndex& address, const vantage::Brick& brick) {
-    const BrickPlane frontier = frontier_plane(map, address);
-    LaplaceDomain::Brick* target = nullptr;
-    for (std::size_t word = 0; word < vantage::Brick::kWords; ++word) {
-      const std::uint64_t free = brick.free(word);
-      if (free == 0) {
-        continue;
-      }
-      if (target == nullptr) {
-        target = &domain.brick_at({address.x >> 1, address.y, address.z});
-      }
-      // Four cells of a row of the map's sub-brick are adjacent in a row here.
-      const std::size_t shift = static_cast<std::size_t>(address.x & 1) * 8 + (word & 1U) * 4;
-      for (std::size_t line = 0; line < 16; ++line) {
-        const std::size_t row = ((word >> 2U) * 4 + line / 4) * 8 + (word >> 1U & 1U) * 4 + line % 4;
-        target->cells[row] |= static_cast<std::uint16_t>((free >> (4 * line) & 15U) << shift);
-        target->sinks[row] |= static_cast<std::uint16_t>((frontier[word] >> (4 * line) & 15U) << shift);
-      }
+    BrickPlane free{};
+    for (std::size_t word = 0; word < free.size(); ++word) {
+      free[word] = brick.free(word);
     }
+    domain.insert(address, free, frontier_plane(map, address));
   });
   return domain;
 }

@@ -5,34 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vantage/field/laplace_domain.hpp>
 #include <vector>
 
+#include <vantage/field/impl/cell_values.hpp>
 #include <vantage/field/impl/fine_kernels.hpp>
 
 namespace vantage::detail {
-
-/// Where a cell is stored.
-struct CellPlace {
-  std::size_t brick;  ///< number in the fine level
-  std::size_t colour;
-  std::size_t offset;  ///< among the cells of its colour in the brick
-
-  /// `cell` must lie in a brick of the domain.
-  [[nodiscard]] static CellPlace of(const LaplaceDomain& domain, const VoxelIndex& cell);
-};
-
-/// A solution, not yet divided by its value at the source.
-struct CellValues {
-  std::array<HalfField<double>, 2> u;  ///< values by colour
-  double at_source = 1.0;              ///< value at the source
-
-  /// Normalised value of a cell: 1 at the source, 0 where there is no unknown.
-  [[nodiscard]] double at(const CellPlace& place) const {
-    return u[place.colour][place.brick * kHalfBrick + place.offset] / at_source;
-  }
-  [[nodiscard]] std::size_t memory_bytes() const { return bytes_of(u[0]) + bytes_of(u[1]); }
-};
 
 /// The number of unknowns without a strictly lower neighbour, after all values are divided by that of the source.
 [[nodiscard]] std::size_t count_stuck(const FineLevel& fine, const CellValues& values);

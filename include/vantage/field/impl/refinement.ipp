@@ -194,12 +194,6 @@ VANTAGE_INLINE std::size_t count_stuck(const FineLevel& fine, const CellValues& 
   return static_cast<std::size_t>(stuck);
 }
 
-VANTAGE_INLINE CellPlace CellPlace::of(const LaplaceDomain& domain, const VoxelIndex& cell) {
-  const std::size_t row = LaplaceDomain::row_of(cell);
-  const auto x = static_cast<std::size_t>(cell.x & 15);
-  return {domain.position_of_brick(cell) + std::size_t{1}, colour_of(row, x), half_offset(row, x)};
-}
-
 VANTAGE_INLINE Refinement::Refinement(const FineLevel& fine, const CellPlace& source, double uniform)
     : source_(source), uniform_(uniform), partial_(fine.brick_count, Partial{}) {
   make_room(fine, values_.u[kRed], kHalfBrick);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vantage/field/streamline.hpp>
@@ -57,6 +58,9 @@ inline std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, 
 VANTAGE_INLINE HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
   detail::harmonic_settings().validate(options);
+  if (options.neumann == NeumannScheme::Mirror && options.solver != FieldSolver::GaussSeidel) {
+    throw std::invalid_argument("HarmonicOptions::neumann is mirror, must be finite-volume with solver=multigrid");
+  }
 }
 
 VANTAGE_INLINE void HarmonicPlanner::prepare(Plan& /*plan*/) { field_.reset(); }
@@ -71,11 +75,11 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   }
   std::optional<FrontierTarget> wanted = survey.target_seen_from(way.back());
   if (!wanted) {  // otherwise the sensor looks from where it is
-    NearGoals drawing = sinks();
-    if (strategy.shortest_way && drawing.goals.size() == 1) {  // descent would end there from everywhere
-      way = GridPaths(situation().reachable()).to(drawing.goals.front());
+    const NearGoals near = sinks();
+    if (strategy.shortest_way && near.goals.size() == 1) {  // descent would end there from everywhere
+      way = GridPaths(situation().reachable()).to(near.goals.front());
     } else {
-      solve(std::move(drawing), plan.statistics);
+      solve(near, plan.statistics);
       way = way_down();
       if (strategy.shortest_way) {
         way = GridPaths(situation().reachable()).to(way.back());
@@ -175,25 +179,27 @@ VANTAGE_INLINE FrontierTarget HarmonicPlanner::first_look(const std::vector<Voxe
 // the nearest, and the cells that are nearer than these.
 VANTAGE_INLINE NearGoals HarmonicPlanner::sinks() const {
   const ReachableSpace& reachable = situation().reachable();
-  std::vector<VoxelIndex> cells = detail::viewpoints(situation().survey());
-  return std::isinf(options_.strategy.detour_m)
-             ? NearGoals{std::move(cells), reachable.cells()}
-             : GridPaths(reachable).nearest_within(cells, options_.strategy.detour_m,
-                                                   situation().map().resolution_m());
+  NearGoals all{detail::viewpoints(situation().survey()), {}};
+  if (!std::isinf(options_.strategy.detour_m)) {
+    return GridPaths(reachable).nearest_within(all.goals, options_.strategy.detour_m,
+                                               situation().map().resolution_m());
+  }
+  reachable.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) { all.met.plane(brick) = cells; });
+  return all;
 }
 
 // The cells of the streamline from the start to its sink. The shortest path if the field is not followed.
 VANTAGE_INLINE std::vector<VoxelIndex> HarmonicPlanner::way_down() {
-  const LaplaceProblem& problem = field_->problem;
+  const Potential& potential = field_->potential;
   const VoxelFrame& frame = situation().map().frame();
   const Pose& current = situation().current();
   if (!field_->followed) {
     return GridPaths(situation().reachable()).to_nearest(detail::viewpoints(situation().survey()));
   }
-  const VoxelIndex start = problem.cell(problem.source());
+  const VoxelIndex& start = potential.source();
   const bool inside = frame.cell_of(current.translation()) == start;
   const Eigen::Vector3d from_m = inside ? Eigen::Vector3d(current.translation()) : frame.centre_of(start);
-  if (auto curve = streamline(problem, field_->phi, frame, from_m)) {
+  if (auto curve = streamline(potential, frame, from_m)) {
     std::vector<VoxelIndex> cells;
     for (const Eigen::Vector3d& point : *curve) {
       if (const VoxelIndex cell = frame.cell_of(point); cells.empty() || cells.back() != cell) {
@@ -204,10 +210,9 @@ VANTAGE_INLINE std::vector<VoxelIndex> HarmonicPlanner::way_down() {
     field_->streamline.push_back(frame.centre_of(cells.back()));
     return cells;
   }
-  std::vector<VoxelIndex> cells;
-  for (const LaplaceProblem::Position position : descend(problem, field_->phi, problem.source()).cells) {
-    cells.push_back(problem.cell(position));
-    field_->streamline.push_back(frame.centre_of(cells.back()));
+  std::vector<VoxelIndex> cells = descend(potential, start).cells;
+  for (const VoxelIndex& cell : cells) {
+    field_->streamline.push_back(frame.centre_of(cell));
   }
   return cells;
 }

@@ -67,7 +67,7 @@ VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
           .choice<FieldSolver>("solver", "how the field is solved",
                                {{"multigrid", FieldSolver::Multigrid}, {"gauss-seidel", FieldSolver::GaussSeidel}},
                                &O::solver)
-          .choice<NeumannScheme>("neumann", "what a closed face contributes",
+          .choice<NeumannScheme>("neumann", "what a closed face contributes; mirror needs gauss-seidel",
                                  {{"finite-volume", NeumannScheme::FiniteVolume}, {"mirror", NeumannScheme::Mirror}},
                                  &O::neumann)
           .number("tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),

@@ -213,8 +213,7 @@ VANTAGE_INLINE NearGoals GridPaths::nearest_within(std::span<const VoxelIndex> g
         return false;
       },
       [](const VoxelIndex&) { return 0U; }, met);
-  near.met.resize(met.size());
-  std::transform(met.begin(), met.end(), near.met.begin(), [](const detail::Met& one) { return one.cell; });
+  std::for_each(met.begin(), met.end(), [&](const detail::Met& one) { near.met.insert(one.cell); });
   return near;
 }
 
