@@ -20,27 +20,36 @@ enum class TourCost : std::uint8_t {
 /// Options of TourPlanner.
 struct TourOptions {
   TourCost cost = TourCost::Time;  ///< what a tour is to save
-  /// Largest extent along an axis of a part of the frontier that one view is to cover, metres, > 0. Larger clusters
-  /// of frontier cells are divided.
+  /// Largest extent along an axis of a part of the frontier, metres, > 0. Larger clusters of frontier cells are
+  /// divided.
   double site_m = 1.5;
-  std::size_t most_sites = 24;        ///< number of nearest parts over which a tour leads, in [1, 200]
+  std::size_t most_sites = 24;  ///< number of nearest parts that are looked at, and most views of a tour, in [1, 200]
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
-/// Plans an open tour over the parts of the frontier known to be left, and takes its first view.
+/// Plans an open tour over views that together see the parts of the frontier known to be left, and takes its first
+/// view.
 ///
-///     o - - - 3          S  sensor            1, 2, 3  the tour, from S, nowhere back
-///     |       |          u  unknown cells
-///     2 - 1 - S  u u u   price of 1: the mean way to it from all unknown cells, through free and unknown space
+///     u u u         S  sensor             o  views of the parts, several each; 1, 2, 3 are those of the tour
+///     f f f o       f  frontier cells     u  unknown cells
+///     3   2 - - 1   price of 1: the mean way to it from all unknown cells, through free and unknown space
+///     o   o     |
+///          o    S
 ///
-/// Of all orders it takes the one with the least cost of the whole tour less the price of its first part. The price
-/// is what it would cost to come back to a part that is left behind, since the robot will later be where the unknown
-/// is. So what is far from the rest is done while the robot is near. The view is taken from the place
-/// nearest to the robot that sees a cell of the part, and the tour planned again once that cell is known.
+/// 1. Views: from places around each part, and from where the robot is, towards the middles of the parts; what each
+///    sees of the frontier is found by rays.
+/// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
+/// 3. Order: of all orders of the chosen views the one with the least cost of the whole tour less the price of its
+///    first view. The price is what it would cost to come back to what is left behind, since the robot will later be
+///    where the unknown is. So what is far from the rest is done while the robot is near.
+/// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
+///
+/// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
+/// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///
 /// Lengths of ways are computed on blocks of cells, so they are off by some per cent, but lead through no wall. The
 /// idea of the price is that of Ericson et al. 2025 ("distance advantage"), with unknown cells in place of known
-/// ones.
+/// ones; that of views for each part and a tour over them is that of Zhou et al. 2021 (FUEL).
 class TourPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.

@@ -142,9 +142,9 @@ VANTAGE_INLINE const SettingTable<TourOptions>& tour_settings() {
       with_survey<O>("TourOptions", &O::survey)
           .choice<TourCost>("cost", "what a tour is to save: seconds or metres",
                             {{"time", TourCost::Time}, {"path", TourCost::Path}}, &O::cost)
-          .number("site_m", "m", "largest extent of a part of the frontier that one view is to cover", more_than(0),
-                  &O::site_m)
-          .number("most_sites", "", "the nearest parts that a tour leads over", within(1, 200), &O::most_sites);
+          .number("site_m", "m", "largest extent of a part of the frontier", more_than(0), &O::site_m)
+          .number("most_sites", "", "the nearest parts that are looked at, and most views of a tour", within(1, 200),
+                  &O::most_sites);
   return table;
 }
 

@@ -3,23 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <numbers>
+#include <map>
 #include <string>
 #include <utility>
 #include <vantage/planner/tour_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 #include <vantage/planner/impl/block_ways.hpp>
+#include <vantage/planner/impl/cover_tour.hpp>
 #include <vantage/planner/impl/frontier_sites.hpp>
 #include <vantage/planner/impl/open_tour.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/planner/impl/tour_views.hpp>
 #include <vantage/planner/impl/unknown_ways.hpp>
 
 namespace vantage {
 namespace detail {
 
-inline constexpr double kAllAroundRad = 2.0 * std::numbers::pi - 1e-3;
+// Views at the front of a tour that are chosen anew for a shorter tour.
+inline constexpr std::size_t kRefined = 3;
 
 // Blocks of about a metre.
 inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
@@ -31,97 +35,145 @@ inline BlockWays ways_through(const ReachableSpace& space, const VoxelFrame& fra
   });
 }
 
-// A site, and the view from beside its middle.
-struct Stop {
-  FrontierSite site;
-  double way_m;  // from the start of the reachable space
-  Pose view;
-
-  [[nodiscard]] const VoxelIndex& place() const { return site.middle.viewpoint; }
-};
-
 // The nearest sites, nearest first.
-inline std::vector<Stop> nearest_stops(const Situation& situation, const TourOptions& options,
-                                       std::vector<FrontierSite> sites, const BlockWays& ways,
-                                       const std::vector<double>& lengths) {
-  const VoxelFrame& frame = situation.map().frame();
+inline std::vector<FrontierSite> nearest_sites(const Situation& situation, const TourOptions& options,
+                                               const BlockWays& ways) {
   const VoxelIndex start = *situation.reachable().start();
-  std::vector<Stop> stops;
-  for (FrontierSite& site : sites) {
-    const double way_m = ways.length_to(site.middle.viewpoint, start, lengths);
-    stops.push_back({std::move(site), way_m, Pose::Identity()});
+  std::vector<FrontierSite> sites = detail::frontier_sites(
+      situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
+  std::vector<VoxelIndex> places;
+  for (const FrontierSite& site : sites) {
+    places.push_back(site.middle.viewpoint);
   }
-  std::stable_sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.way_m < b.way_m; });
-  stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(std::min(stops.size(), options.most_sites)), stops.end());
-  for (Stop& stop : stops) {
-    const Eigen::Vector3d position = situation.reachable().position_in(stop.place());
-    stop.view = situation.platform().facing(position, frame.centre_of(stop.site.middle.unknown) - position);
+  const std::vector<double> lengths = ways.lengths_from(start, places, options.most_sites);
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    near.emplace_back(ways.length_to(sites[i].middle.viewpoint, start, lengths), i);
   }
-  return stops;
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), options.most_sites));
+  std::vector<FrontierSite> nearest;
+  nearest.reserve(near.size());
+  for (const auto& [way_m, i] : near) {
+    nearest.push_back(std::move(sites[i]));
+  }
+  return nearest;
 }
 
-// What a way between two views costs: metres, or the seconds of the longer of moving and turning.
-class LegCost {
+// What a tour from the current pose over views costs: metres, or seconds, for each leg the longer of moving and
+// turning.
+class TourLegs {
  public:
-  LegCost(const Situation& situation, TourCost cost)
-      : motion_(situation.setup().motion.value_or(TourPlanner::default_motion())),
+  TourLegs(const Situation& situation, TourCost cost, const BlockWays& ways, const std::vector<TourView>& views)
+      : situation_(situation),
+        ways_(ways),
+        views_(views),
+        motion_(situation.setup().motion.value_or(TourPlanner::default_motion())),
         is_time_(cost == TourCost::Time),
-        turns_(is_time_ && situation.sensor().horizontal_angle_rad() < kAllAroundRad) {}
+        turns_(is_time_ && !looks_all_around(situation.sensor())) {
+    for (const TourView& view : views) {
+      places_.push_back(view.place);
+    }
+  }
 
   [[nodiscard]] double of_way(double way_m) const { return is_time_ ? way_m / motion_.max_speed_m_s : way_m; }
-  [[nodiscard]] double between(const Pose& from, const Pose& to, double way_m) const {
-    if (!turns_) {
-      return of_way(way_m);
+  // Braking for a view and speeding up again.
+  [[nodiscard]] double of_stop() const {
+    return of_way(motion_.max_speed_m_s * motion_.max_speed_m_s / motion_.max_acceleration_m_s2);
+  }
+  // From a view, or from the current pose if it is the number of views.
+  [[nodiscard]] double between(std::size_t from, std::size_t to) {
+    const bool is_start = from == views_.size();
+    const VoxelIndex& place = is_start ? *situation_.reachable().start() : views_[from].place;
+    auto known = lengths_.find(place);
+    if (known == lengths_.end()) {
+      known = lengths_.emplace(place, ways_.lengths_from(place, places_)).first;
     }
-    const double turn_rad = std::acos(std::clamp(optical_axis(from).dot(optical_axis(to)), -1.0, 1.0));
-    return std::max(of_way(way_m), motion_.turn_time_s(turn_rad));
+    const double way = of_way(ways_.length_to(views_[to].place, place, known->second));
+    if (!turns_) {
+      return way;
+    }
+    const Pose& pose = is_start ? situation_.current() : views_[from].pose;
+    const double cosine = optical_axis(pose).dot(optical_axis(views_[to].pose));
+    return std::max(way, motion_.turn_time_s(std::acos(std::clamp(cosine, -1.0, 1.0))));
   }
 
  private:
+  const Situation& situation_;
+  const BlockWays& ways_;
+  const std::vector<TourView>& views_;
   MotionModel motion_;
   bool is_time_;
   bool turns_;
+  std::vector<VoxelIndex> places_;                     // of the views
+  std::map<VoxelIndex, std::vector<double>> lengths_;  // from places, as far as they were asked for
 };
 
-// The target of a site that is seen from the nearest place.
-inline const FrontierTarget& nearest_target(const FrontierSite& site, const BlockWays& ways, const VoxelIndex& start,
-                                            const std::vector<double>& lengths) {
-  std::vector<double> way_m;
-  for (const FrontierTarget& target : site.targets) {
-    way_m.push_back(ways.length_to(target.viewpoint, start, lengths));
+// The views in the order of a tour: the whole tour counts, less the price of its first view, which is what it would
+// cost to come back to it from the unknown.
+inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, const Situation& situation,
+                                        const std::vector<TourView>& views, TourLegs& legs) {
+  const std::size_t n = chosen.size();
+  if (n < 2) {
+    return chosen;
   }
-  return site.targets[static_cast<std::size_t>(std::min_element(way_m.begin(), way_m.end()) - way_m.begin())];
-}
-
-// The whole tour counts, less the price of its first site: what it would cost to come back to it from the unknown.
-inline OpenTourProblem problem_of(const Situation& situation, const std::vector<Stop>& stops, const BlockWays& ways,
-                                  const LegCost& cost) {
-  const std::size_t n = stops.size();
   OpenTourProblem problem;
-  std::vector<VoxelIndex> places;
-  for (const Stop& stop : stops) {
-    places.push_back(stop.place());
-  }
-  for (const Stop& from : stops) {
-    const std::vector<double> lengths = ways.lengths_from(from.place(), places);
-    for (const Stop& to : stops) {
-      problem.legs.push_back(cost.between(from.view, to.view, ways.length_to(to.place(), from.place(), lengths)));
+  for (std::size_t from = 0; from <= n; ++from) {
+    for (const std::size_t to : chosen) {
+      problem.legs.push_back(legs.between(from < n ? chosen[from] : views.size(), to));
     }
   }
-  for (const Stop& to : stops) {
-    problem.legs.push_back(cost.between(situation.current(), to.view, to.way_m));
-  }
   const RangeSensor& sensor = situation.sensor();
+  std::vector<VoxelIndex> places;
+  for (const std::size_t view : chosen) {
+    places.push_back(views[view].place);
+  }
   const detail::UnknownWays unknown(
       situation.map(), std::min(sensor.max_range_m, sensor.resolving_range_m(situation.map().resolution_m())),
       places);
-  for (const Stop& stop : stops) {
-    problem.prices.push_back(cost.of_way(unknown.mean_m(stop.place())));
+  for (const std::size_t view : chosen) {
+    problem.prices.push_back(legs.of_way(unknown.mean_m(views[view].place)));
   }
   problem.leg_weights.assign(n, 1.0);
   problem.price_weights.assign(n, 0.0);
   problem.price_weights.front() = -1.0;
-  return problem;
+  std::vector<std::size_t> tour;
+  for (const std::size_t i : detail::open_tour(problem)) {
+    tour.push_back(chosen[i]);
+  }
+  return tour;
+}
+
+// The cells of the first view of a tour, those that no other view of the tour sees first, and of these the ones in
+// the middle of the image.
+inline std::vector<VoxelIndex> cells_of_first(const std::vector<std::size_t>& tour, const TourViews& choice,
+                                              const VoxelFrame& frame) {
+  const TourView& first = choice.views[tour.front()];
+  std::vector<bool> seen_later(choice.unknown.size());
+  for (std::size_t k = 1; k < tour.size(); ++k) {
+    for (const std::uint32_t number : choice.views[tour[k]].sees) {
+      seen_later[number] = true;
+    }
+  }
+  struct Ranked {
+    bool is_seen_later;
+    double off_axis;
+    VoxelIndex cell;
+  };
+  std::vector<Ranked> ranked;
+  for (const std::uint32_t number : first.sees) {
+    const VoxelIndex& cell = choice.unknown[number];
+    const Eigen::Vector3d line = frame.centre_of(cell) - first.pose.translation();
+    ranked.push_back({seen_later[number], -line.normalized().dot(optical_axis(first.pose)), cell});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return std::pair(a.is_seen_later, a.off_axis) < std::pair(b.is_seen_later, b.off_axis);
+  });
+  std::vector<VoxelIndex> cells;
+  for (const Ranked& one : ranked) {
+    cells.push_back(one.cell);
+  }
+  return cells;
 }
 
 }  // namespace detail
@@ -137,30 +189,36 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const ReachableSpace& reachable = situation().reachable();
-  const detail::BlockWays ways = detail::ways_through(reachable, situation().map().frame());
-  const std::int32_t site_cells = std::max(1, situation().map().frame().cells_up_to(options_.site_m));
-  std::vector<detail::FrontierSite> sites = detail::frontier_sites(situation().survey().targets, site_cells);
-  std::vector<VoxelIndex> places;
-  for (const detail::FrontierSite& site : sites) {
-    places.push_back(site.middle.viewpoint);
+  const VoxelFrame& frame = situation().map().frame();
+  const detail::BlockWays ways = detail::ways_through(reachable, frame);
+  const detail::TourViews choice(situation(), detail::nearest_sites(situation(), options_, ways),
+                                 plan.statistics.ray_operations);
+  plan.statistics.views_scored += choice.views.size();
+  if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
+    return nearest_view(situation(), plan.statistics.ray_operations);
   }
-  const std::vector<double> lengths = ways.lengths_from(*reachable.start(), places, options_.most_sites);
-  const std::vector<detail::Stop> stops =
-      detail::nearest_stops(situation(), options_, std::move(sites), ways, lengths);
-  plan.statistics.views_scored += stops.size();
-  const detail::LegCost cost(situation(), options_.cost);
-  const std::size_t first =
-      stops.size() == 1 ? 0 : detail::open_tour(detail::problem_of(situation(), stops, ways, cost)).front();
-  const FrontierTarget wanted = detail::nearest_target(stops[first].site, ways, *reachable.start(), lengths);
-  ChosenView chosen{.view = view_of_target(situation(), wanted, plan.statistics.ray_operations),
-                    .way = GridPaths(reachable).to(wanted.viewpoint)};
-  // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
-  TargetView& view = chosen.view;
-  chosen.reason = "the first of " + std::to_string(stops.size()) + " places of a tour, a view of " +
-                  std::to_string(view.unknown.size()) + " unknown cells";
-  std::erase(view.unknown, wanted.unknown);
-  view.hoped = std::exchange(view.unknown, {wanted.unknown});
-  return chosen;
+  detail::TourLegs legs(situation(), options_.cost, ways, choice.views);
+  detail::CoverTourProblem problem;
+  problem.per_view = legs.of_stop();
+  problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
+  for (const detail::TourView& view : choice.views) {
+    problem.sees.push_back(view.sees);
+  }
+  const std::vector<std::size_t> chosen = detail::cover_tour(problem, options_.most_sites);
+  const std::vector<std::size_t> tour =
+      detail::refined_tour(problem, detail::ordered(chosen, situation(), choice.views, legs), detail::kRefined);
+  const detail::TourView& first = choice.views[tour.front()];
+  // Once half of the cells are known, the tour is planned again.
+  std::vector<VoxelIndex> cells = detail::cells_of_first(tour, choice, frame);
+  const auto half = cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + 1) / 2);
+  ChosenView chosen_view{.view = {.view = {.pose = first.pose, .utility = static_cast<double>(cells.size())}},
+                         .way = GridPaths(reachable).to(first.place)};
+  chosen_view.view.hoped.assign(half, cells.end());
+  cells.erase(half, cells.end());
+  chosen_view.view.unknown = std::move(cells);
+  chosen_view.reason = "the first of " + std::to_string(tour.size()) + " views of a tour, a view of " +
+                       std::to_string(first.sees.size()) + " unknown cells";
+  return chosen_view;
 }
 
 }  // namespace vantage

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vantage/planner/impl/cover_tour.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace vantage::detail {
+
+// How much of what a view shows another must show to take its place.
+inline constexpr double kNearlyAll = 0.9;
+
+// How many views of a tour show each thing.
+class Shown {
+ public:
+  Shown(const CoverTourProblem& problem, const std::vector<std::size_t>& tour) : problem_(problem) {
+    std::uint32_t things = 0;
+    for (const std::vector<std::uint32_t>& seen : problem.sees) {
+      things = seen.empty() ? things : std::max(things, seen.back() + 1);
+    }
+    times_.resize(things);
+    for (const std::size_t view : tour) {
+      count(view, 1);
+    }
+  }
+  void count(std::size_t view, int by) {
+    for (const std::uint32_t thing : problem_.sees[view]) {
+      times_[thing] += by;
+    }
+  }
+  // The things of a view that `times` views of the tour show.
+  [[nodiscard]] std::vector<std::uint32_t> of_view(std::size_t view, int times) const {
+    std::vector<std::uint32_t> things;
+    for (const std::uint32_t thing : problem_.sees[view]) {
+      if (times_[thing] == times) {
+        things.push_back(thing);
+      }
+    }
+    return things;
+  }
+
+ private:
+  const CoverTourProblem& problem_;
+  std::vector<int> times_;
+};
+
+// The place in a tour where a view adds least, and what it adds. `legs`: from the start and from each view of the
+// tour to every view.
+inline std::pair<std::size_t, double> cheapest_place(const std::vector<std::size_t>& tour,
+                                                     const std::vector<std::vector<double>>& legs, std::size_t view) {
+  std::pair<std::size_t, double> best{tour.size(), legs[tour.size()][view]};
+  for (std::size_t at = 0; at < tour.size(); ++at) {
+    const double onward = legs[at + 1][view];  // as long as back
+    const double added = std::max(0.0, legs[at][view] + onward - legs[at][tour[at]]);
+    if (added < best.second) {
+      best = {at, added};
+    }
+  }
+  return best;
+}
+
+VANTAGE_INLINE std::vector<std::size_t> cover_tour(const CoverTourProblem& problem, std::size_t most_views) {
+  const auto legs_from = [&](std::size_t from) {
+    std::vector<double> legs(problem.size());
+    for (std::size_t to = 0; to < legs.size(); ++to) {
+      legs[to] = problem.leg(from, to);
+    }
+    return legs;
+  };
+  std::vector<std::size_t> tour;
+  std::vector<std::vector<double>> legs{legs_from(problem.size())};
+  Shown shown(problem, tour);
+  while (tour.size() < most_views) {
+    double best_rate = 0.0;
+    std::size_t best = 0;
+    std::size_t best_at = 0;
+    for (std::size_t view = 0; view < problem.size(); ++view) {
+      const std::size_t gain = shown.of_view(view, 0).size();
+      if (gain > 0) {
+        const auto [at, added] = cheapest_place(tour, legs, view);
+        if (const double rate = static_cast<double>(gain) / (problem.per_view + added); rate > best_rate) {
+          best_rate = rate;
+          best = view;
+          best_at = at;
+        }
+      }
+    }
+    if (best_rate == 0.0) {
+      break;
+    }
+    shown.count(best, 1);
+    tour.insert(tour.begin() + static_cast<std::ptrdiff_t>(best_at), best);
+    legs.insert(legs.begin() + static_cast<std::ptrdiff_t>(best_at) + 1, legs_from(best));
+  }
+  for (std::size_t at = 0; at < tour.size();) {
+    if (shown.of_view(tour[at], 1).empty()) {
+      shown.count(tour[at], -1);
+      tour.erase(tour.begin() + static_cast<std::ptrdiff_t>(at));
+    } else {
+      ++at;
+    }
+  }
+  return tour;
+}
+
+VANTAGE_INLINE std::vector<std::size_t> refined_tour(const CoverTourProblem& problem, std::vector<std::size_t> tour,
+                                                     std::size_t layers) {
+  struct Node {
+    std::size_t view;
+    double cost;         // from the start
+    std::size_t before;  // number of the node in the layer before
+  };
+  layers = std::min(layers, tour.size());
+  const Shown shown(problem, tour);
+  std::vector<std::vector<Node>> nodes{{{problem.size(), 0.0, 0}}};
+  const auto reach = [&](std::size_t view) {
+    Node node{view, std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t i = 0; i < nodes.back().size(); ++i) {
+      const Node& from = nodes.back()[i];
+      if (const double cost = from.cost + problem.leg(from.view, view); cost < node.cost) {
+        node.cost = cost;
+        node.before = i;
+      }
+    }
+    return node;
+  };
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    const std::size_t replaced = tour[layer];
+    const std::vector<std::uint32_t> own = shown.of_view(replaced, 1);
+    const auto serves = [&](std::size_t view) {
+      std::vector<std::uint32_t> common;
+      std::set_intersection(own.begin(), own.end(), problem.sees[view].begin(), problem.sees[view].end(),
+                            std::back_inserter(common));
+      return static_cast<double>(common.size()) >= kNearlyAll * static_cast<double>(own.size()) &&
+             static_cast<double>(problem.sees[view].size()) >=
+                 kNearlyAll * static_cast<double>(problem.sees[replaced].size());
+    };
+    std::vector<Node> next{reach(replaced)};
+    for (std::size_t view = 0; view < problem.size(); ++view) {
+      if (view != replaced && serves(view)) {
+        next.push_back(reach(view));
+      }
+    }
+    nodes.push_back(std::move(next));
+  }
+  // Back from the view behind the layers, or from the cheapest of the last layer.
+  const std::vector<Node>& last = nodes.back();
+  const auto cheapest =
+      std::min_element(last.begin(), last.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
+  std::size_t at =
+      layers < tour.size() ? reach(tour[layers]).before : static_cast<std::size_t>(cheapest - last.begin());
+  for (std::size_t layer = layers; layer > 0; --layer) {
+    const Node& node = nodes[layer][at];
+    tour[layer - 1] = node.view;
+    at = node.before;
+  }
+  return tour;
+}
+
+}  // namespace vantage::detail

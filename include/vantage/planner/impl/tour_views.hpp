@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <vantage/planner/situation.hpp>
+#include <vector>
+
+#include <vantage/planner/impl/frontier_sites.hpp>
+
+namespace vantage::detail {
+
+/// Whether a sensor sees the same from a place, however it is turned about the vertical.
+[[nodiscard]] inline bool looks_all_around(const RangeSensor& sensor) {
+  return sensor.horizontal_angle_rad() >= 2.0 * std::numbers::pi - 1e-3;
+}
+
+/// A view that a tour may take.
+struct TourView {
+  VoxelIndex place;                 ///< a reachable cell
+  Pose pose;                        ///< world_from_sensor
+  std::vector<std::uint32_t> sees;  ///< numbers of unknown cells, ascending
+};
+
+/// Views of parts of the frontier, and what they see of them.
+///
+///        o   o   o         f  part of the frontier     u  its unknown cells     o  places around it
+///      o   u u u   o
+///      o V f f f   o       V  the viewpoint of the survey, the frontier itself, and where the robot is,
+///        o   o   o         are places too. From each, the sensor looks at the middles of the parts.
+///
+/// Only reachable places count.
+struct TourViews {
+  std::vector<VoxelIndex> unknown;  ///< the unknown cells of all parts, in raster order
+  std::vector<TourView> views;      ///< each sees some of them
+
+  /// Adds the number of visited cells to `operations`.
+  TourViews(const Situation& situation, const std::vector<FrontierSite>& sites, std::uint64_t& operations);
+};
+
+}  // namespace vantage::detail
+
+#if defined(VANTAGE_HEADER_ONLY)
+#include <vantage/planner/impl/tour_views.ipp>
+#endif
