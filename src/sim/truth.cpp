@@ -58,6 +58,11 @@ VoxelGrid<CellTruth> cells_of_plan(const GroundPlan& plan, const VoxelFrame& fra
   return cells;
 }
 
+// The bricks that hold these cells.
+VoxelBox bricks_with(const VoxelBox& cells) {
+  return {Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+}
+
 // The largest set of nonzero cells joined face to face; of several, the first in raster order.
 std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitted) {
   VoxelGrid<std::uint8_t> seen(admitted.box(), 0);
@@ -110,8 +115,16 @@ Truth::Truth(const World& world, double resolution_m, const Box& region, double 
     cells_ = VoxelGrid<CellTruth>(covered, CellTruth::Free);
     rasterise(world.mesh, frame, kGrazedShare, cells_);
   }
-  for_each_cell(region_, [&](const VoxelIndex& cell) {
-    map_.set(cell, at(cell) == CellTruth::Free ? Occupancy::Free : Occupancy::Occupied);
+  for_each_cell(bricks_with(region_), [&](const VoxelIndex& brick) {
+    BrickPlane known{};
+    BrickPlane occupied{};
+    for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
+      const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
+      const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
+      known[offset >> 6U] |= region_.contains(cell) ? bit : 0U;
+      occupied[offset >> 6U] |= region_.contains(cell) && at(cell) != CellTruth::Free ? bit : 0U;
+    }
+    map_.assign(brick, known, occupied);
   });
 }
 
