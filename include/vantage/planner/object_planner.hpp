@@ -18,15 +18,17 @@ namespace VANTAGE_EXPORT vantage {
 /// Options of ObjectPlanner.
 struct ObjectPlannerOptions {
   ObjectViewOptions candidates;  ///< where to look from
-  /// Minimum expected number of new faces of a view, as a share of the faces observed so far, in [0, 1).
+  /// Minimum weight of the sides of the surface that a view is expected to observe first, as a share of the weight
+  /// observed so far, in [0, 1).
   double min_new_share = 0.002;
-  /// What a view costs beside the way to it, in radii of the first sphere, > 0. The view of most new faces for its
+  /// What a view costs beside the way to it, in radii of the first sphere, > 0. The view of most weight for its
   /// cost is taken: a small price saves path, a large one saves views.
   double view_price = 4.0;
 };
 
-/// Reconstructs one object: takes a view that is expected to observe most faces of its surface that no view has
-/// observed yet (UnseenSurface). The run ends when no admitted candidate is expected to observe enough of them.
+/// Reconstructs one object: takes a view that is expected to observe most of its surface that no view has
+/// observed yet, by the weight of sides of cells (UnseenSurface). The run ends when no admitted candidate is expected
+/// to observe enough of them.
 ///
 /// Unlike other planners, it remembers which sides of the surface were observed, which the map does not store. A new
 /// planner for an existing map looks at some sides again.
@@ -46,7 +48,7 @@ class ObjectPlanner final : public ExplorationPlanner {
  private:
   struct Candidate {
     Pose pose;
-    std::vector<UnseenSurface::Face> faces;  // that it is expected to be the first to observe
+    std::size_t shows = 0;  // weight of the sides that it is expected to be the first to observe
     double way_m = 0.0;
   };
   void follow(const OccupancyMap& map, const Pose& current);

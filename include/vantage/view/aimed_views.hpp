@@ -13,10 +13,10 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A face of a cell that blocks sight, to be seen from the adjacent cell.
-struct CellFace {
+/// A side of a cell that blocks sight, to be seen from the adjacent cell.
+struct CellSide {
   VoxelIndex cell;    ///< the cell that blocks sight
-  VoxelIndex normal;  ///< step from the cell across the face, one of kFaceNeighbours
+  VoxelIndex normal;  ///< step from the cell across a face, an edge or a corner, one of kAllNeighbours
 };
 
 /// Options of aimed_views.
@@ -39,8 +39,8 @@ void validate(const AimedViewOptions& options);
 /// std::invalid_argument as `validate`, and if a position is not addressable.
 [[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought,
                                             const AimedViewOptions& options, std::uint64_t seed);
-/// The same for given faces.
-[[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellFace> faces,
+/// The same for given sides, across edges and corners too.
+[[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellSide> sides,
                                             const AimedViewOptions& options, std::uint64_t seed);
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
@@ -19,9 +20,19 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Tracks which parts of an object's surface were observed, and predicts what a view would observe of the rest.
 ///
-/// The surface consists of the faces of occupied cells, and of unknown cells that are assumed to be occupied. Faces
-/// are used instead of cells, because a cell may contain a wall that was seen from one side only. A view has observed
-/// a face if a ray ends in the cell and the sensor was on the side of the face.
+/// How the surface lies in a cell is not known, so every occupied cell, and every unknown cell that is assumed to be
+/// occupied, has 26 sides: the directions of its neighbours, of which those towards a cell that lets rays pass may be
+/// the normal of a surface. A view has observed a side if a ray ends in the cell and the sensor was on that side, at
+/// an incidence under 85 degrees. In a plane, where a cell has 8 sides:
+///
+///                  seen   seen   seen
+///                      \   |   /
+///     sensor        seen --[cell]-- not seen      a surface across an edge of the silhouette is left for
+///     below left       /   |   \                  another view, however thin the object is
+///                  seen   seen   not seen
+///
+/// Directions across a face weigh 4, across an edge 2, across a corner 1: the binomial kernel of a normal that is
+/// estimated from neighbours.
 ///
 /// Unknown cells that a scan has passed or failed to resolve are treated as free from then on, even if the sensor
 /// does not report missing returns. Each other unknown cell is assumed to be occupied with a probability: that of
@@ -29,27 +40,30 @@ namespace VANTAGE_EXPORT vantage {
 /// changes.
 class UnseenSurface {
  public:
-  /// Number of a face: 6 times the index of the cell in the box, plus the index of the step across the face in
-  /// kFaceNeighbours.
-  using Face = std::uint32_t;
+  /// Number of a side: 26 times the index of the cell in the box, plus the index of the direction in kAllNeighbours.
+  using Side = std::uint32_t;
 
   /// Tracks the object in the box `object`. `map` must outlive this object. Throws std::length_error if the box has
-  /// too many cells to number their faces.
+  /// too many cells to number their sides.
   UnseenSurface(const OccupancyMap& map, const VoxelBox& object);
 
   /// Updates the state from the map after a scan from this pose (world_from_sensor). `map` must be the map of the
   /// constructor.
   void look(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays);
-  /// The faces that a view would be the first to observe, ascending. Errors as RayCaster::visible_cells.
-  [[nodiscard]] std::vector<Face> expected(const Pose& world_from_sensor, const ViewRays& rays) const;
-  /// All faces of the surface that were not observed yet and that a ray can reach from the adjacent cell.
-  [[nodiscard]] std::vector<CellFace> left() const;
-  /// The number of observed faces of occupied cells, without those whose adjacent cell blocks sight.
+  /// The sides that a view would be the first to observe, ascending. Errors as RayCaster::visible_cells.
+  [[nodiscard]] std::vector<Side> expected(const Pose& world_from_sensor, const ViewRays& rays) const;
+  /// All sides of the surface that were not observed yet and that a ray can reach from the adjacent cell.
+  [[nodiscard]] std::vector<CellSide> left() const;
+  /// The weight of all observed sides of occupied cells, without those whose adjacent cell blocks sight.
   [[nodiscard]] std::size_t looked_at() const;
+  /// The sum of the weights of sides.
+  [[nodiscard]] static std::size_t weight_of(std::span<const Side> sides);
   /// Shows the map together with the assumptions about unknown cells.
   [[nodiscard]] const RayCaster& caster() const { return caster_; }
-  /// The cell of a face.
-  [[nodiscard]] VoxelIndex cell_of(Face face) const { return looked_.cell_at(face / 6); }
+  /// The cell of a side.
+  [[nodiscard]] VoxelIndex cell_of(Side side) const { return looked_.cell_at(side / kAllNeighbours.size()); }
+  /// The step from the cell of a side to the adjacent cell.
+  [[nodiscard]] static VoxelIndex towards(Side side) { return kAllNeighbours[side % kAllNeighbours.size()]; }
 
  private:
   [[nodiscard]] bool stops(const VoxelIndex& cell) const { return caster_.at(cell) != Occupancy::Free; }
@@ -57,7 +71,7 @@ class UnseenSurface {
   void suppose(const OccupancyMap& map);
 
   VoxelFrame frame_;
-  VoxelGrid<std::uint8_t> looked_;  // bits 0-5: face observed; bit 6: cell treated as free
+  VoxelGrid<std::uint32_t> looked_;  // bits 0-25: side observed; bit 26: cell treated as free
   RayCaster caster_;
 };
 

@@ -73,21 +73,22 @@ VANTAGE_INLINE std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(c
   }
   std::vector<Candidate> admitted;
   for (const Pose& pose : views_of_object(options_.candidates, map, *setup_.platform, aimed, setup_.seed)) {
-    admitted.push_back({pose, {}, way_m(current, pose)});
+    admitted.push_back({pose, 0, way_m(current, pose)});
   }
-  detail::share_work(admitted.size(), static_cast<std::size_t>(setup_.threads),
-                     [&](std::size_t i) { admitted[i].faces = surface_->expected(admitted[i].pose, *rays_); });
+  detail::share_work(admitted.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
+    admitted[i].shows = UnseenSurface::weight_of(surface_->expected(admitted[i].pose, *rays_));
+  });
   return admitted;
 }
 
-// Those of most faces for their cost first.
+// Those that show most for their cost first.
 VANTAGE_INLINE std::vector<std::size_t> ObjectPlanner::order_of(const std::vector<Candidate>& tried) const {
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const double view_m = options_.view_price * options_.candidates.radii_m.front();
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return static_cast<double>(tried[a].faces.size()) * (view_m + tried[b].way_m) >
-           static_cast<double>(tried[b].faces.size()) * (view_m + tried[a].way_m);
+    return static_cast<double>(tried[a].shows) * (view_m + tried[b].way_m) >
+           static_cast<double>(tried[b].shows) * (view_m + tried[a].way_m);
   });
   return order;
 }
@@ -103,9 +104,9 @@ VANTAGE_INLINE bool ObjectPlanner::take_first(const OccupancyMap& map, const Pos
     }
     if (auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.candidates.object.centre())) {
       plan.outcome = Outcome::Move;
-      plan.goal = {candidate.pose, static_cast<double>(candidate.faces.size())};
+      plan.goal = {candidate.pose, static_cast<double>(candidate.shows)};
       plan.path = std::move(*path);
-      plan.reason = "a view of " + std::to_string(candidate.faces.size()) + " faces of the object that were not seen";
+      plan.reason = "a view of sides of the object that were not seen, of weight " + std::to_string(candidate.shows);
       return true;
     }
   }
@@ -127,12 +128,12 @@ VANTAGE_INLINE Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pos
   std::vector<std::size_t> worthwhile;
   std::size_t best = 0;
   for (const std::size_t i : order_of(all)) {
-    const std::size_t faces = all[i].faces.size();
-    best = std::max(best, faces);
-    if (faces > 0) {
-      plan.candidates.push_back({all[i].pose, static_cast<double>(faces)});
+    const std::size_t shows = all[i].shows;
+    best = std::max(best, shows);
+    if (shows > 0) {
+      plan.candidates.push_back({all[i].pose, static_cast<double>(shows)});
     }
-    if (static_cast<double>(faces) >= least) {
+    if (static_cast<double>(shows) >= least) {
       worthwhile.push_back(i);
     }
   }

@@ -11,8 +11,8 @@
 namespace vantage {
 namespace detail {
 
-inline std::vector<CellFace> visible_faces(const RayCaster& caster, const CellSet& sought) {
-  std::vector<CellFace> faces;
+inline std::vector<CellSide> visible_faces(const RayCaster& caster, const CellSet& sought) {
+  std::vector<CellSide> faces;
   sought.for_each([&](const VoxelIndex& cell) {
     if (caster.at(cell) != Occupancy::Unknown) {
       return;
@@ -26,13 +26,13 @@ inline std::vector<CellFace> visible_faces(const RayCaster& caster, const CellSe
   return faces;
 }
 
-inline std::optional<Pose> view_of(const CellFace& face, const RayCaster& caster, const AimedViewOptions& options,
+inline std::optional<Pose> view_of(const CellSide& side, const RayCaster& caster, const AimedViewOptions& options,
                                    Dice& dice) {
   constexpr int kDraws = 64;
-  constexpr double kIntoFreeCell = 0.5 + 1e-3;  // in cells, from the centre of the cell: just beyond the face
-  const Eigen::Vector3d normal(face.normal.x, face.normal.y, face.normal.z);
-  const Eigen::Vector3d on_face =
-      caster.frame().centre_of(face.cell) + kIntoFreeCell * caster.frame().size_m * normal;
+  constexpr double kIntoFreeCell = 0.5 + 1e-3;  // in cells, from the centre of the cell: just beyond the cell
+  const Eigen::Vector3d step(side.normal.x, side.normal.y, side.normal.z);
+  const Eigen::Vector3d normal = step.normalized();
+  const Eigen::Vector3d on_side = caster.frame().centre_of(side.cell) + kIntoFreeCell * caster.frame().size_m * step;
   for (int draw = 0; draw < kDraws; ++draw) {
     const Eigen::Vector3d towards = normal + dice.direction();
     const double distance_m =
@@ -40,9 +40,9 @@ inline std::optional<Pose> view_of(const CellFace& face, const RayCaster& caster
     if (towards.norm() < 1e-3) {
       continue;
     }
-    const Eigen::Vector3d place = on_face + distance_m * towards.normalized();
-    if (caster.cast(on_face, place).occupancy == Occupancy::Free) {
-      return pose_looking_along(place, on_face - place);
+    const Eigen::Vector3d place = on_side + distance_m * towards.normalized();
+    if (caster.cast(on_side, place).occupancy == Occupancy::Free) {
+      return pose_looking_along(place, on_side - place);
     }
   }
   return std::nullopt;
@@ -64,13 +64,13 @@ VANTAGE_INLINE std::vector<Pose> aimed_views(const RayCaster& caster, const Cell
                             : aimed_views(caster, detail::visible_faces(caster, sought), options, seed);
 }
 
-VANTAGE_INLINE std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellFace> faces,
+VANTAGE_INLINE std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellSide> sides,
                                              const AimedViewOptions& options, std::uint64_t seed) {
   validate(options);
   std::vector<Pose> views;
   Dice dice(seed);
-  for (std::size_t i = 0; i < options.count && !faces.empty(); ++i) {
-    if (const std::optional<Pose> view = detail::view_of(faces[dice.below(faces.size())], caster, options, dice)) {
+  for (std::size_t i = 0; i < options.count && !sides.empty(); ++i) {
+    if (const std::optional<Pose> view = detail::view_of(sides[dice.below(sides.size())], caster, options, dice)) {
       views.push_back(*view);
     }
   }

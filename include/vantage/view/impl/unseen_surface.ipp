@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/unseen_surface.hpp>
@@ -12,27 +14,33 @@
 namespace vantage {
 namespace detail {
 
-inline constexpr std::uint8_t kFaces = 0x3F;
-inline constexpr std::uint8_t kTakenForFree = 0x40;
+inline constexpr std::uint32_t kSides = kAllNeighbours.size();
+inline constexpr std::uint32_t kTakenForFree = 1U << kSides;
 
-// Faces that are turned away slightly also count as observed, because they approximate a slanted surface that is
-// visible. For predictions a face must be turned towards the sensor more clearly.
-inline constexpr double kLookedAtCosine = -0.1;
+// Cosine of the incidence: under 85 degrees a side is observed. For predictions a side must be turned towards the
+// sensor more clearly, so that a view observes what was expected of it.
+inline constexpr double kLookedAtCosine = 0.087;
 inline constexpr double kExpectedCosine = 0.2;
+
+// 4 across a face, 2 across an edge, 1 across a corner.
+inline std::size_t weight_of_side(std::uint32_t side) {
+  const VoxelIndex& step = kAllNeighbours[side];
+  return std::size_t{8} >> static_cast<unsigned>(step.x * step.x + step.y * step.y + step.z * step.z);
+}
 
 // Probability that an unobserved cell beside known surface is occupied.
 inline constexpr double kChanceBesideSurface = 0.4;
 
-// Calls `visit(face)` for the faces whose normal has a cosine to the direction of the sensor above `least_cosine`.
+// Calls `visit(side)` for the sides whose normal has a cosine to the direction of the sensor above `least_cosine`.
 template <class Visit>
-void for_each_face_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
+void for_each_side_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
   const double least = least_cosine * back.norm();
-  for (std::uint8_t axis = 0; axis < 3; ++axis) {
-    if (-back[axis] > least) {
-      visit(static_cast<std::uint8_t>(2 * axis));
-    }
-    if (back[axis] > least) {
-      visit(static_cast<std::uint8_t>(2 * axis + 1));
+  constexpr std::array<double, 4> kLength{0.0, 1.0, std::numbers::sqrt2, std::numbers::sqrt3};
+  for (std::uint32_t side = 0; side < kSides; ++side) {
+    const VoxelIndex& n = kAllNeighbours[side];
+    const double length = kLength[static_cast<std::size_t>(n.x * n.x + n.y * n.y + n.z * n.z)];
+    if (n.x * back.x() + n.y * back.y() + n.z * back.z() > least * length) {
+      visit(side);
     }
   }
 }
@@ -47,9 +55,9 @@ inline double draw_of(const VoxelIndex& cell) {
   return static_cast<double>((h ^ h >> 31U) >> 11U) * 0x1.0p-53;
 }
 
-// Returns the box if its faces can be numbered.
-inline const VoxelBox& with_numbered_faces(const VoxelBox& object) {
-  if (object.size() > std::numeric_limits<UnseenSurface::Face>::max() / 6) {
+// Returns the box if its sides can be numbered.
+inline const VoxelBox& with_numbered_sides(const VoxelBox& object) {
+  if (object.size() > std::numeric_limits<UnseenSurface::Side>::max() / detail::kSides) {
     throw std::length_error("UnseenSurface: the box of the object has too many cells; coarser ones will do");
   }
   return object;
@@ -58,7 +66,7 @@ inline const VoxelBox& with_numbered_faces(const VoxelBox& object) {
 }  // namespace detail
 
 VANTAGE_INLINE UnseenSurface::UnseenSurface(const OccupancyMap& map, const VoxelBox& object)
-    : frame_(map.frame()), looked_(detail::with_numbered_faces(object), 0), caster_(map) {}
+    : frame_(map.frame()), looked_(detail::with_numbered_sides(object), 0), caster_(map) {}
 
 VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor,
                                         const ViewRays& rays) {
@@ -75,10 +83,8 @@ VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& wor
   caster_.suppose(stopping);
   caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
     const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
-    std::uint8_t& looked = looked_[cell];
-    detail::for_each_face_towards(back, detail::kLookedAtCosine, [&](std::uint8_t face) {
-      looked = static_cast<std::uint8_t>(looked | 1U << face);
-    });
+    std::uint32_t& looked = looked_[cell];
+    detail::for_each_side_towards(back, detail::kLookedAtCosine, [&](std::uint32_t side) { looked |= 1U << side; });
     if (map.at(cell) == Occupancy::Unknown) {
       looked |= detail::kTakenForFree;
     }
@@ -156,47 +162,56 @@ VANTAGE_INLINE void UnseenSurface::suppose(const OccupancyMap& map) {
   caster_.suppose(stopping);
 }
 
-VANTAGE_INLINE std::vector<UnseenSurface::Face> UnseenSurface::expected(const Pose& world_from_sensor,
+VANTAGE_INLINE std::vector<UnseenSurface::Side> UnseenSurface::expected(const Pose& world_from_sensor,
                                                                         const ViewRays& rays) const {
-  std::vector<Face> faces;
+  std::vector<Side> sides;
   caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
     const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
-    detail::for_each_face_towards(back, detail::kExpectedCosine, [&](std::uint8_t face) {
-      if ((unsigned{looked_[cell]} >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
-        faces.push_back(static_cast<Face>(looked_.offset_of(cell) * 6 + face));
+    detail::for_each_side_towards(back, detail::kExpectedCosine, [&](std::uint32_t side) {
+      if ((looked_[cell] >> side & 1U) == 0 && !stops(cell + kAllNeighbours[side])) {
+        sides.push_back(static_cast<Side>(looked_.offset_of(cell) * detail::kSides + side));
       }
     });
   });
-  std::sort(faces.begin(), faces.end());
-  return faces;
+  std::sort(sides.begin(), sides.end());
+  return sides;
 }
 
-VANTAGE_INLINE std::vector<CellFace> UnseenSurface::left() const {
-  std::vector<CellFace> faces;
+VANTAGE_INLINE std::size_t UnseenSurface::weight_of(std::span<const Side> sides) {
+  std::size_t weight = 0;
+  for (const Side side : sides) {
+    weight += detail::weight_of_side(side % detail::kSides);
+  }
+  return weight;
+}
+
+VANTAGE_INLINE std::vector<CellSide> UnseenSurface::left() const {
+  std::vector<CellSide> sides;
   for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
     if (!stops(cell)) {
       return;
     }
-    for (std::uint8_t face = 0; face < 6; ++face) {
-      if ((unsigned{looked_[cell]} >> face & 1U) == 0 && !stops(cell + kFaceNeighbours[face])) {
-        faces.push_back({cell, kFaceNeighbours[face]});
+    for (std::uint32_t side = 0; side < detail::kSides; ++side) {
+      if ((looked_[cell] >> side & 1U) == 0 && !stops(cell + kAllNeighbours[side])) {
+        sides.push_back({cell, kAllNeighbours[side]});
       }
     }
   });
-  return faces;
+  return sides;
 }
 
 VANTAGE_INLINE std::size_t UnseenSurface::looked_at() const {
-  std::size_t count = 0;
+  std::size_t weight = 0;
   for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
     if (caster_.at(cell) != Occupancy::Occupied) {
       return;
     }
-    for (std::uint8_t face = 0; face < 6; ++face) {
-      count += (unsigned{looked_[cell]} >> face & 1U) != 0 && !stops(cell + kFaceNeighbours[face]) ? 1U : 0U;
+    for (std::uint32_t side = 0; side < detail::kSides; ++side) {
+      const bool observed = (looked_[cell] >> side & 1U) != 0 && !stops(cell + kAllNeighbours[side]);
+      weight += observed ? detail::weight_of_side(side) : 0U;
     }
   });
-  return count;
+  return weight;
 }
 
 }  // namespace vantage
