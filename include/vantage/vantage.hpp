@@ -35,6 +35,7 @@
 #include <vantage/map/brick_directory.hpp>
 #include <vantage/map/brick_grid.hpp>
 #include <vantage/map/brick_set.hpp>
+#include <vantage/map/brick_store.hpp>
 #include <vantage/map/following.hpp>
 #include <vantage/map/height_band.hpp>
 #include <vantage/map/known_map.hpp>

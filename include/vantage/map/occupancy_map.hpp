@@ -53,12 +53,11 @@ class OccupancyMap {
   /// Copies the cells and the change log. The copy gets its own identity. Throws std::runtime_error if it needs a
   /// file (OccupancyMapOptions::resident_folder) and the disk is full.
   OccupancyMap(const OccupancyMap& other) = default;
-  /// Copies the cells and the change log. This map gets a new identity. Errors as the copy constructor; this map is
-  /// then as before.
+  /// The same into this map, which gets a new identity. It is unchanged if that throws.
   OccupancyMap& operator=(const OccupancyMap& other);
   /// Takes over the map. `other` becomes an empty map with the same options.
   OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it allocates
-  /// Takes over the map. `other` becomes an empty map with the same options.
+  /// The same into this map.
   OccupancyMap& operator=(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor)
   /// Exchanges two maps, identities included.
   void swap(OccupancyMap& other);
@@ -240,7 +239,6 @@ class OccupancyMap {
     BrickDirectory::Number older = BrickDirectory::kNone;
   };
   static constexpr std::size_t kBytesOfEntry = sizeof(Entry) + sizeof(Brick*) + sizeof(Revision);
-  static constexpr std::size_t kBytesOfBrick = kBytesOfEntry + sizeof(Brick);
   friend class MapFollower;
   friend class ScanInserter;
 

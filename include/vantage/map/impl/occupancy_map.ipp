@@ -213,7 +213,7 @@ VANTAGE_INLINE void OccupancyMap::swap(OccupancyMap& other) {
 }
 
 VANTAGE_INLINE std::size_t OccupancyMap::memory_bytes() const {
-  return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * kBytesOfBrick;
+  return sizeof(*this) + directory_.memory_bytes() + bricks_.size() * (kBytesOfEntry + sizeof(Brick));
 }
 
 VANTAGE_INLINE std::size_t OccupancyMap::resident_bytes() const {
@@ -312,7 +312,7 @@ VANTAGE_INLINE BrickDirectory::Number OccupancyMap::brick_for(const VoxelIndex& 
     return known;
   }
   if (options_.max_bytes != 0) {
-    const std::size_t bricks = (bricks_.size() + 1) * kBytesOfBrick;
+    const std::size_t bricks = (bricks_.size() + 1) * (kBytesOfEntry + sizeof(Brick));
     if (sizeof(*this) + directory_.memory_with(address) + bricks > options_.max_bytes) {
       return BrickDirectory::kNone;
     }
