@@ -453,6 +453,7 @@ TEST_F(Program, ReconstructsAnObjectOnTheTable) {
   EXPECT_EQ(report["planner"], "next-best-view");
   EXPECT_EQ(report["outcome"], "explored");
   EXPECT_GT(report["coverage"], 0.7);
+  EXPECT_GT(report["observable_cells"], 50) << "of the box, seen from outside of it";
   EXPECT_GT(report["surface_coverage"], 0.7) << "all but what stands on the table";
   EXPECT_GT(report["seen_coverage"], 0.7) << "the same";
   EXPECT_GT(report["seen_observable"], 0.9);

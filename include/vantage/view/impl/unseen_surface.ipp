@@ -14,8 +14,8 @@
 namespace vantage {
 namespace detail {
 
-inline constexpr std::uint32_t kSides = kAllNeighbours.size();
-inline constexpr std::uint32_t kTakenForFree = 1U << kSides;
+inline constexpr std::uint32_t kCellSides = kAllNeighbours.size();
+inline constexpr std::uint32_t kTakenForFree = 1U << kCellSides;
 
 // Cosine of the incidence: under 85 degrees a side is observed. For predictions a side must be turned towards the
 // sensor more clearly, so that a view observes what was expected of it.
@@ -36,7 +36,7 @@ template <class Visit>
 void for_each_side_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
   const double least = least_cosine * back.norm();
   constexpr std::array<double, 4> kLength{0.0, 1.0, std::numbers::sqrt2, std::numbers::sqrt3};
-  for (std::uint32_t side = 0; side < kSides; ++side) {
+  for (std::uint32_t side = 0; side < kCellSides; ++side) {
     const VoxelIndex& n = kAllNeighbours[side];
     const double length = kLength[static_cast<std::size_t>(n.x * n.x + n.y * n.y + n.z * n.z)];
     if (n.x * back.x() + n.y * back.y() + n.z * back.z() > least * length) {
@@ -57,7 +57,7 @@ inline double draw_of(const VoxelIndex& cell) {
 
 // Returns the box if its sides can be numbered.
 inline const VoxelBox& with_numbered_sides(const VoxelBox& object) {
-  if (object.size() > std::numeric_limits<UnseenSurface::Side>::max() / detail::kSides) {
+  if (object.size() > std::numeric_limits<UnseenSurface::Side>::max() / detail::kCellSides) {
     throw std::length_error("UnseenSurface: the box of the object has too many cells; coarser ones will do");
   }
   return object;
@@ -169,7 +169,7 @@ VANTAGE_INLINE std::vector<UnseenSurface::Side> UnseenSurface::expected(const Po
     const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
     detail::for_each_side_towards(back, detail::kExpectedCosine, [&](std::uint32_t side) {
       if ((looked_[cell] >> side & 1U) == 0 && !stops(cell + kAllNeighbours[side])) {
-        sides.push_back(static_cast<Side>(looked_.offset_of(cell) * detail::kSides + side));
+        sides.push_back(static_cast<Side>(looked_.offset_of(cell) * detail::kCellSides + side));
       }
     });
   });
@@ -180,7 +180,7 @@ VANTAGE_INLINE std::vector<UnseenSurface::Side> UnseenSurface::expected(const Po
 VANTAGE_INLINE std::size_t UnseenSurface::weight_of(std::span<const Side> sides) {
   std::size_t weight = 0;
   for (const Side side : sides) {
-    weight += detail::weight_of_side(side % detail::kSides);
+    weight += detail::weight_of_side(side % detail::kCellSides);
   }
   return weight;
 }
@@ -191,7 +191,7 @@ VANTAGE_INLINE std::vector<CellSide> UnseenSurface::left() const {
     if (!stops(cell)) {
       return;
     }
-    for (std::uint32_t side = 0; side < detail::kSides; ++side) {
+    for (std::uint32_t side = 0; side < detail::kCellSides; ++side) {
       if ((looked_[cell] >> side & 1U) == 0 && !stops(cell + kAllNeighbours[side])) {
         sides.push_back({cell, kAllNeighbours[side]});
       }
@@ -206,7 +206,7 @@ VANTAGE_INLINE std::size_t UnseenSurface::looked_at() const {
     if (caster_.at(cell) != Occupancy::Occupied) {
       return;
     }
-    for (std::uint32_t side = 0; side < detail::kSides; ++side) {
+    for (std::uint32_t side = 0; side < detail::kCellSides; ++side) {
       const bool observed = (looked_[cell] >> side & 1U) != 0 && !stops(cell + kAllNeighbours[side]);
       weight += observed ? detail::weight_of_side(side) : 0U;
     }
