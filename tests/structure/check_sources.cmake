@@ -3,6 +3,8 @@
 #       -D COMPONENTS=<what is built> -P check_sources.cmake
 # Checks that every file names its licence, every header is guarded and installed, and no file is too long: 300 lines
 # for a header, 400 for a source. Public headers include of impl/ only bodies, and vantage.hpp includes all of core.
+# A test in tests/unit is named after the file that it tests, which lies on its own floor or, where the test needs more
+# than that floor, on a lower one.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 set(faults)
@@ -50,6 +52,13 @@ foreach(file IN LISTS files)
   elseif(file MATCHES "^include/(vantage/[a-z]+/impl/.+)$")
     if(NOT CMAKE_MATCH_1 IN_LIST PRIVATE_FILES)
       list(APPEND faults "${file}: neither in BODIES nor in PRIVATE_HEADERS, so nobody gets it installed")
+    endif()
+  elseif(file MATCHES "^tests/unit/.*/([a-z0-9_]+)_test\\.cpp$")
+    set(name "${CMAKE_MATCH_1}")
+    file(GLOB tested "${ROOT}/include/vantage/*/${name}.hpp" "${ROOT}/include/vantage/*/impl/${name}.[hi]pp"
+         "${ROOT}/src/*/${name}.[hc]pp")
+    if(NOT tested)
+      list(APPEND faults "${file}: no file of include/ or src/ is named ${name}")
     endif()
   endif()
 endforeach()
