@@ -2,10 +2,8 @@
 #include "apps/run_files.hpp"
 
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vantage/map/octomap_bridge.hpp>
@@ -13,10 +11,8 @@
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
-#include <vantage/report/run_record_reader.hpp>
 #include <vantage/vision/field_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
-#include <vantage/vision/growth_strip.hpp>
 #include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/void_picture.hpp>
 #include <vector>
@@ -71,25 +67,6 @@ Picture coverage_plot(const RunRecord& record) {
   };
   return draw_line_plots(std::vector<LinePlot>{plot("views", "views (scans integrated)", std::move(over_views)),
                                                plot("metres", "path travelled [m]", std::move(over_metres))});
-}
-
-// Four moments, evenly spread over the views, read from the record.
-Picture growth_strip(const RunRecord& run, const std::filesystem::path& record) {
-  constexpr std::size_t kMoments = 4;
-  std::vector<GrowthMoment> moments;
-  RunRecordReader reader(record);
-  OccupancyMap map = reader.new_map();
-  for (std::size_t views = 1; const std::optional<RecordedCycle> cycle = reader.next(); ++views) {
-    apply_changes(*cycle, map);
-    // The first view, the last, and those nearest to the thirds between.
-    const std::size_t due = 1 + (run.views.size() - 1) * moments.size() / (kMoments - 1);
-    if (views >= due && moments.size() < kMoments) {
-      std::ostringstream caption;
-      caption << "view " << views << ", " << std::fixed << std::setprecision(1) << cycle->view.path_length_m << " m";
-      moments.push_back({map, reader.run().travelled, caption.str()});
-    }
-  }
-  return draw_growth_strip(moments, title_of(run) + ": the map grows");
 }
 
 Picture field_picture(const HarmonicField& field, const OccupancyMap& map, const std::string& title) {
@@ -170,8 +147,8 @@ void make_run_folder(const std::filesystem::path& folder) {
     }
   };
   for (const char* name :
-       {"report.json", "report.html", "run.record", "map.ot", "floor_plan.png", "coverage.png", "growth.png",
-        "known.png", "field.png", "voids.png", "void_utility.png", "selection.json", "selection.png"}) {
+       {"report.json", "report.html", "run.record", "map.ot", "floor_plan.png", "coverage.png", "known.png",
+        "field.png", "voids.png", "void_utility.png", "selection.json", "selection.png"}) {
     remove(folder / name);
     remove(folder / (std::string(name) + ".part"));
   }
@@ -203,8 +180,6 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
     write_png(picture, files.back());
   }
   if (record) {
-    files.push_back(folder / "growth.png");
-    write_png(growth_strip(run, *record), files.back());
     files.push_back(*record);
     files.push_back(folder / "report.html");
     write_report_html(std::vector<ReportedRun>{{report_json(run), *record}}, files.back());
