@@ -24,14 +24,15 @@ class HullChange {
     std::span<const LatticeHull::Plane> planes;
     std::span<const VoxelIndex> corners;
   };
-  /// Called with the address of a brick, the cells of it that are inside the new hull, and the number of those that
-  /// were inside the old one.
-  using Visit = std::function<void(const VoxelIndex&, const BrickPlane&, std::size_t)>;
+  /// Called with the address of a brick and the cells of it that are inside the new hull. Returns whether it has
+  /// counted them itself.
+  using Visit = std::function<bool(const VoxelIndex&, const BrickPlane&)>;
 
   HullChange(const Hull& before, const Hull& now);
 
-  /// Calls `visit` for every such brick of a box of bricks.
-  void for_each_brick(const VoxelBox& bricks, const Visit& visit);
+  /// Calls `visit` for every such brick of a box of bricks. Returns by how many the cells inside the hull have become
+  /// more in those that it has not counted.
+  std::int64_t for_each_brick(const VoxelBox& bricks, const Visit& visit);
   /// By how many the cells of a box of bricks inside the hull have become more.
   [[nodiscard]] std::int64_t growth(const VoxelBox& bricks);
 
@@ -57,6 +58,7 @@ class HullChange {
                                   const Cutting& own) const;
 
   VoxelBox cells_;  // around both hulls
+  std::int64_t growth_ = 0;
   // Three stacks. Each recursion pushes the planes that cut its box, and removes them when it returns.
   Planes common_;
   Planes gone_;

@@ -43,12 +43,14 @@ struct PointBox {
 
 // The cells of a sub-brick on the inner side of a plane.
 inline std::uint64_t cells_within(const HullPlane& plane, const VoxelIndex& first) {
+  const double slope = plane.normal.x();
   std::uint64_t cells = 0;
-  for (std::int32_t row = 0; row < 16; ++row) {
+  for (std::int32_t row = 15; row >= 0; --row) {
     const double start = distance_from(plane, lattice_point(first + VoxelIndex{0, row & 3, row >> 2})) - kOnFacet;
-    for (std::int32_t x = 0; x < 4; ++x) {
-      cells |= std::uint64_t{start + x * plane.normal.x() <= 0.0} << (row * 4 + x);
-    }
+    const std::uint64_t in_row = std::uint64_t{start <= 0.0} | std::uint64_t{start + slope <= 0.0} << 1U |
+                                 std::uint64_t{start + 2.0 * slope <= 0.0} << 2U |
+                                 std::uint64_t{start + 3.0 * slope <= 0.0} << 3U;
+    cells = cells << 4U | in_row;
   }
   return cells;
 }
@@ -82,24 +84,24 @@ VANTAGE_INLINE VoxelBox HullChange::cells_of(const VoxelBox& bricks) const {
   return box_overlap({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)}, cells_);
 }
 
-VANTAGE_INLINE void HullChange::for_each_brick(const VoxelBox& bricks, const Visit& visit) {
+VANTAGE_INLINE std::int64_t HullChange::for_each_brick(const VoxelBox& bricks, const Visit& visit) {
+  growth_ = 0;
   visit_overlap(
       bricks, [](const VoxelBox&, bool) { return false; }, visit);
+  return growth_;
 }
 
 VANTAGE_INLINE std::int64_t HullChange::growth(const VoxelBox& bricks) {
-  std::int64_t growth = 0;
+  growth_ = 0;
   visit_overlap(
       bricks,
-      [&](const VoxelBox& cells, bool is_inside) {
+      [this](const VoxelBox& cells, bool is_inside) {
         const auto size = static_cast<std::int64_t>(cells.size());
-        growth += is_inside ? size : -size;
+        growth_ += is_inside ? size : -size;
         return true;
       },
-      [&](const VoxelIndex&, const BrickPlane& inside, std::size_t before) {
-        growth += static_cast<std::int64_t>(size_of(inside)) - static_cast<std::int64_t>(before);
-      });
-  return growth;
+      [](const VoxelIndex&, const BrickPlane&) { return false; });
+  return growth_;
 }
 
 // `whole(cells, is inside)` may take a box inside one hull and outside the other.
@@ -131,8 +133,11 @@ void HullChange::visit_box(const VoxelBox& bricks, const Cutting& common, const 
       visit_box(low, common_here, gone_here, added_here, whole, visit);
       visit_box(high, common_here, gone_here, added_here, whole, visit);
     } else {
-      visit(bricks.lo, inside(bricks.lo, common_here, added_, added_here),
-            size_of(inside(bricks.lo, common_here, gone_, gone_here)));
+      const BrickPlane now = inside(bricks.lo, common_here, added_, added_here);
+      if (!visit(bricks.lo, now)) {
+        const BrickPlane before = inside(bricks.lo, common_here, gone_, gone_here);
+        growth_ += static_cast<std::int64_t>(size_of(now)) - static_cast<std::int64_t>(size_of(before));
+      }
     }
     common_.resize(common_here.first);
   }
@@ -168,7 +173,11 @@ VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutt
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
       const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
       const PointBox box({first, first + VoxelIndex{4, 4, 4}});
-      if (inside[word] != 0 && distance_from(plane, box.middle) + box.reach(plane) > 0.0) {
+      const double distance = inside[word] == 0 ? 0.0 : distance_from(plane, box.middle) - kOnFacet;
+      const double reach = box.reach(plane) + kOnFacet;  // adds a margin for rounding
+      if (distance > reach) {
+        inside[word] = 0;
+      } else if (distance > -reach && inside[word] != 0) {
         inside[word] &= cells_within(plane, first);
       }
     }

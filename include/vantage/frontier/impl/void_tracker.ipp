@@ -105,7 +105,10 @@ VANTAGE_INLINE void VoidTracker::widen(const std::vector<VoxelIndex>& touched) {
       if (tiles_.contains(Brick::of_cell(address))) {
         detail::HullChange& hull = whole ? *whole : whole.emplace(detail::HullChange({}, {planes_, corners_}));
         hull.for_each_brick({address, address + VoxelIndex{1, 1, 1}},
-                            [&](const VoxelIndex&, const BrickPlane& cells, std::size_t) { inside = cells; });
+                            [&](const VoxelIndex&, const BrickPlane& cells) {
+                              inside = cells;
+                              return true;
+                            });
       }
       store(address, inside);
     }
@@ -150,18 +153,18 @@ VANTAGE_INLINE void VoidTracker::apply(detail::HullChange& change, const VoxelIn
     growth = change.growth(bricks);
     changed = growth != 0;  // a hull that changes contains the other one
   } else {
-    change.for_each_brick(bricks, [&](const VoxelIndex& address, const BrickPlane& inside, std::size_t before) {
+    growth = change.for_each_brick(bricks, [&](const VoxelIndex& address, const BrickPlane& inside) {
+      changed = true;
       Stored* const brick = find(address);
       if (brick == nullptr) {
-        growth += static_cast<std::int64_t>(detail::size_of(inside)) - static_cast<std::int64_t>(before);
-      } else {
-        brick->inside = inside;
-        refresh(*brick);
-        if (reshaped != nullptr) {
-          reshaped->push_back(address);
-        }
+        return false;
       }
-      changed = true;
+      brick->inside = inside;
+      refresh(*brick);
+      if (reshaped != nullptr) {
+        reshaped->push_back(address);
+      }
+      return true;
     });
   }
   cell_count_ += static_cast<std::size_t>(growth);
@@ -213,11 +216,11 @@ VANTAGE_INLINE void VoidTracker::collect_outside(const Stored& brick, std::vecto
 VANTAGE_INLINE void VoidTracker::fill(detail::HullChange& whole, const VoxelIndex& tile,
                                       std::span<BrickPlane> bricks) const {
   if (tiles_.contains(tile)) {
-    whole.for_each_brick(
-        VoidTiles::bricks_of(tile), [&](const VoxelIndex& address, const BrickPlane& inside, std::size_t) {
-          const Stored* const brick = find(address);
-          bricks[detail::ConnectedCells::in_tile(address)] = brick == nullptr ? inside : brick->voids;
-        });
+    whole.for_each_brick(VoidTiles::bricks_of(tile), [&](const VoxelIndex& address, const BrickPlane& inside) {
+      const Stored* const brick = find(address);
+      bricks[detail::ConnectedCells::in_tile(address)] = brick == nullptr ? inside : brick->voids;
+      return true;
+    });
   }
 }
 
@@ -238,11 +241,11 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells() const {
   cells.reserve(cell_count_);
   detail::HullChange whole({}, {planes_, corners_});
   for (const VoxelIndex& tile : tiles_.tiles()) {
-    whole.for_each_brick(VoidTiles::bricks_of(tile),
-                         [&](const VoxelIndex& address, const BrickPlane& inside, std::size_t) {
-                           const Stored* const brick = find(address);
-                           detail::append(brick == nullptr ? inside : brick->voids, address, cells);
-                         });
+    whole.for_each_brick(VoidTiles::bricks_of(tile), [&](const VoxelIndex& address, const BrickPlane& inside) {
+      const Stored* const brick = find(address);
+      detail::append(brick == nullptr ? inside : brick->voids, address, cells);
+      return true;
+    });
   }
   std::sort(cells.begin(), cells.end(), RasterOrder{});
   return cells;

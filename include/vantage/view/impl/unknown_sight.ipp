@@ -9,6 +9,7 @@
 
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/box_overlap.hpp>
+#include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
@@ -132,22 +133,37 @@ VANTAGE_INLINE UnknownSight::UnknownSight(const OccupancyMap& map, std::span<con
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
                          "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
+  BrickGrid<Content>::Values* values_here = nullptr;  // cells mostly come brick by brick
+  VoxelIndex here;
   for (const VoxelIndex& cell : wanted) {
-    contents_[cell] = Content::Wanted;
+    if (const VoxelIndex brick = Brick::of_cell(cell); values_here == nullptr || brick != here) {
+      here = brick;
+      values_here = &contents_.values(contents_.store(brick));
+    }
+    (*values_here)[Brick::offset_of(cell)] = Content::Wanted;
   }
+  const auto occupied_in = [&map](const VoxelIndex& brick) {
+    const Brick* const known = map.find_brick(brick);
+    return known == nullptr ? BrickPlane{} : known->occupied;
+  };
   for (std::size_t number = 0; number < contents_.bricks(); ++number) {
-    if (const Brick* const brick = map.find_brick(contents_.address(number))) {
+    BrickGrid<Content>::Values& values = contents_.values(number);
+    const VoxelIndex address = contents_.address(number);
+    const BrickPlane occupied = occupied_in(address);
+    BrickPlane beside{};
+    for (std::size_t axis = 0; axis < detail::kAxes.size(); ++axis) {
+      const BrickPlane below = occupied_in(address + kFaceNeighbours[2 * axis]);
+      const BrickPlane above = occupied_in(address + kFaceNeighbours[2 * axis + 1]);
       for (std::size_t word = 0; word < Brick::kWords; ++word) {
-        for_each_offset(brick->occupied[word], word,
-                        [&](std::size_t offset) { contents_.values(number)[offset] = Content::Surface; });
+        beside[word] |= detail::from_below(occupied, below, detail::kAxes[axis], word) |
+                        detail::from_above(occupied, above, detail::kAxes[axis], word);
       }
     }
-  }
-  Reader content_of(*this);
-  for (const VoxelIndex& cell : wanted) {
-    if (std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
-                    [&](const auto& step) { return content_of(cell + step) == Content::Surface; })) {
-      contents_[cell] = Content::WantedBesideSurface;
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(beside[word], word, [&](std::size_t offset) {
+        values[offset] = values[offset] == Content::Wanted ? Content::WantedBesideSurface : values[offset];
+      });
+      for_each_offset(occupied[word], word, [&](std::size_t offset) { values[offset] = Content::Surface; });
     }
   }
 }
