@@ -20,7 +20,7 @@ inline constexpr double kFurthestM = 1e3;
 inline constexpr std::int32_t kNearBricks = 13;
 inline constexpr std::size_t kManyBricks = 27U * 27U * 27U;
 
-inline VoxelBox bricks_around(const VoxelBox& cells) {
+inline VoxelBox bricks_over(const VoxelBox& cells) {
   const VoxelIndex last = Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1});
   return cells.empty() ? VoxelBox{} : VoxelBox{Brick::of_cell(cells.lo), last + VoxelIndex{1, 1, 1}};
 }
@@ -28,10 +28,10 @@ inline VoxelBox bricks_around(const VoxelBox& cells) {
 VANTAGE_INLINE UnknownWays::UnknownWays(const OccupancyMap& map, double beyond_m, std::span<const VoxelIndex> places)
     : map_(&map), ways_(map.frame(), kBlockSide, [this](const VoxelIndex& brick) { return open_cells(brick); }) {
   const VoxelBox box = map.bounds().grown(map.frame().cells_up_to(std::min(beyond_m, kFurthestM)));
-  bricks_ = bricks_around(map.region() ? box_overlap(box, *map.region()) : box);
+  bricks_ = bricks_over(map.region() ? box_overlap(box, *map.region()) : box);
   all_ = bricks_.size() <= kManyBricks;
   if (!all_) {
-    bricks_ = box_overlap(bricks_, bricks_around(box_around(places)).grown(kNearBricks));
+    bricks_ = box_overlap(bricks_, bricks_over(box_around(places)).grown(kNearBricks));
   }
 }
 
