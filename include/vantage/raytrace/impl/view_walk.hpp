@@ -97,6 +97,7 @@ class ViewWalk {
 
   SliceFlood flood_;
   SliceWalk walk_;
+  SliceWindows windows_;  // those of a passage that a tile needs
 };
 
 }  // namespace vantage

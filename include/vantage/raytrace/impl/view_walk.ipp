@@ -201,7 +201,7 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk(const RayTile& tile, const Outlook& 
 // Walks rays through the slices of the passages that the outlook names.
 VANTAGE_INLINE std::uint64_t ViewWalk::walk_recorded(const Outlook& outlook, std::uint64_t active, HitSink& hits) {
   std::uint64_t others = 0;
-  SliceWindows windows;
+  SliceWindows& windows = windows_;
   walk_.start();
   std::uint64_t left = outlook.slices;
   while (left != 0 && active != 0) {
