@@ -37,7 +37,7 @@ void add_run_options(CLI::App& command, ExploreRequest& request) {
   option("--resolution", request.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
   option("--max-views", request.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
   option("--memory-limit", request.memory_limit_mb, "MB",
-         "Most memory of the map alone; what does not fit is refused and counted; 0: no limit")
+         "Most memory of the map alone; more is refused and counted; 0: no limit")
       ->check(a_number());
   option("--seed", request.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
   option("--threads", request.threads, "N", "How many to use; the result is the same for any number")
