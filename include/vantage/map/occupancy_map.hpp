@@ -238,7 +238,7 @@ class OccupancyMap {
     BrickDirectory::Number newer = BrickDirectory::kNone;  // links of the list sorted by `changed`
     BrickDirectory::Number older = BrickDirectory::kNone;
   };
-  static constexpr std::size_t kBytesOfEntry = sizeof(Entry) + sizeof(Brick*) + sizeof(Revision);
+  static constexpr std::size_t kBytesOfEntry = sizeof(Entry) + sizeof(void*) + sizeof(Revision);
   friend class MapFollower;
   friend class ScanInserter;
 

@@ -44,6 +44,9 @@ struct TourOptions {
 ///    where the unknown is. So what is far from the rest is done while the robot is near.
 /// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
 ///
+/// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, the tour leads over the middles of the
+/// parts, and ends at the first place that sees a cell of the first one.
+///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///

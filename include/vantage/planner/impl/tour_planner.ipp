@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vantage/planner/tour_planner.hpp>
@@ -42,6 +43,7 @@ inline std::vector<FrontierSite> nearest_sites(const Situation& situation, const
   std::vector<FrontierSite> sites = detail::frontier_sites(
       situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
   std::vector<VoxelIndex> places;
+  places.reserve(sites.size());
   for (const FrontierSite& site : sites) {
     places.push_back(site.middle.viewpoint);
   }
@@ -125,6 +127,7 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
   }
   const RangeSensor& sensor = situation.sensor();
   std::vector<VoxelIndex> places;
+  places.reserve(n);
   for (const std::size_t view : chosen) {
     places.push_back(views[view].place);
   }
@@ -170,10 +173,87 @@ inline std::vector<VoxelIndex> cells_of_first(const std::vector<std::size_t>& to
     return std::pair(a.is_seen_later, a.off_axis) < std::pair(b.is_seen_later, b.off_axis);
   });
   std::vector<VoxelIndex> cells;
+  cells.reserve(ranked.size());
   for (const Ranked& one : ranked) {
     cells.push_back(one.cell);
   }
   return cells;
+}
+
+// The target of a site that is seen from the nearest place.
+inline const FrontierTarget& nearest_target(const Situation& situation, const FrontierSite& site,
+                                            const BlockWays& ways) {
+  const VoxelIndex start = *situation.reachable().start();
+  std::vector<VoxelIndex> places;
+  places.reserve(site.targets.size());
+  for (const FrontierTarget& target : site.targets) {
+    places.push_back(target.viewpoint);
+  }
+  const std::vector<double> lengths = ways.lengths_from(start, places);
+  std::vector<double> way_m;
+  way_m.reserve(places.size());
+  for (const VoxelIndex& place : places) {
+    way_m.push_back(ways.length_to(place, start, lengths));
+  }
+  return site.targets[static_cast<std::size_t>(std::min_element(way_m.begin(), way_m.end()) - way_m.begin())];
+}
+
+// For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over their
+// middles is enough, and ends at the first place that sees a cell of the first part.
+inline ChosenView first_sight(const Situation& situation, const std::vector<FrontierSite>& sites, TourCost cost,
+                              const BlockWays& ways, Plan& plan) {
+  std::vector<TourView> middles;
+  middles.reserve(sites.size());
+  for (const FrontierSite& site : sites) {
+    middles.push_back({site.middle.viewpoint, Pose::Identity(), {}});
+  }
+  plan.statistics.views_scored += middles.size();
+  TourLegs legs(situation, cost, ways, middles);
+  std::vector<std::size_t> all(middles.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const FrontierSite& first = sites[ordered(all, situation, middles, legs).front()];
+  const FrontierTarget& wanted = nearest_target(situation, first, ways);
+  ChosenView chosen{.view = view_of_target(situation, wanted, plan.statistics.ray_operations),
+                    .way = GridPaths(situation.reachable()).to(wanted.viewpoint)};
+  // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
+  TargetView& view = chosen.view;
+  chosen.reason = "the first of " + std::to_string(sites.size()) + " places of a tour, a view of " +
+                  std::to_string(view.unknown.size()) + " unknown cells";
+  std::erase(view.unknown, wanted.unknown);
+  view.hoped = std::exchange(view.unknown, {wanted.unknown});
+  return chosen;
+}
+
+// For a sensor that must be aimed: views are chosen for what they show.
+inline ChosenView first_view(const Situation& situation, const std::vector<FrontierSite>& sites,
+                             const TourOptions& options, const BlockWays& ways, Plan& plan) {
+  const TourViews choice(situation, sites, plan.statistics.ray_operations);
+  plan.statistics.views_scored += choice.views.size();
+  if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
+    return nearest_view(situation, plan.statistics.ray_operations);
+  }
+  TourLegs legs(situation, options.cost, ways, choice.views);
+  CoverTourProblem problem;
+  problem.per_view = legs.of_stop();
+  problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
+  for (const TourView& view : choice.views) {
+    problem.sees.push_back(view.sees);
+  }
+  const std::vector<std::size_t> chosen = cover_tour(problem, options.most_sites);
+  const std::vector<std::size_t> tour =
+      refined_tour(problem, ordered(chosen, situation, choice.views, legs), kRefined);
+  const TourView& first = choice.views[tour.front()];
+  // Once half of the cells are known, the tour is planned again.
+  std::vector<VoxelIndex> cells = cells_of_first(tour, choice, situation.map().frame());
+  const auto half = cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + 1) / 2);
+  ChosenView view{.view = {.view = {.pose = first.pose, .utility = static_cast<double>(cells.size())}},
+                  .way = GridPaths(situation.reachable()).to(first.place)};
+  view.view.hoped.assign(half, cells.end());
+  cells.erase(half, cells.end());
+  view.view.unknown = std::move(cells);
+  view.reason = "the first of " + std::to_string(tour.size()) + " views of a tour, a view of " +
+                std::to_string(first.sees.size()) + " unknown cells";
+  return view;
 }
 
 }  // namespace detail
@@ -188,37 +268,11 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 }
 
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
-  const ReachableSpace& reachable = situation().reachable();
-  const VoxelFrame& frame = situation().map().frame();
-  const detail::BlockWays ways = detail::ways_through(reachable, frame);
-  const detail::TourViews choice(situation(), detail::nearest_sites(situation(), options_, ways),
-                                 plan.statistics.ray_operations);
-  plan.statistics.views_scored += choice.views.size();
-  if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
-    return nearest_view(situation(), plan.statistics.ray_operations);
-  }
-  detail::TourLegs legs(situation(), options_.cost, ways, choice.views);
-  detail::CoverTourProblem problem;
-  problem.per_view = legs.of_stop();
-  problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
-  for (const detail::TourView& view : choice.views) {
-    problem.sees.push_back(view.sees);
-  }
-  const std::vector<std::size_t> chosen = detail::cover_tour(problem, options_.most_sites);
-  const std::vector<std::size_t> tour =
-      detail::refined_tour(problem, detail::ordered(chosen, situation(), choice.views, legs), detail::kRefined);
-  const detail::TourView& first = choice.views[tour.front()];
-  // Once half of the cells are known, the tour is planned again.
-  std::vector<VoxelIndex> cells = detail::cells_of_first(tour, choice, frame);
-  const auto half = cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + 1) / 2);
-  ChosenView chosen_view{.view = {.view = {.pose = first.pose, .utility = static_cast<double>(cells.size())}},
-                         .way = GridPaths(reachable).to(first.place)};
-  chosen_view.view.hoped.assign(half, cells.end());
-  cells.erase(half, cells.end());
-  chosen_view.view.unknown = std::move(cells);
-  chosen_view.reason = "the first of " + std::to_string(tour.size()) + " views of a tour, a view of " +
-                       std::to_string(first.sees.size()) + " unknown cells";
-  return chosen_view;
+  const detail::BlockWays ways = detail::ways_through(situation().reachable(), situation().map().frame());
+  const std::vector<detail::FrontierSite> sites = detail::nearest_sites(situation(), options_, ways);
+  return detail::looks_all_around(situation().sensor())
+             ? detail::first_sight(situation(), sites, options_.cost, ways, plan)
+             : detail::first_view(situation(), sites, options_, ways, plan);
 }
 
 }  // namespace vantage

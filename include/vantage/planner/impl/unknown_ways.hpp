@@ -18,10 +18,12 @@ class UnknownWays {
   /// For the map as it is now, which must not change in the lifetime of this. `beyond_m`: how far around the known
   /// cells unknown ones count, metres, >= 0. `places`: the cells that will be asked for.
   UnknownWays(const OccupancyMap& map, double beyond_m, std::span<const VoxelIndex> places);
-  /// Not copyable.
+  ~UnknownWays() = default;
+  /// Neither copied nor moved: its ways ask it for cells.
   UnknownWays(const UnknownWays&) = delete;
-  /// Not copyable.
+  UnknownWays(UnknownWays&&) = delete;
   UnknownWays& operator=(const UnknownWays&) = delete;
+  UnknownWays& operator=(UnknownWays&&) = delete;
 
   /// The mean length of the ways from all unknown cells to `cell`, metres; those without a way do not count. 0 if
   /// there are none.

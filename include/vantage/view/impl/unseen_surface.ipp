@@ -22,11 +22,14 @@ inline constexpr std::uint32_t kTakenForFree = 1U << kCellSides;
 inline constexpr double kLookedAtCosine = 0.087;
 inline constexpr double kExpectedCosine = 0.2;
 
-// 4 across a face, 2 across an edge, 1 across a corner.
-inline std::size_t weight_of_side(std::uint32_t side) {
+// 1 across a face, 2 across an edge, 3 across a corner.
+inline unsigned axes_of_side(std::uint32_t side) {
   const VoxelIndex& step = kAllNeighbours[side];
-  return std::size_t{8} >> static_cast<unsigned>(step.x * step.x + step.y * step.y + step.z * step.z);
+  return static_cast<unsigned>(step.x != 0) + static_cast<unsigned>(step.y != 0) + static_cast<unsigned>(step.z != 0);
 }
+
+// 4 across a face, 2 across an edge, 1 across a corner.
+inline std::size_t weight_of_side(std::uint32_t side) { return std::size_t{8} >> axes_of_side(side); }
 
 // Probability that an unobserved cell beside known surface is occupied.
 inline constexpr double kChanceBesideSurface = 0.4;
@@ -38,7 +41,7 @@ void for_each_side_towards(const Eigen::Vector3d& back, double least_cosine, con
   constexpr std::array<double, 4> kLength{0.0, 1.0, std::numbers::sqrt2, std::numbers::sqrt3};
   for (std::uint32_t side = 0; side < kCellSides; ++side) {
     const VoxelIndex& n = kAllNeighbours[side];
-    const double length = kLength[static_cast<std::size_t>(n.x * n.x + n.y * n.y + n.z * n.z)];
+    const double length = kLength[axes_of_side(side)];
     if (n.x * back.x() + n.y * back.y() + n.z * back.z() > least * length) {
       visit(side);
     }
