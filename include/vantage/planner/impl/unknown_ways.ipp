@@ -41,8 +41,8 @@ VANTAGE_INLINE BrickPlane UnknownWays::open_cells(const VoxelIndex& brick) const
     return {};
   }
   constexpr std::uint64_t kFull = ~std::uint64_t{0};
-  BrickPlane open =
-      map_->region() ? plane_of(brick, *map_->region()) : BrickPlane{kFull, kFull, kFull, kFull, kFull, kFull, kFull, kFull};
+  BrickPlane open = map_->region() ? plane_of(brick, *map_->region())
+                                   : BrickPlane{kFull, kFull, kFull, kFull, kFull, kFull, kFull, kFull};
   if (const Brick* const known = map_->find_brick(brick)) {
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
       open[word] &= ~known->occupied[word];
