@@ -192,6 +192,25 @@ void print_row(const std::string& object, const std::string& planner, const std:
               quantile(over([](const TrialJson& r) { return r.at("seconds").get<double>(); }), 0.5));
 }
 
+// By object and planner.
+using ObjectRows = std::map<std::pair<std::string, std::string>, std::vector<TrialJson>>;
+
+void print_table(const EvaluateRequest& request, const ObjectRows& rows) {
+  std::printf(
+      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
+      "the end | views | path after 5, m | path | turned, deg | s "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const std::string& object : request.objects) {
+    for (const std::string& planner : request.planners) {
+      std::vector<const TrialJson*> results;
+      for (const TrialJson& result : rows.at({object, planner})) {
+        results.push_back(&result);
+      }
+      print_row(object, planner, results);
+    }
+  }
+}
+
 void evaluate_objects(EvaluateRequest& request) {
   if (request.quick) {
     request.starts = 1;
@@ -210,7 +229,7 @@ void evaluate_objects(EvaluateRequest& request) {
     out.open(request.results, std::ios::app);
     require_written(out, request.results);
   }
-  std::map<std::pair<std::string, std::string>, std::vector<TrialJson>> rows;
+  ObjectRows rows;
   const std::size_t all = request.objects.size() * request.sensors.size() * request.resolutions_m.size() *
                           request.starts * request.planners.size();
   std::size_t count = 0;
@@ -241,19 +260,7 @@ void evaluate_objects(EvaluateRequest& request) {
     }
   }
   std::fprintf(stderr, "\r\x1b[K");
-  std::printf(
-      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
-      "the end | views | path after 5, m | path | turned, deg | s "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& object : request.objects) {
-    for (const std::string& planner : request.planners) {
-      std::vector<const TrialJson*> results;
-      for (const TrialJson& result : rows[{object, planner}]) {
-        results.push_back(&result);
-      }
-      print_row(object, planner, results);
-    }
-  }
+  print_table(request, rows);
 }
 
 }  // namespace

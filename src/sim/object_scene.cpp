@@ -85,8 +85,10 @@ double apparent_area_m2(const Box& box, const Truth& truth, const Pose& pose) {
     point[normal] = axis[normal] < 0.0 ? box.max[normal] : box.min[normal];
     int open = 0;
     for (int i = 0; i < kPoints * kPoints; ++i) {
-      point[across] = box.min[across] + box.extent()[across] * (i % kPoints + 0.5) / kPoints;
-      point[along] = box.min[along] + box.extent()[along] * (i / kPoints + 0.5) / kPoints;
+      const int column = i % kPoints;
+      const int row = i / kPoints;
+      point[across] = box.min[across] + box.extent()[across] * (column + 0.5) / kPoints;
+      point[along] = box.min[along] + box.extent()[along] * (row + 0.5) / kPoints;
       bool hidden = false;
       for (const VoxelIndex& cell : VoxelRay(frame, from, point)) {
         hidden = hidden || (!inside.contains(cell) && truth.map().at(cell) == Occupancy::Occupied);
