@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <tuple>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
+#include <vector>
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -14,5 +16,11 @@ struct RasterOrder {
     return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
   }
 };
+
+/// Sorts cells in raster order and removes duplicates.
+inline void sort_unique(std::vector<VoxelIndex>& cells) {
+  std::sort(cells.begin(), cells.end(), RasterOrder{});
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
 
 }  // namespace vantage

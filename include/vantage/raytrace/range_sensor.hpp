@@ -63,6 +63,8 @@ struct RangeSensor {
   [[nodiscard]] bool in_view(const Eigen::Vector3d& direction) const;
   /// Full horizontal field of view, radians.
   [[nodiscard]] double horizontal_angle_rad() const;
+  /// Whether the horizontal field of view is a full turn, so that turning about the vertical changes little.
+  [[nodiscard]] bool looks_all_around() const;
   /// Full vertical field of view, radians.
   [[nodiscard]] double vertical_angle_rad() const;
   /// The distance, metres, up to which neighbouring rays of a row or a column are at most `cell_m` apart. Up to this

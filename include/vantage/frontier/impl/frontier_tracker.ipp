@@ -82,8 +82,7 @@ VANTAGE_INLINE std::size_t FrontierTracker::update() {
       touched.push_back(brick + step);
     }
   }
-  std::sort(touched.begin(), touched.end(), RasterOrder{});
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
 
   std::vector<Change> changes;
   for (const VoxelIndex& address : touched) {

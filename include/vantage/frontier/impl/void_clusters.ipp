@@ -81,8 +81,7 @@ class DenseNumbers {
 class SparseNumbers {
  public:
   explicit SparseNumbers(std::span<const VoxelIndex> cells) : cells_(cells.begin(), cells.end()) {
-    std::sort(cells_.begin(), cells_.end(), RasterOrder{});
-    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    sort_unique(cells_);
     numbers_.assign(cells_.size(), kUnassigned);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       positions_[cells_[i]] = static_cast<std::uint32_t>(i);

@@ -35,8 +35,7 @@ inline void merge_neighbours(const std::vector<VoxelIndex>& cells, const VoxelIn
 
 VANTAGE_INLINE std::vector<std::vector<VoxelIndex>> voxel_clusters(std::vector<VoxelIndex> cells,
                                                                    Connectivity connectivity) {
-  std::sort(cells.begin(), cells.end(), RasterOrder{});
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  sort_unique(cells);
   DisjointSets sets(cells.size());
   for (const VoxelIndex& step : kAllNeighbours) {
     const bool later = RasterOrder{}(VoxelIndex{}, step);  // the opposite steps would find the same pairs

@@ -31,11 +31,17 @@ class Shown {
       times_[thing] += by;
     }
   }
-  // The things of a view that `times` views of the tour show.
-  [[nodiscard]] std::vector<std::uint32_t> of_view(std::size_t view, int times) const {
+  // How many things a view shows that no view of the tour shows.
+  [[nodiscard]] std::size_t new_in(std::size_t view) const {
+    const std::vector<std::uint32_t>& sees = problem_.sees[view];
+    return static_cast<std::size_t>(
+        std::count_if(sees.begin(), sees.end(), [&](std::uint32_t thing) { return times_[thing] == 0; }));
+  }
+  // The things that a view of the tour alone shows.
+  [[nodiscard]] std::vector<std::uint32_t> only_by(std::size_t view) const {
     std::vector<std::uint32_t> things;
     for (const std::uint32_t thing : problem_.sees[view]) {
-      if (times_[thing] == times) {
+      if (times_[thing] == 1) {
         things.push_back(thing);
       }
     }
@@ -78,7 +84,7 @@ VANTAGE_INLINE std::vector<std::size_t> cover_tour(const CoverTourProblem& probl
     std::size_t best = 0;
     std::size_t best_at = 0;
     for (std::size_t view = 0; view < problem.size(); ++view) {
-      const std::size_t gain = shown.of_view(view, 0).size();
+      const std::size_t gain = shown.new_in(view);
       if (gain > 0) {
         const auto [at, added] = cheapest_place(tour, legs, view);
         if (const double rate = static_cast<double>(gain) / (problem.per_view + added); rate > best_rate) {
@@ -96,7 +102,7 @@ VANTAGE_INLINE std::vector<std::size_t> cover_tour(const CoverTourProblem& probl
     legs.insert(legs.begin() + static_cast<std::ptrdiff_t>(best_at) + 1, legs_from(best));
   }
   for (std::size_t at = 0; at < tour.size();) {
-    if (shown.of_view(tour[at], 1).empty()) {
+    if (shown.only_by(tour[at]).empty()) {
       shown.count(tour[at], -1);
       tour.erase(tour.begin() + static_cast<std::ptrdiff_t>(at));
     } else {
@@ -129,7 +135,7 @@ VANTAGE_INLINE std::vector<std::size_t> refined_tour(const CoverTourProblem& pro
   };
   for (std::size_t layer = 0; layer < layers; ++layer) {
     const std::size_t replaced = tour[layer];
-    const std::vector<std::uint32_t> own = shown.of_view(replaced, 1);
+    const std::vector<std::uint32_t> own = shown.only_by(replaced);
     const auto serves = [&](std::size_t view) {
       std::vector<std::uint32_t> common;
       std::set_intersection(own.begin(), own.end(), problem.sees[view].begin(), problem.sees[view].end(),

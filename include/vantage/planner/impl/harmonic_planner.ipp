@@ -22,8 +22,7 @@ namespace detail {
 // The viewpoints of all targets, without duplicates.
 inline std::vector<VoxelIndex> viewpoints(const FrontierSurvey& survey) {
   std::vector<VoxelIndex> cells = survey.viewpoints();
-  std::sort(cells.begin(), cells.end(), RasterOrder{});
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  sort_unique(cells);
   return cells;
 }
 

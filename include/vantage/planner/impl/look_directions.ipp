@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
 
@@ -58,8 +57,7 @@ VANTAGE_INLINE LookDirections::LookDirections(const Situation& situation, const 
 
 // A sensor that looks all around horizontally sees nearly the same in every direction.
 VANTAGE_INLINE bool LookDirections::choosable(const OccupancyMap& map, const RangeSensor& sensor) {
-  constexpr double kAllAround = 2.0 * std::numbers::pi - 1e-3;
-  return sensor.horizontal_angle_rad() < kAllAround && map.bounds().hi.z - map.bounds().lo.z > 1;
+  return !sensor.looks_all_around() && map.bounds().hi.z - map.bounds().lo.z > 1;
 }
 
 VANTAGE_INLINE std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {

@@ -153,10 +153,10 @@ VANTAGE_INLINE bool Situation::hardly_moves() const {
 // A sensor with a narrow field of view does not see free space beside the body, so it first looks in all horizontal
 // directions. Views overlap by a fifth.
 VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() const {
-  constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
-  if (sensor().horizontal_angle_rad() >= kFullTurnRad - 1e-3 || !hardly_moves()) {
+  if (sensor().looks_all_around() || !hardly_moves()) {
     return std::nullopt;
   }
+  constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
   const double step_rad = 0.8 * sensor().horizontal_angle_rad();
   const auto turns = static_cast<int>(std::ceil(kFullTurnRad / step_rad));
   const Eigen::Vector3d here = current_.translation();

@@ -17,6 +17,7 @@
 #include <vantage/planner/impl/frontier_sites.hpp>
 #include <vantage/planner/impl/open_tour.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/planner/impl/targets_in_sight.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
 #include <vantage/planner/impl/unknown_ways.hpp>
 
@@ -72,7 +73,7 @@ class TourLegs {
         views_(views),
         motion_(situation.setup().motion.value_or(TourPlanner::default_motion())),
         is_time_(cost == TourCost::Time),
-        turns_(is_time_ && !looks_all_around(situation.sensor())) {
+        turns_(is_time_ && !situation.sensor().looks_all_around()) {
     for (const TourView& view : views) {
       places_.push_back(view.place);
     }
@@ -125,15 +126,12 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
       problem.legs.push_back(legs.between(from < n ? chosen[from] : views.size(), to));
     }
   }
-  const RangeSensor& sensor = situation.sensor();
   std::vector<VoxelIndex> places;
   places.reserve(n);
   for (const std::size_t view : chosen) {
     places.push_back(views[view].place);
   }
-  const detail::UnknownWays unknown(
-      situation.map(), std::min(sensor.max_range_m, sensor.resolving_range_m(situation.map().resolution_m())),
-      places);
+  const UnknownWays unknown(situation.map(), counted_range_m(situation.map(), situation.sensor()), places);
   for (const std::size_t view : chosen) {
     problem.prices.push_back(legs.of_way(unknown.mean_m(views[view].place)));
   }
@@ -270,9 +268,8 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const detail::BlockWays ways = detail::ways_through(situation().reachable(), situation().map().frame());
   const std::vector<detail::FrontierSite> sites = detail::nearest_sites(situation(), options_, ways);
-  return detail::looks_all_around(situation().sensor())
-             ? detail::first_sight(situation(), sites, options_.cost, ways, plan)
-             : detail::first_view(situation(), sites, options_, ways, plan);
+  return situation().sensor().looks_all_around() ? detail::first_sight(situation(), sites, options_.cost, ways, plan)
+                                                 : detail::first_view(situation(), sites, options_, ways, plan);
 }
 
 }  // namespace vantage

@@ -2,18 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <vantage/planner/situation.hpp>
 #include <vector>
 
 #include <vantage/planner/impl/frontier_sites.hpp>
 
 namespace vantage::detail {
-
-/// Whether a sensor sees the same from a place, however it is turned about the vertical.
-[[nodiscard]] inline bool looks_all_around(const RangeSensor& sensor) {
-  return sensor.horizontal_angle_rad() >= 2.0 * std::numbers::pi - 1e-3;
-}
 
 /// A view that a tour may take.
 struct TourView {

@@ -34,13 +34,6 @@ inline Eigen::Vector3d middle_of_unknown(const FrontierSite& site, const VoxelFr
   return sum / static_cast<double>(site.targets.size());
 }
 
-// In raster order, none twice.
-inline std::vector<VoxelIndex> sorted_cells(std::vector<VoxelIndex> cells) {
-  std::sort(cells.begin(), cells.end(), RasterOrder{});
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::vector<FrontierSite>& sites,
                                          const std::vector<Eigen::Vector3d>& middles) {
   const ReachableSpace& reachable = situation.reachable();
@@ -59,7 +52,7 @@ inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::
       }
     }
   }
-  places = sorted_cells(std::move(places));
+  sort_unique(places);
   std::erase_if(
       places, [&](const VoxelIndex& place) { return !reachable.contains(place) || situation.tried().rests(place); });
   return places;
@@ -80,7 +73,6 @@ inline std::vector<std::uint32_t> numbers_of(const std::vector<VoxelIndex>& cell
 
 VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vector<FrontierSite>& sites,
                                     std::uint64_t& operations) {
-  const bool turns = !looks_all_around(situation.sensor());
   const double range_m = counted_range_m(situation.map(), situation.sensor());
   std::vector<Eigen::Vector3d> middles;
   for (const FrontierSite& site : sites) {
@@ -89,7 +81,7 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
       unknown.push_back(target.unknown);
     }
   }
-  unknown = sorted_cells(std::move(unknown));
+  sort_unique(unknown);
   for (const VoxelIndex& place : places_of(situation, sites, middles)) {
     const Eigen::Vector3d position = situation.reachable().position_in(place);
     TargetsInSight in_sight(situation, position, range_m, operations);
@@ -101,14 +93,13 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
         continue;
       }
       const Pose pose = situation.platform().facing(position, line);
-      std::vector<std::uint32_t> sees = numbers_of(sorted_cells(in_sight.in_view(pose).unknown), unknown);
+      std::vector<VoxelIndex> in_view = in_sight.in_view(pose).unknown;
+      sort_unique(in_view);
+      std::vector<std::uint32_t> sees = numbers_of(in_view, unknown);
       const bool is_new =
           std::none_of(views.begin() + first, views.end(), [&](const TourView& other) { return other.sees == sees; });
       if (!sees.empty() && is_new) {
         views.push_back({place, pose, std::move(sees)});
-        if (!turns) {
-          break;
-        }
       }
     }
   }

@@ -217,6 +217,11 @@ VANTAGE_INLINE double RangeSensor::horizontal_angle_rad() const {
              : std::atan((cx + 0.5) / fx) + std::atan((static_cast<double>(width) - 0.5 - cx) / fx);
 }
 
+VANTAGE_INLINE bool RangeSensor::looks_all_around() const {
+  constexpr double kRounding = 1e-3;
+  return horizontal_angle_rad() >= 2.0 * detail::kPi - kRounding;
+}
+
 VANTAGE_INLINE double RangeSensor::vertical_angle_rad() const {
   return projection == Projection::Spherical
              ? vertical_fov_rad

@@ -121,8 +121,7 @@ VANTAGE_INLINE void ReachableSpace::assign(const VoxelIndex& brick, const BrickP
 
 // Merges the changed bricks into the list of bricks.
 VANTAGE_INLINE void ReachableSpace::count() {
-  std::sort(changed_.begin(), changed_.end(), RasterOrder{});
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  sort_unique(changed_);
   if (changed_.empty() && !started_anew_) {
     return;
   }
