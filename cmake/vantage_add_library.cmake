@@ -3,7 +3,7 @@
 # vantage_add_library(<component> [SOURCES ...] [BODIES ...] [PRIVATE_HEADERS ...] HEADERS ...
 #                     LINKS PUBLIC|PRIVATE ...)
 # BODIES: files under include/ that define what headers declare; each is compiled once, as a source.
-# HEADERS: public headers relative to include/; each must compile alone.
+# HEADERS: public headers relative to include/. Each of them and each body must compile alone.
 function(vantage_add_library component)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;BODIES;PRIVATE_HEADERS;HEADERS;LINKS")
   set(target vantage_${component})
@@ -47,7 +47,7 @@ function(vantage_add_library component)
     vantage_install_headers(${arg_HEADERS} ${arg_PRIVATE_HEADERS} ${arg_BODIES})
   endif()
   if(VANTAGE_BUILD_TESTS)
-    vantage_check_headers(${component} ${arg_HEADERS})
+    vantage_check_headers(${component} ${arg_HEADERS} ${arg_BODIES})
   endif()
 endfunction()
 
@@ -86,7 +86,7 @@ function(vantage_install_headers)
   endforeach()
 endfunction()
 
-# Target public_headers: compiles each public header alone.
+# Target public_headers: compiles each public header and each body alone. Unity builds hide a missing include.
 function(vantage_check_headers component)
   set(sources)
   foreach(header IN LISTS ARGN)
@@ -97,6 +97,7 @@ function(vantage_check_headers component)
   add_library(vantage_${component}_headers OBJECT EXCLUDE_FROM_ALL ${sources})
   target_link_libraries(vantage_${component}_headers PRIVATE vantage::${component})
   set_target_properties(vantage_${component}_headers PROPERTIES UNITY_BUILD OFF)
+  target_compile_options(vantage_${component}_headers PRIVATE -O0)  # the code is not kept
   vantage_warnings(vantage_${component}_headers)
   if(NOT TARGET public_headers)
     add_custom_target(public_headers)

@@ -13,7 +13,8 @@ if command -v ccache >/dev/null; then
 fi
 # The folder of tests/run.sh is used as it is; a new one is made without the tests.
 if [[ ! -f build/release/build.ninja ]]; then
-  cmake -S . -B build/release -G Ninja -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_EXAMPLES=OFF
+  cmake -S . -B build/release -G Ninja -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF \
+    -DVANTAGE_BUILD_EXAMPLES=OFF -DCMAKE_UNITY_BUILD=ON
 fi
 cmake --build build/release --parallel "$(nproc)" --target vantage
 

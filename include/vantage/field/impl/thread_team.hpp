@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <thread>
+#include <vantage/compiler.hpp>
 #include <vector>
 
 namespace vantage::detail {

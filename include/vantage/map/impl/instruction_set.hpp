@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vantage/compiler.hpp>
 #include <vector>
 
 namespace vantage {

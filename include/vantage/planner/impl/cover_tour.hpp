@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vantage/compiler.hpp>
 #include <vector>
 
 namespace vantage::detail {

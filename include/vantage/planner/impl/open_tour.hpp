@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vantage/compiler.hpp>
 #include <vector>
 
 namespace vantage::detail {
