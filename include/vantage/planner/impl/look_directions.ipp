@@ -42,7 +42,8 @@ VANTAGE_INLINE LookDirections::LookDirections(const Situation& situation, const 
     : situation_(situation),
       position_(position),
       place_(situation.map().frame().cell_of(position)),
-      targets_(situation, position, counted_range_m(situation.map(), situation.sensor()), operations),
+      targets_(situation, situation.survey().targets, position, counted_range_m(situation.map(), situation.sensor()),
+               operations),
       operations_(operations) {
   const OccupancyMap& map = situation.map();
   const RangeSensor& sensor = situation.sensor();

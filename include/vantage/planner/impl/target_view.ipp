@@ -38,7 +38,7 @@ VANTAGE_INLINE TargetView view_of_target(const Situation& situation, const Front
   const Eigen::Vector3d position = situation.reachable().position_in(wanted.viewpoint);
   const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
   const double furthest_m = std::max(detail::counted_range_m(map, sensor), line.norm());
-  const detail::TargetsInSight in_sight(situation, position, furthest_m, operations);
+  const detail::TargetsInSight in_sight(situation, situation.survey().targets, position, furthest_m, operations);
   TargetView best = in_sight.in_view(platform.facing(position, line));
   // Orientations half-way between the wanted target and about 32 others, evenly chosen from the list: more of them
   // come into view together with the wanted one.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vantage/planner/situation.hpp>
 #include <vantage/planner/target_view.hpp>
 #include <vector>
@@ -13,8 +14,8 @@ namespace vantage::detail {
   return std::min(sensor.max_range_m, sensor.resolving_range_m(map.resolution_m()));
 }
 
-/// The targets in clear line of sight from a place, whatever the orientation. Those whose viewpoint this is are in
-/// sight, if only in part.
+/// Those of some targets that are in clear line of sight from a place, whatever the orientation. Targets whose
+/// viewpoint this is are in sight, if only in part.
 class TargetsInSight {
  public:
   struct Sighting {
@@ -22,13 +23,14 @@ class TargetsInSight {
     Eigen::Vector3d line;  ///< from the place to the centre of the cell, metres, world
   };
 
-  /// From `position` (metres, world), up to `furthest_m`. Adds the number of visited cells to `operations`.
-  TargetsInSight(const Situation& situation, const Eigen::Vector3d& position, double furthest_m,
-                 std::uint64_t& operations);
+  /// Of `targets`, from `position` (metres, world), up to `furthest_m`. Adds the number of visited cells to
+  /// `operations`.
+  TargetsInSight(const Situation& situation, std::span<const FrontierTarget> targets, const Eigen::Vector3d& position,
+                 double furthest_m, std::uint64_t& operations);
 
   /// Those in the field of view of a sensor at this place, turned as in `pose`.
   [[nodiscard]] TargetView in_view(const Pose& pose) const;
-  /// All of them, in the order of the survey.
+  /// All of them, in the order of the targets.
   [[nodiscard]] const std::vector<Sighting>& all() const { return sightings_; }
   /// Leaves out the targets whose unknown cell was looked at in vain from the place.
   void leave_out_tried();

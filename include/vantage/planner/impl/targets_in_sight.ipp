@@ -5,11 +5,12 @@
 
 namespace vantage::detail {
 
-VANTAGE_INLINE TargetsInSight::TargetsInSight(const Situation& situation, const Eigen::Vector3d& position,
-                                              double furthest_m, std::uint64_t& operations)
+VANTAGE_INLINE TargetsInSight::TargetsInSight(const Situation& situation, std::span<const FrontierTarget> targets,
+                                              const Eigen::Vector3d& position, double furthest_m,
+                                              std::uint64_t& operations)
     : situation_(situation), place_(situation.map().frame().cell_of(position)) {
   const OccupancyMap& map = situation.map();
-  for (const FrontierTarget& target : situation.survey().targets) {
+  for (const FrontierTarget& target : targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
     const double range_m = line.norm();
     if (range_m >= situation.sensor().min_range_m && range_m <= furthest_m &&

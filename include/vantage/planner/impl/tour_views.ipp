@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 
@@ -58,17 +59,26 @@ inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::
   return places;
 }
 
-// The numbers of those of `cells` that are in `unknown`.
-inline std::vector<std::uint32_t> numbers_of(const std::vector<VoxelIndex>& cells,
-                                             const std::vector<VoxelIndex>& unknown) {
-  std::vector<std::uint32_t> numbers;
-  for (const VoxelIndex& cell : cells) {
-    const auto at = std::lower_bound(unknown.begin(), unknown.end(), cell, RasterOrder{});
-    if (at != unknown.end() && *at == cell) {
-      numbers.push_back(static_cast<std::uint32_t>(at - unknown.begin()));
-    }
+// An unknown cell in sight of a place.
+struct NumberedLine {
+  std::uint32_t number;
+  Eigen::Vector3d line;  // from the place, metres, world
+};
+
+// What is in sight, by number in `unknown`, each cell once.
+inline std::vector<NumberedLine> numbered(const std::vector<TargetsInSight::Sighting>& sightings,
+                                          const std::vector<VoxelIndex>& unknown) {
+  std::vector<NumberedLine> lines;
+  lines.reserve(sightings.size());
+  for (const TargetsInSight::Sighting& sighting : sightings) {
+    const auto at = std::lower_bound(unknown.begin(), unknown.end(), sighting.unknown, RasterOrder{});
+    lines.push_back({static_cast<std::uint32_t>(at - unknown.begin()), sighting.line});
   }
-  return numbers;
+  const auto before = [](const NumberedLine& a, const NumberedLine& b) { return a.number < b.number; };
+  std::sort(lines.begin(), lines.end(), before);
+  const auto same = [](const NumberedLine& a, const NumberedLine& b) { return a.number == b.number; };
+  lines.erase(std::unique(lines.begin(), lines.end(), same), lines.end());
+  return lines;
 }
 
 VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vector<FrontierSite>& sites,
@@ -82,20 +92,30 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
     }
   }
   sort_unique(unknown);
+  std::vector<FrontierTarget> wanted;
+  std::copy_if(situation.survey().targets.begin(), situation.survey().targets.end(), std::back_inserter(wanted),
+               [&](const FrontierTarget& target) {
+                 return std::binary_search(unknown.begin(), unknown.end(), target.unknown, RasterOrder{});
+               });
   for (const VoxelIndex& place : places_of(situation, sites, middles)) {
     const Eigen::Vector3d position = situation.reachable().position_in(place);
-    TargetsInSight in_sight(situation, position, range_m, operations);
+    TargetsInSight in_sight(situation, wanted, position, range_m, operations);
     in_sight.leave_out_tried();
+    const std::vector<NumberedLine> lines = numbered(in_sight.all(), unknown);
     const auto first = static_cast<std::ptrdiff_t>(views.size());
-    for (std::size_t i = 0; i < middles.size() && !in_sight.all().empty(); ++i) {
+    for (std::size_t i = 0; i < middles.size() && !lines.empty(); ++i) {
       const Eigen::Vector3d line = middles[i] - position;
       if (line.norm() < 1e-3 || line.norm() > 1.5 * range_m) {
         continue;
       }
       const Pose pose = situation.platform().facing(position, line);
-      std::vector<VoxelIndex> in_view = in_sight.in_view(pose).unknown;
-      sort_unique(in_view);
-      std::vector<std::uint32_t> sees = numbers_of(in_view, unknown);
+      const Eigen::Matrix3d sensor_from_world = pose.linear().transpose();
+      std::vector<std::uint32_t> sees;
+      for (const NumberedLine& cell : lines) {
+        if (situation.sensor().in_view(sensor_from_world * cell.line)) {
+          sees.push_back(cell.number);
+        }
+      }
       const bool is_new =
           std::none_of(views.begin() + first, views.end(), [&](const TourView& other) { return other.sees == sees; });
       if (!sees.empty() && is_new) {
