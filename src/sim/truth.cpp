@@ -58,11 +58,6 @@ VoxelGrid<CellTruth> cells_of_plan(const GroundPlan& plan, const VoxelFrame& fra
   return cells;
 }
 
-// The bricks that hold these cells.
-VoxelBox bricks_with(const VoxelBox& cells) {
-  return {Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-}
-
 // The largest set of nonzero cells joined face to face; of several, the first in raster order.
 std::vector<VoxelIndex> largest_component(const VoxelGrid<std::uint8_t>& admitted) {
   VoxelGrid<std::uint8_t> seen(admitted.box(), 0);
@@ -115,7 +110,7 @@ Truth::Truth(const World& world, double resolution_m, const Box& region, double 
     cells_ = VoxelGrid<CellTruth>(covered, CellTruth::Free);
     rasterise(world.mesh, frame, kGrazedShare, cells_);
   }
-  for_each_cell(bricks_with(region_), [&](const VoxelIndex& brick) {
+  for_each_cell(Brick::over(region_), [&](const VoxelIndex& brick) {
     BrickPlane known{};
     BrickPlane occupied{};
     for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {

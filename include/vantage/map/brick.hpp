@@ -40,6 +40,11 @@ struct Brick {
   [[nodiscard]] static constexpr VoxelIndex first_cell(const VoxelIndex& brick) {
     return {brick.x * kSide, brick.y * kSide, brick.z * kSide};
   }
+  /// The addresses of the bricks that overlap a box of cells; empty for an empty box.
+  [[nodiscard]] static constexpr VoxelBox over(const VoxelBox& cells) {
+    return cells.empty() ? VoxelBox{}
+                         : VoxelBox{of_cell(cells.lo), of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  }
   /// Position of a cell within its brick: word * 64 + bit, in [0, 512). Only the low three bits of each coordinate
   /// count.
   [[nodiscard]] static constexpr std::size_t offset_of(const VoxelIndex& cell) {

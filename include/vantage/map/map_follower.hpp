@@ -46,7 +46,7 @@ class MapFollower {
                                                                            const VoxelBox& changed) {
     const VoxelBox cells = begin(changed);
     std::size_t count = 0;
-    for_each_cell(bricks_of(cells),
+    for_each_cell(Brick::over(cells),
                   [&](const VoxelIndex& brick) { count += mirror(host, brick, plane_of(brick, cells)); });
     return count;
   }
@@ -82,7 +82,6 @@ class MapFollower {
 
   VoxelBox begin(const VoxelBox& changed);
   void begin(const BrickSet& changed);
-  static VoxelBox bricks_of(const VoxelBox& cells);
   static BrickPlane plane_of(const VoxelIndex& brick, const VoxelBox& cells);
   std::size_t take(const VoxelIndex& brick, const BrickPlane& asked, const Brick& cells);
   void put(std::size_t offset, Occupancy state, Brick& cells) const {

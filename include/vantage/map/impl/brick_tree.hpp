@@ -57,8 +57,7 @@ class BrickTree {
     if (cells.empty()) {
       return false;
     }
-    const VoxelBox bricks{Brick::of_cell(cells.lo),
-                          Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+    const VoxelBox bricks = Brick::over(cells);
     // Find the lowest level at which the box spans at most two nodes along each axis.
     std::size_t level = 0;
     VoxelBox nodes = parents(bricks);

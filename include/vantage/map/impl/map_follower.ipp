@@ -37,12 +37,6 @@ VANTAGE_INLINE void MapFollower::begin(const BrickSet& changed) {
   map_.begin_revision();
 }
 
-VANTAGE_INLINE VoxelBox MapFollower::bricks_of(const VoxelBox& cells) {
-  return cells.empty() ? VoxelBox{}
-                       : VoxelBox{Brick::of_cell(cells.lo),
-                                  Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-}
-
 VANTAGE_INLINE BrickPlane MapFollower::plane_of(const VoxelIndex& brick, const VoxelBox& cells) {
   return detail::plane_of(brick, cells);
 }

@@ -133,8 +133,7 @@ VANTAGE_INLINE std::optional<double> OccupancyMap::log_odds(const VoxelIndex& co
       });
     }
   };
-  const VoxelBox addresses{Brick::of_cell(cells.lo),
-                           Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  const VoxelBox addresses = Brick::over(cells);
   if (addresses.size() <= bricks_.size()) {
     for_each_cell(addresses, [&](const VoxelIndex& address) {
       if (const Brick* brick = find_brick(address)) {

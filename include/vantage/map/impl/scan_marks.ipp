@@ -26,7 +26,7 @@ inline std::uint64_t bits_within(std::int32_t first, std::int32_t last, std::int
 // The bricks of `cells`. If they have too many cells, a smaller box of bricks around `origin`: the half extent is
 // halved until it fits.
 inline VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
-  const VoxelBox all{Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  const VoxelBox all = Brick::over(cells);
   const VoxelIndex centre = Brick::of_cell(origin);
   const auto within = [&](std::int32_t reach) {
     return VoxelBox{{std::max(all.lo.x, centre.x - reach), std::max(all.lo.y, centre.y - reach),

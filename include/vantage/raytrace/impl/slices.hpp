@@ -15,21 +15,19 @@ namespace vantage {
 // How rays are cast. Every noun of raytrace/impl/ is named here once.
 //
 //                  view: a pose and its rays (ViewRays)
-//                  group: 4 x 4 tiles; tile: 8 x 8 neighbouring rays, a RayBlock once its ends are placed
-//                  (ViewPlacer) cone: bounds the directions of a tile or a group
+//                  group: 4 x 4 tiles; tile: 8 x 8 neighbouring rays, a RayBlock once ViewPlacer placed its ends
+//                  cone: bounds the directions of a tile or a group
 //                    |
 //      BoxCulling    |  cones that miss the box of interest          BlockingGrid
 //      FreeCone      |  cones without a cell that stops a ray          word: 4 x 4 x 4 cells as 64 bits
 //                    v                                                 page: 8 x 8 x 8 words
-//     visible_cells: ViewWalk                cast: TileWalk            distance: how many words around a word are
-//     free
+//     visible_cells: ViewWalk                cast: TileWalk            distance: free words around a word
 //       group by group                         tile by tile                  |
 //       SliceFlood: a beam as a set of cells   class by class                v
 //       BeamPassages: what it found             |                    slices: sheets of cells across the major axis
 //       Outlook: what that tells of a tile      |                    layer: the four slices of a sheet of words
-//                    |                          |                      GridSlices reads words for one tile,
-//                    +----------+---------------+                      ViewSlices rows of cells for all tiles of a
-//                    view
+//                    |                          |                      GridSlices: words for one tile
+//                    +----------+---------------+                      ViewSlices: rows of cells for a view
 //                               v                                            |
 //                           SliceWalk  <--- Stop, SliceWindows --------------+
 //                             SliceBeam through free layers

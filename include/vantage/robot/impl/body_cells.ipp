@@ -12,11 +12,6 @@
 
 namespace vantage::detail {
 
-// The bricks that overlap a box of cells.
-inline VoxelBox bricks_of(const VoxelBox& cells) {
-  return {Brick::of_cell(cells.lo), Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
-}
-
 inline CellRows clear_rows(const OccupancyMap& map, const VoxelBox& bricks) {
   CellRows clear({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
   for_each_cell(bricks, [&](const VoxelIndex& address) {
@@ -84,7 +79,7 @@ VANTAGE_INLINE VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, c
   if (box.empty()) {
     return grid;
   }
-  const CellRows clear = clear_rows(map, bricks_of(box.grown(reach_of(touched))));
+  const CellRows clear = clear_rows(map, Brick::over(box.grown(reach_of(touched))));
   CellRows fits = clear;
   for (const auto& [steps, rows] : rows_of_body(touched)) {
     const CellRows along = clear_along(clear, steps);

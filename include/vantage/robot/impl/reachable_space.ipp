@@ -184,8 +184,7 @@ VANTAGE_INLINE bool ReachableSpace::any_in(const VoxelBox& cells) const {
     }
     return found;
   };
-  const VoxelBox bricks{Brick::of_cell(cells.lo),
-                        Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  const VoxelBox bricks = Brick::over(cells);
   const VoxelIndex extent = bricks.extent();
   if (1.0 * extent.x * extent.y * extent.z > static_cast<double>(bricks_.size())) {
     return std::any_of(bricks_.begin(), bricks_.end(),
