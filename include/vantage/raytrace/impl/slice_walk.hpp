@@ -50,7 +50,21 @@ class SliceWalk {
   [[nodiscard]] std::uint64_t ending_by(double distance) const;
   void end_rays(std::uint64_t ending, double to_first, SliceHits& met) const;
 
+  // Clamps a value to [least, most]; NaN becomes `least`. The limits are members of the walk: with limits that are
+  // compile-time constants g++ 12 turns the minimum and the maximum into masks, which takes twice as long.
+  struct Clamp {
+    double least;
+    double most;
+
+    [[nodiscard]] double operator()(double value) const {
+      const double no_less = value > least ? value : least;
+      return no_less < most ? no_less : most;
+    }
+  };
+
   InstructionSet set_;
+  Clamp steps_{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
+  Clamp places_{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth* SliceLanes::kCell};
   SliceLanes lanes_;
   SliceWindows windows_;
 };

@@ -7,21 +7,6 @@
 #include <vantage/raytrace/impl/slice_walk.hpp>
 
 namespace vantage {
-namespace detail {
-
-// Clamps a value to [least, most]; NaN becomes `least`. Branch-free, for vectorised loops. (g++ 12 vectorises such a
-// loop only if the limits are not compile-time constants.)
-struct Clamped {
-  double least;
-  double most;
-
-  [[nodiscard]] double operator()(double value) const {
-    const double no_less = value > least ? value : least;
-    return no_less < most ? no_less : most;
-  }
-};
-
-}  // namespace detail
 
 static_assert(SliceBeam::kRounding * SliceLanes::kCell + 10 < SliceLanes::kDoubt);
 
@@ -39,8 +24,7 @@ VANTAGE_INLINE void SliceWalk::walk(const SliceBeam& beam, const SliceWindows& w
 
 // Sets how far all rays move per slice; in a slice they advance `through` cells along the major axis.
 VANTAGE_INLINE void SliceWalk::place_steps(double through) {
-  const detail::Clamped steps{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
-  compiled_for(set_, [steps, by = through * SliceLanes::kCell, slope_u = lines.slope[0].data(),
+  compiled_for(set_, [steps = steps_, by = through * SliceLanes::kCell, slope_u = lines.slope[0].data(),
                       slope_v = lines.slope[1].data(), u = lanes_.step_u.data(), v = lanes_.step_v.data()] {
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
@@ -53,8 +37,7 @@ VANTAGE_INLINE void SliceWalk::place_steps(double through) {
 // Places all rays at the distance `enters` from the origin, in cells along the major axis. Positions are clamped,
 // because inactive rays may be anywhere.
 VANTAGE_INLINE void SliceWalk::place_lanes(const SliceBeam& beam, const SlicePlace& place, double enters) {
-  const detail::Clamped places{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth * SliceLanes::kCell};
-  compiled_for(set_, [places, by = enters * SliceLanes::kCell,
+  compiled_for(set_, [places = places_, by = enters * SliceLanes::kCell,
                       from_u = (beam.within[0] + (beam.first[0] - place.first_u)) * SliceLanes::kCell,
                       from_v = (beam.within[1] + (beam.first[1] - place.first_v)) * SliceLanes::kCell,
                       slope_u = lines.slope[0].data(), slope_v = lines.slope[1].data(), u = lanes_.u.data(),

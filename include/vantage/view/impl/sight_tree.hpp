@@ -30,7 +30,7 @@ class SightTree {
   [[nodiscard]] std::optional<VoxelIndex> first(const VoxelIndex& start, const MayAccept& may_accept,
                                                 const Clear& clear, const Accepts& accepts) const {
     Found found;
-    if (!branches_.empty()) {
+    if (!branches_.empty() && may_accept(reach_from(start, branches_.front()))) {
       follow(branches_.front(), start, may_accept, clear, accepts, found);
     }
     return found.cell;
@@ -53,16 +53,24 @@ class SightTree {
   std::size_t grow(const std::vector<std::vector<VoxelIndex>>& rays, const std::vector<std::size_t>& together,
                    std::size_t depth);
 
+  static VoxelBox reach_from(const VoxelIndex& start, const Branch& branch) {
+    return {start + branch.reach.lo, start + branch.reach.hi};
+  }
+
   // Skips branches whose rays all come after the result found so far.
   template <class MayAccept, class Clear, class Accepts>
   void follow(const Branch& branch, const VoxelIndex& start, const MayAccept& may_accept, const Clear& clear,
               const Accepts& accepts, Found& found) const {
-    if (branch.direction >= found.direction || !may_accept({start + branch.reach.lo, start + branch.reach.hi})) {
+    if (branch.direction >= found.direction) {
       return;
     }
     for (std::size_t step = branch.first_step; step < branch.last_step; ++step) {
       const VoxelIndex cell = start + steps_[step];
       if (!clear(cell)) {
+        return;
+      }
+      // Asked behind the first cell, where many branches end.
+      if (step == branch.first_step && !may_accept(reach_from(start, branch))) {
         return;
       }
       if (accepts(cell)) {
