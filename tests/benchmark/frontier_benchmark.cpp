@@ -167,6 +167,7 @@ void plan(benchmark::State& state, std::string_view name, const std::string& wor
   after_every_scan(state, world, plan_in, plan_in);
   state.counters["reachable_cells"] = static_cast<double>(latest.statistics.reachable_cells);
   state.counters["void_cells"] = static_cast<double>(latest.statistics.void_cells);
+  state.counters["operations"] = static_cast<double>(latest.statistics.ray_operations);
   state.counters["survey_ms"] = latest.statistics.survey_ms;
 }
 

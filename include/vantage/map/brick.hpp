@@ -46,8 +46,8 @@ struct Brick {
                          : VoxelBox{of_cell(cells.lo), of_cell(cells.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   }
   /// Position of a cell within its brick: word * 64 + bit, in [0, 512). Only the low three bits of each coordinate
-  /// count.
-  [[nodiscard]] static constexpr std::size_t offset_of(const VoxelIndex& cell) {
+  /// count. Always inline: it stands in the innermost loops, and g++ 12 calls it there.
+  [[nodiscard, gnu::always_inline]] static constexpr std::size_t offset_of(const VoxelIndex& cell) {
     const auto x = static_cast<std::uint32_t>(cell.x);
     const auto y = static_cast<std::uint32_t>(cell.y);
     const auto z = static_cast<std::uint32_t>(cell.z);

@@ -102,6 +102,10 @@ class TriedViews {
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.
   [[nodiscard]] bool any_rests() const { return !resting_.empty(); }
+  /// The goals that rest; with them rest the places within the goal tolerance.
+  [[nodiscard]] const std::vector<VoxelIndex>& resting() const { return resting_; }
+  /// A box that contains all places that rest with this goal.
+  [[nodiscard]] VoxelBox resting_with(const VoxelIndex& goal) const;
   /// The number of resting places that failed three times.
   [[nodiscard]] std::size_t places_given_up() const;
   /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.
@@ -161,6 +165,7 @@ class TriedViews {
     std::vector<std::uint64_t> bits_;  // empty until the first cell is inserted
   };
 
+  [[nodiscard]] double rest_reach() const;
   [[nodiscard]] const Looks* looks_at(const VoxelIndex& unknown) const;
   Looks& new_look_at(const OccupancyMap& map, const VoxelIndex& unknown);
   void forget(const OccupancyMap& map);

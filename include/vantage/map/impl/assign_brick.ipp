@@ -61,7 +61,7 @@ VANTAGE_INLINE std::size_t OccupancyMap::write_brick(const VoxelIndex& address, 
                                                      const Brick& cells) {
   std::size_t known = 0;
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    known += static_cast<std::size_t>(std::popcount(cells.known[word] & which[word]));
+    known += detail::bits_in(cells.known[word] & which[word]);
   }
   if (known == 0 && directory_.find(address) == BrickDirectory::kNone) {
     return 0;
@@ -80,7 +80,7 @@ VANTAGE_INLINE std::size_t OccupancyMap::write_brick(const VoxelIndex& address, 
     const std::uint64_t old = brick.known[word];
     const std::uint64_t occupied = (brick.occupied[word] & ~of) | (cells.occupied[word] & of);
     brick.known[word] = (old & ~of) | (cells.known[word] & of);
-    changed += static_cast<std::size_t>(std::popcount((old ^ brick.known[word]) | (brick.occupied[word] ^ occupied)));
+    changed += detail::bits_in((old ^ brick.known[word]) | (brick.occupied[word] ^ occupied));
     brick.occupied[word] = occupied;
     any_new |= brick.known[word] & ~old;
     gone[word] = old & ~brick.known[word];

@@ -9,6 +9,9 @@
 #include <vantage/geometry/voxel_table.hpp>
 #include <vantage/map/brick.hpp>
 
+#include <vantage/geometry/impl/box_around.hpp>
+#include <vantage/geometry/impl/box_overlap.hpp>
+
 namespace vantage::detail {
 
 /// A set of bricks that answers whether any brick overlaps a box. It is a tree whose nodes have 4 x 4 x 4 children,
@@ -17,6 +20,7 @@ class BrickTree {
  public:
   /// Adds a brick.
   void insert(const VoxelIndex& brick) {
+    around_ = box_around(around_, {brick, brick + VoxelIndex{1, 1, 1}});
     VoxelIndex child = brick;
     for (VoxelTable<std::uint64_t>& level : levels_) {
       const VoxelIndex node{child.x >> 2, child.y >> 2, child.z >> 2};
@@ -50,14 +54,15 @@ class BrickTree {
     for (VoxelTable<std::uint64_t>& level : levels_) {
       level.clear();
     }
+    around_ = {};
   }
 
   /// Whether any brick of the set overlaps this box of cells.
   [[nodiscard]] bool touches(const VoxelBox& cells) const {
-    if (cells.empty()) {
+    const VoxelBox bricks = box_overlap(Brick::over(cells), around_);
+    if (bricks.empty()) {
       return false;
     }
-    const VoxelBox bricks = Brick::over(cells);
     // Find the lowest level at which the box spans at most two nodes along each axis.
     std::size_t level = 0;
     VoxelBox nodes = parents(bricks);
@@ -138,6 +143,7 @@ class BrickTree {
     return false;
   }
 
+  VoxelBox around_;  // contains all bricks
   // Enough levels for every address. Nodes of level i + 1 contain nodes of level i.
   std::array<VoxelTable<std::uint64_t>, 15> levels_;
 };

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <utility>
+#include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/map/impl/grazed_cells.hpp>
 #include <vantage/map/impl/mark_rays.hpp>
 #include <vantage/map/impl/update_word.hpp>
@@ -70,7 +70,7 @@ class ScanInserter {
     const BrickDirectory::Number number = map_.brick_for(address);
     if (number == BrickDirectory::kNone) {
       for (std::size_t word = 0; word < Brick::kWords; ++word) {
-        refuse(static_cast<std::size_t>(std::popcount(marks.hit[word] | marks.passed[word])));
+        refuse(detail::bits_in(marks.hit[word] | marks.passed[word]));
       }
       return;
     }
@@ -101,9 +101,9 @@ class ScanInserter {
       brick.known[word] |= touched;
       brick.occupied[word] = occupied;
       any_change |= changed;
-      report_.cells_hit += static_cast<std::size_t>(std::popcount(marks.hit[word]));
-      report_.cells_cleared += static_cast<std::size_t>(std::popcount(marks.passed[word]));
-      report_.cells_changed += static_cast<std::size_t>(std::popcount(changed));
+      report_.cells_hit += detail::bits_in(marks.hit[word]);
+      report_.cells_cleared += detail::bits_in(marks.passed[word]);
+      report_.cells_changed += detail::bits_in(changed);
     }
     return any_change != 0;
   }

@@ -9,6 +9,7 @@
 
 #include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/map/impl/brick_file.hpp>
+#include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
@@ -166,8 +167,8 @@ VANTAGE_INLINE OccupancyMap::Counts OccupancyMap::counts() const {
   Counts counts;
   for_each_brick([&](const VoxelIndex&, const Brick& brick) {
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      counts.free += static_cast<std::size_t>(std::popcount(brick.free(word)));
-      counts.occupied += static_cast<std::size_t>(std::popcount(brick.occupied[word]));
+      counts.free += detail::bits_in(brick.free(word));
+      counts.occupied += detail::bits_in(brick.occupied[word]);
     }
   });
   return counts;

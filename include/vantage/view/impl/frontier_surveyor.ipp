@@ -42,7 +42,7 @@ class ViewpointSearch {
       return std::nullopt;
     }
     return memory_.look_around(
-        unknown, tried_.tried(unknown) || tried_.any_rests(), [&](const VoxelIndex& cell) { return passes(cell); },
+        unknown, tried_.tried(unknown), [&](const VoxelIndex& cell) { return passes(cell); },
         [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
   // Searches backwards from a frontier cell for a viewpoint that sees a part of one of its unknown neighbours.
@@ -72,7 +72,7 @@ class ViewpointSearch {
         return std::nullopt;
       }
       --pairs;
-      if (sees_a_part(cell, unknown)) {
+      if (memory_.is_reachable(cell) && sees_a_part(cell, unknown)) {
         return cell;
       }
     }
@@ -149,7 +149,7 @@ class ViewpointSearch {
   bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
     const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
-    return !tried_.tried_from(unknown, viewpoint) && !tried_.rests(viewpoint) &&
+    return !tried_.tried_from(unknown, viewpoint) &&
            (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
   }
 
@@ -227,7 +227,7 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey_from(const std::vector<Vo
 
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const TriedViews& tried,
                                                              std::vector<VoxelIndex> frontier) {
-  memory_->follow(map, reachable_, detail::furthest_m(map, sensor_), options_.sight_directions);
+  memory_->follow(map, reachable_, tried, detail::furthest_m(map, sensor_), options_.sight_directions);
   FrontierSurvey survey;
   survey.frontier_cells = frontier.size();
   if (frontier.empty() || !reachable_.start()) {

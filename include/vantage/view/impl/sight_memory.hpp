@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/robot/reachable_space.hpp>
+#include <vantage/view/tried_views.hpp>
 #include <vector>
 
 #include <vantage/map/impl/brick_tree.hpp>
@@ -33,16 +35,17 @@ namespace vantage::detail {
 /// bounding box.
 class SightMemory {
  public:
-  /// Updates the clear and the reachable cells. `reachable` must be the same object in every call, and must have
-  /// followed `map` once since the last call. Searches use `direction_count` rays of length `furthest_m`, metres;
-  /// if one of these or the cell size changes, all answers are dropped.
-  void follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
+  /// Updates the clear and the reachable cells; resting places (TriedViews) count as not reachable. `reachable` must
+  /// be the same object in every call, and must have followed `map` once since the last call. Searches use
+  /// `direction_count` rays of length `furthest_m`, metres; if one of these or the cell size changes, all answers are
+  /// dropped.
+  void follow(const OccupancyMap& map, const ReachableSpace& reachable, const TriedViews& tried, double furthest_m,
               std::size_t direction_count);
 
   [[nodiscard]] double furthest_m() const { return furthest_m_; }
   /// Whether sight passes this cell. During a search, the answer depends on this cell from now on.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell);
-  /// Whether the platform can bring the sensor to this cell, as of the last `follow`.
+  /// Whether the platform can bring the sensor to this cell and it does not rest, as of the last `follow`.
   [[nodiscard]] bool is_reachable(const VoxelIndex& cell) const;
 
   /// Searches along the rays from `unknown`: each continues while `passes(cell)`, and ends at the first reachable
@@ -75,14 +78,20 @@ class SightMemory {
 
   void begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count);
   void follow_clear(const OccupancyMap& map);
-  void follow_places(const ReachableSpace& reachable);
+  void follow_places(const ReachableSpace& reachable, const TriedViews& tried);
   template <class Member>
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
+  // Makes a brick of blocks the last one. It is stored even if unknown, so that a later change is noticed.
+  [[gnu::noinline]] void turn_to(const VoxelIndex& brick);
+  // The search, if there is one, looks at a block of the last brick.
+  [[gnu::noinline]] void note(std::size_t block);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
   [[nodiscard]] bool stands(const Answer& answer) const;
   static VoxelIndex block_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
   static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (Brick::offset_of(cell) & 63U); }
+
+  static constexpr VoxelIndex kNoBrick{std::numeric_limits<std::int32_t>::max(), 0, 0};
 
   double cell_size_m_ = 0.0;
   double furthest_m_ = 0.0;
@@ -90,11 +99,12 @@ class SightMemory {
   std::optional<SightTree> tree_;
   KnownMap map_;  // of the last follow
   OccupancyMap::Revision followed_ = 0;
-  BrickGrid<Block> blocks_;  // indexed by block address as if it were a cell
-  BrickTree places_;         // bricks with reachable cells
+  BrickGrid<Block> blocks_;          // indexed by block address as if it were a cell
+  BrickTree places_;                 // bricks with reachable cells, resting or not
+  std::vector<VoxelIndex> resting_;  // goals that rested in the last follow
   // The brick of blocks of the last is_clear since `follow`; no block moves while others are stored.
   BrickGrid<Block>::Values* last_blocks_ = nullptr;
-  VoxelIndex last_brick_;
+  VoxelIndex last_brick_ = kNoBrick;
   std::uint32_t last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;
@@ -103,25 +113,23 @@ class SightMemory {
   VoxelTable<std::uint32_t> numbers_;  // of the answers, by unknown cell
 };
 
+// The innermost step of a search: what happens seldom stands in functions of its own.
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
   const VoxelIndex address = block_of(cell);
-  const VoxelIndex brick = Brick::of_cell(address);
-  if (last_blocks_ == nullptr || brick != last_brick_) {
-    last_brick_ = brick;
-    last_number_ = blocks_.store(brick);  // stored even if unknown, so that a later change is noticed
-    last_blocks_ = &blocks_.values(last_number_);
+  if (const VoxelIndex brick = Brick::of_cell(address); brick != last_brick_) {
+    turn_to(brick);
   }
   const std::size_t offset = Brick::offset_of(address);
   Block& block = (*last_blocks_)[offset];
-  if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
-    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + offset));
+  if (std::exchange(block.looked_at, question_) != question_) {
+    note(offset);
   }
   return (block.clear & bit_of(cell)) != 0;
 }
 
 inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
   const VoxelIndex address = block_of(cell);
-  const bool near = last_blocks_ != nullptr && Brick::of_cell(address) == last_brick_;
+  const bool near = Brick::of_cell(address) == last_brick_;
   const Block& block = near ? (*last_blocks_)[Brick::offset_of(address)] : blocks_[address];
   return (block.reachable & bit_of(cell)) != 0;
 }

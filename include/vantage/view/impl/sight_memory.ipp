@@ -5,22 +5,38 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include <vantage/geometry/impl/spread_directions.hpp>
 
 namespace vantage::detail {
 
-VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachable, double furthest_m,
-                                        std::size_t direction_count) {
+// The cells of a brick that do not rest.
+inline BrickPlane without_resting(BrickPlane cells, const VoxelIndex& brick, const TriedViews& tried) {
+  const bool any = std::any_of(tried.resting().begin(), tried.resting().end(), [&](const VoxelIndex& goal) {
+    return Brick::over(tried.resting_with(goal)).contains(brick);
+  });
+  for (std::size_t word = 0; any && word < Brick::kWords; ++word) {
+    for_each_offset(cells[word], word, [&](std::size_t offset) {
+      const bool rests = tried.rests(Brick::first_cell(brick) + Brick::cell_at(offset));
+      cells[word] &= ~(std::uint64_t{rests} << (offset & 63U));
+    });
+  }
+  return cells;
+}
+
+VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachable,
+                                        const TriedViews& tried, double furthest_m, std::size_t direction_count) {
   if (cell_size_m_ != map.resolution_m() || furthest_m_ != furthest_m || direction_count_ != direction_count) {
     begin(map, furthest_m, direction_count);
   }
   asked_ = nullptr;
   last_blocks_ = nullptr;
+  last_brick_ = kNoBrick;
   ++survey_;
   follow_clear(map);
-  follow_places(reachable);
+  follow_places(reachable, tried);
 }
 
 VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
@@ -54,7 +70,7 @@ VANTAGE_INLINE void SightMemory::follow_clear(const OccupancyMap& map) {
   followed_ = map.revision();
 }
 
-VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable) {
+VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, const TriedViews& tried) {
   if (reachable.started_anew()) {
     for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
       for (Block& block : blocks_.values(number)) {
@@ -63,10 +79,20 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable) 
     }
     places_.clear();
   }
+  const auto update = [&](const VoxelIndex& brick) {
+    const BrickPlane* const cells = reachable.find(brick);
+    set(brick, cells == nullptr ? BrickPlane{} : without_resting(*cells, brick, tried), &Block::reachable);
+  };
   for (const VoxelIndex& brick : reachable.changed()) {
-    const BrickPlane& cells = *reachable.find(brick);
-    set(brick, cells, &Block::reachable);
-    cells == BrickPlane{} ? places_.erase(brick) : places_.insert(brick);
+    update(brick);
+    *reachable.find(brick) == BrickPlane{} ? places_.erase(brick) : places_.insert(brick);
+  }
+  if (resting_ != tried.resting()) {
+    for (const std::vector<VoxelIndex>& goals : {std::exchange(resting_, tried.resting()), tried.resting()}) {
+      for (const VoxelIndex& goal : goals) {
+        for_each_cell(Brick::over(tried.resting_with(goal)), update);
+      }
+    }
   }
 }
 
@@ -81,6 +107,18 @@ void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member m
     if (std::exchange(block.*member, cells[word]) != cells[word]) {
       block.changed = survey_;
     }
+  }
+}
+
+VANTAGE_INLINE void SightMemory::turn_to(const VoxelIndex& brick) {
+  last_brick_ = brick;
+  last_number_ = blocks_.store(brick);
+  last_blocks_ = &blocks_.values(last_number_);
+}
+
+VANTAGE_INLINE void SightMemory::note(std::size_t block) {
+  if (asked_ != nullptr) {
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + block));
   }
 }
 

@@ -315,8 +315,15 @@ VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
          (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
 }
 
+// In cells.
+VANTAGE_INLINE double TriedViews::rest_reach() const { return std::max(options_.goal_tolerance_m / cell_m_, 1.0); }
+
+VANTAGE_INLINE VoxelBox TriedViews::resting_with(const VoxelIndex& goal) const {
+  return VoxelBox{goal, goal + VoxelIndex{1, 1, 1}}.grown(static_cast<std::int32_t>(rest_reach()));
+}
+
 VANTAGE_INLINE bool TriedViews::rests(const VoxelIndex& place) const {
-  const double reach = std::max(options_.goal_tolerance_m / cell_m_, 1.0);
+  const double reach = rest_reach();
   return std::any_of(resting_.begin(), resting_.end(), [&](const VoxelIndex& other) {
     return detail::squared_distance(place, other) <= reach * reach;
   });
