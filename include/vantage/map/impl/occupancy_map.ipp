@@ -252,9 +252,10 @@ VANTAGE_INLINE VoxelBox OccupancyMap::writable(const VoxelBox& cells, const char
   require_addressable(inside.lo, what);
   require_addressable(inside.hi - VoxelIndex{1, 1, 1}, what);
   const VoxelIndex extent = inside.extent();
-  const double cells_inside = 1.0 * extent.x * extent.y * extent.z;
-  detail::require_option(cells_inside <= static_cast<double>(kMaxBoxCells), std::string(what) + ": count of cells",
-                         cells_inside, "at most OccupancyMap::kMaxBoxCells (1073741824)");
+  if (const double count = 1.0 * extent.x * extent.y * extent.z; count > static_cast<double>(kMaxBoxCells)) {
+    detail::require_option(false, std::string(what) + ": count of cells", count,
+                           "at most OccupancyMap::kMaxBoxCells (1073741824)");
+  }
   return inside;
 }
 
