@@ -102,10 +102,8 @@ class TriedViews {
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.
   [[nodiscard]] bool any_rests() const { return !resting_.empty(); }
-  /// The goals that rest; with them rest the places within the goal tolerance.
-  [[nodiscard]] const std::vector<VoxelIndex>& resting() const { return resting_; }
-  /// A box that contains all places that rest with this goal.
-  [[nodiscard]] VoxelBox resting_with(const VoxelIndex& goal) const;
+  /// Boxes of cells that contain all resting places, one for each goal that rests.
+  [[nodiscard]] std::vector<VoxelBox> resting() const;
   /// The number of resting places that failed three times.
   [[nodiscard]] std::size_t places_given_up() const;
   /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.

@@ -99,9 +99,9 @@ class SightMemory {
   std::optional<SightTree> tree_;
   KnownMap map_;  // of the last follow
   OccupancyMap::Revision followed_ = 0;
-  BrickGrid<Block> blocks_;          // indexed by block address as if it were a cell
-  BrickTree places_;                 // bricks with reachable cells, resting or not
-  std::vector<VoxelIndex> resting_;  // goals that rested in the last follow
+  BrickGrid<Block> blocks_;        // indexed by block address as if it were a cell
+  BrickTree places_;               // bricks with reachable cells, resting or not
+  std::vector<VoxelBox> resting_;  // TriedViews::resting of the last follow
   // The brick of blocks of the last is_clear since `follow`; no block moves while others are stored.
   BrickGrid<Block>::Values* last_blocks_ = nullptr;
   VoxelIndex last_brick_ = kNoBrick;

@@ -14,10 +14,7 @@ namespace vantage::detail {
 
 // The cells of a brick that do not rest.
 inline BrickPlane without_resting(BrickPlane cells, const VoxelIndex& brick, const TriedViews& tried) {
-  const bool any = std::any_of(tried.resting().begin(), tried.resting().end(), [&](const VoxelIndex& goal) {
-    return Brick::over(tried.resting_with(goal)).contains(brick);
-  });
-  for (std::size_t word = 0; any && word < Brick::kWords; ++word) {
+  for (std::size_t word = 0; word < Brick::kWords; ++word) {
     for_each_offset(cells[word], word, [&](std::size_t offset) {
       const bool rests = tried.rests(Brick::first_cell(brick) + Brick::cell_at(offset));
       cells[word] &= ~(std::uint64_t{rests} << (offset & 63U));
@@ -79,19 +76,24 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
     }
     places_.clear();
   }
+  const std::vector<VoxelBox> resting = tried.resting();
   const auto update = [&](const VoxelIndex& brick) {
     const BrickPlane* const cells = reachable.find(brick);
-    set(brick, cells == nullptr ? BrickPlane{} : without_resting(*cells, brick, tried), &Block::reachable);
+    const bool any_rest = std::any_of(resting.begin(), resting.end(),
+                                      [&](const VoxelBox& box) { return Brick::over(box).contains(brick); });
+    const BrickPlane places = cells == nullptr ? BrickPlane{} : *cells;
+    set(brick, any_rest ? without_resting(places, brick, tried) : places, &Block::reachable);
   };
   for (const VoxelIndex& brick : reachable.changed()) {
     update(brick);
     *reachable.find(brick) == BrickPlane{} ? places_.erase(brick) : places_.insert(brick);
   }
-  if (resting_ != tried.resting()) {
-    for (const std::vector<VoxelIndex>& goals : {std::exchange(resting_, tried.resting()), tried.resting()}) {
-      for (const VoxelIndex& goal : goals) {
-        for_each_cell(Brick::over(tried.resting_with(goal)), update);
-      }
+  if (resting_ != resting) {
+    for (const VoxelBox& box : std::exchange(resting_, resting)) {
+      for_each_cell(Brick::over(box), update);
+    }
+    for (const VoxelBox& box : resting) {
+      for_each_cell(Brick::over(box), update);
     }
   }
 }

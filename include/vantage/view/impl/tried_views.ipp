@@ -318,8 +318,13 @@ VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
 // In cells.
 VANTAGE_INLINE double TriedViews::rest_reach() const { return std::max(options_.goal_tolerance_m / cell_m_, 1.0); }
 
-VANTAGE_INLINE VoxelBox TriedViews::resting_with(const VoxelIndex& goal) const {
-  return VoxelBox{goal, goal + VoxelIndex{1, 1, 1}}.grown(static_cast<std::int32_t>(rest_reach()));
+VANTAGE_INLINE std::vector<VoxelBox> TriedViews::resting() const {
+  std::vector<VoxelBox> boxes;
+  boxes.reserve(resting_.size());
+  for (const VoxelIndex& goal : resting_) {
+    boxes.push_back(VoxelBox{goal, goal + VoxelIndex{1, 1, 1}}.grown(static_cast<std::int32_t>(rest_reach())));
+  }
+  return boxes;
 }
 
 VANTAGE_INLINE bool TriedViews::rests(const VoxelIndex& place) const {
