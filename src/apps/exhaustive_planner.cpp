@@ -81,12 +81,12 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
     if (!worth_it(view)) {
       break;
     }
-    if (auto path = arm_->path(map, current, view.pose)) {
+    auto path = arm_->path(map, current, view.pose);
+    if (path && tried_.expect(map, *path, {}, view.hoped)) {
       plan.outcome = Outcome::Move;
       plan.goal = {view.pose, std::round(view.void_cells)};
       plan.path = std::move(*path);
       plan.reason = "the best of " + std::to_string(plan.statistics.views_scored) + " poses";
-      tried_.expect(map, view.pose, way_of(plan.path), {}, std::move(view.hoped));
       return plan;
     }
   }

@@ -159,7 +159,7 @@ void look_in_vain(SurveyedWorld& world, const FrontierSurvey& survey) {
       }
     }
     const Pose goal = pose_looking(world.map.frame().centre_of(viewpoint), 0.0);
-    world.tried.expect(world.map, goal, 1.0, cells);
+    EXPECT_TRUE(world.tried.expect(world.map, {world.current, goal}, cells));
     world.tried.report(number % 8 == 0 ? GoalResult::Failed : GoalResult::Reached);
     world.map.confirm();
     world.tried.review(world.map, goal);

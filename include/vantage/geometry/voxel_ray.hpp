@@ -68,6 +68,10 @@ class VoxelRay {
   /// returned true. The cells are those of the forward walk; a walk from `to` to `from` may visit others.
   template <class Holds>
   [[nodiscard]] bool all_from_the_end(Holds&& holds) const;
+  /// As above, in the order of the walk, and where the segment passes through an edge or a corner (up to 1e-9 of its
+  /// length), for all cells around that point.
+  template <class Holds>
+  [[nodiscard]] bool all_touched(Holds&& holds) const;
 
  private:
   void advance() {
@@ -123,6 +127,44 @@ bool VoxelRay::all_from_the_end(Holds&& holds) const {
     cell[axis] -= sign_[axis];
     latest[axis] = latest[axis] == faces_[axis].next ? kNone : latest[axis] - faces_[axis].delta;
   }
+}
+
+template <class Holds>
+bool VoxelRay::all_touched(Holds&& holds) const {
+  constexpr std::int64_t kAtOnce = FaceCrossings::kEnd / 1'000'000'000;
+  std::array<std::int32_t, 3> cell = cell_;
+  std::array<FaceCrossings, 3> faces = faces_;
+  if (!holds(VoxelIndex{cell[0], cell[1], cell[2]})) {
+    return false;
+  }
+  for (std::int64_t left = steps_; left > 0;) {
+    const std::int64_t time = std::min({faces[0].next, faces[1].next, faces[2].next});
+    std::array<std::int32_t, 3> step{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (faces[axis].next <= FaceCrossings::kEnd && faces[axis].next - time <= kAtOnce) {
+        step[axis] = sign_[axis];
+        faces[axis].next += faces[axis].delta;
+        --left;
+      }
+    }
+    for (unsigned int part = 1; part < 8; ++part) {  // every subset of the faces that are crossed at once
+      bool crosses = true;
+      std::array<std::int32_t, 3> around = cell;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if ((part >> axis & 1U) != 0U) {
+          crosses = crosses && step[axis] != 0;
+          around[axis] += step[axis];
+        }
+      }
+      if (crosses && !holds(VoxelIndex{around[0], around[1], around[2]})) {
+        return false;
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cell[axis] += step[axis];
+    }
+  }
+  return true;
 }
 
 /// A single-pass iterator over the cells.

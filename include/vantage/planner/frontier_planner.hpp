@@ -54,7 +54,7 @@ class FrontierPlanner : public ExplorationPlanner {
   /// cannot follow it, by the platform's own path search. None if there is none.
   [[nodiscard]] std::optional<std::vector<Pose>> path_to(const Pose& view,
                                                          std::span<const VoxelIndex> way = {}) const;
-  /// Called once per plan after the situation is up to date and before `choose`: discards results of the last plan.
+  /// Called after the situation is up to date and before `choose`: discards results of the last plan.
   virtual void prepare(Plan& /*plan*/) {}
   /// Chooses a view. At least one target exists. May fill in candidates, statistics and reason of `plan`. Returns
   /// nothing if no view serves: the plan is then Blocked, and `plan.reason` should say why. If no path leads to the
@@ -62,6 +62,8 @@ class FrontierPlanner : public ExplorationPlanner {
   [[nodiscard]] virtual std::optional<ChosenView> choose(Plan& plan) = 0;
 
  private:
+  std::vector<VoxelIndex> take_a_view(Plan& plan);
+
   Situation situation_;
 };
 

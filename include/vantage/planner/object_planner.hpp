@@ -55,7 +55,7 @@ class ObjectPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current) const;
   [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& tried) const;
   [[nodiscard]] bool take_first(const OccupancyMap& map, const Pose& current, const std::vector<Candidate>& all,
-                                const std::vector<std::size_t>& worthwhile, Plan& plan) const;
+                                const std::vector<std::size_t>& worthwhile, Plan& plan);
   [[nodiscard]] double way_m(const Pose& from, const Pose& to) const;
 
   PlannerSetup setup_;

@@ -36,7 +36,10 @@ struct TargetView;
 ///     strategy chooses ---> no path to the view: drop(view), choose again
 ///       |
 ///       v
-///     remember(plan)         TriedViews expects the result of this view
+///     remember(plan) ------> the robot comes no nearer to this goal: its place rests, choose again
+///       |                    TriedViews expects the result of this view
+///       v
+///     Move
 ///
 ///     situation.sync(map, current);
 ///     if (std::optional<Plan> end = situation.end()) return *end;
@@ -55,8 +58,9 @@ class Situation {
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
   bool drop(const TargetView& view);
-  /// Stores this plan for the next `sync`. `hoped`: see TriedViews::expect.
-  void remember(const Plan& plan, std::vector<VoxelIndex> hoped);
+  /// Stores this plan for the next `sync`. `hoped`: see TriedViews::expect. Returns false, with the targets that are
+  /// left, if the robot comes no nearer to its goal.
+  [[nodiscard]] bool remember(const Plan& plan, std::vector<VoxelIndex> hoped);
 
   /// The setup of the planner.
   [[nodiscard]] const PlannerSetup& setup() const { return setup_; }
@@ -93,7 +97,9 @@ class Situation {
  private:
   void follow_rays() const;
   void note_what_was_in_vain();
+  void find_targets();
   [[nodiscard]] bool hardly_moves() const;
+  [[nodiscard]] bool stands_beside_unknown() const;
   [[nodiscard]] std::optional<Plan> turn_on_the_spot() const;
   [[nodiscard]] std::optional<VoxelIndex> place_cut_off() const;
 

@@ -19,10 +19,6 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Length of a path in metres plus the angle between the first and the last optical axis in radians. It shrinks while
-/// a robot follows the path.
-[[nodiscard]] double way_of(const std::vector<Pose>& path);
-
 /// When a goal counts as reached, and when a cell is given up.
 struct TriedViewsOptions {
   double goal_tolerance_m = 0.3;     ///< allowed distance from the goal, metres, >= 0
@@ -35,7 +31,9 @@ struct TriedViewsOptions {
 /// to places that it cannot reach.
 ///
 /// **Evidence about an unknown cell.** A cell was looked at in vain from a place if it is still unknown after a scan
-/// there that should have resolved it: the plan sought it, or it was in clear line of sight and near enough.
+/// there that should have resolved it: it was in the field of view and in clear line of sight, and the plan sought it
+/// or it was near enough. A line that touches a cell that is not clear, even at an edge, is not clear: hardly a ray
+/// of a sensor passes there.
 ///
 ///       cell becomes known, or one more face neighbour does: evidence is deleted
 ///        <----------------------------------------------------------+
@@ -50,14 +48,17 @@ struct TriedViewsOptions {
 /// behind them become targets until a view from the front closes the surface again. The number of known neighbours
 /// only grows, whatever their states, so a cell gets at most six further chances.
 ///
-/// **Places that could not be reached.** A place fails if the host reports GoalResult::Failed, or if the robot came
-/// no nearer while the map has changed twice.
+/// **Places that could not be reached.** A place fails if the host reports GoalResult::Failed, or if it would be
+/// asked for a third time although the robot came no nearer: the rest of the path is no shorter or, within the goal
+/// tolerance, the rest of the turn is no smaller.
 ///
 ///     asked for --- fails ---> rests 8 plans (then 16, 32, ...) ---> may be asked for again
 ///                                |
-///                                +--- no other target is left: allowed again at once, until the third failure
+///                                +--- reported, and no other target is left: allowed again at once, until the
+///                                     third failure
 ///
-/// A place rests together with all places within the goal tolerance.
+/// A place rests together with all places within the goal tolerance. Once all that a view sought is known, only the
+/// places that have failed are remembered.
 ///
 /// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first. As text it can
 /// be saved with the map.
@@ -67,11 +68,12 @@ class TriedViews {
   explicit TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options = {});
 
   // --- input from the planner
-  /// Stores that a view from `goal` (world_from_sensor) was planned, at the end of a path whose way_of is `way`. It
-  /// is to resolve the cells `sought`. It may resolve some of `hoped`: they count as looked at in vain only if it
-  /// resolves none of them.
-  void expect(const OccupancyMap& map, const Pose& goal, double way, std::vector<VoxelIndex> sought,
-              std::vector<VoxelIndex> hoped = {});
+  /// Stores that a view at the end of `path` (poses world_from_sensor, at least one) is planned. It is to resolve the
+  /// cells `sought`. It may resolve some of `hoped`: they count as looked at in vain only if it resolves none of
+  /// them. Returns false if the place was asked for twice and the robot came no nearer: then the place rests, and the
+  /// planner must choose another view.
+  [[nodiscard]] bool expect(const OccupancyMap& map, const std::vector<Pose>& path, std::vector<VoxelIndex> sought,
+                            std::vector<VoxelIndex> hoped = {});
   /// Stores how following the plan ended, if the host reports it. Used by the next `review`.
   void report(GoalResult result) { reported_ = result; }
   /// Compares the current map, with the sensor at `current` (world_from_sensor), with what the last view was to
@@ -85,7 +87,7 @@ class TriedViews {
   /// file. Throws std::runtime_error, which names the line, if the text is no such memory or is of cells of another
   /// size; the memory is then unchanged.
   void recall(const OccupancyMap& map, std::string_view text);
-  /// Ends the rest of all places that failed fewer than three times. Returns whether there were any.
+  /// Ends the rest of all places that are not given up. Returns whether there were any.
   bool try_resting_again();
 
   // --- queries
@@ -104,7 +106,7 @@ class TriedViews {
   [[nodiscard]] bool any_rests() const { return !resting_.empty(); }
   /// Boxes of cells that contain all resting places, one for each goal that rests.
   [[nodiscard]] std::vector<VoxelBox> resting() const;
-  /// The number of resting places that failed three times.
+  /// The number of resting places that failed three times, or to which the robot came no nearer.
   [[nodiscard]] std::size_t places_given_up() const;
   /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.
   [[nodiscard]] const std::deque<Pose>& scanned_from() const { return scanned_from_; }
@@ -133,11 +135,11 @@ class TriedViews {
   // A goal that was planned.
   struct Place {
     VoxelIndex cell;
-    double nearest_way = 0.0;  // shortest way_of of all plans to it
-    int no_nearer = 0;         // consecutive plans after a change of the map in which the way was no shorter
+    double nearest_way = 0.0;  // shortest way_to_go of all plans to it
+    int no_nearer = 0;         // consecutive plans after a change of the map in which it was no shorter
     int failures = 0;
-    std::uint64_t rests_until = 0;  // number of a plan
-    OccupancyMap::Revision revision = 0;
+    std::uint64_t rests_until = 0;        // number of a plan
+    OccupancyMap::Revision revision = 0;  // of the latest plan to it; 0: the next one is the first
   };
   // A filter in front of the hash map, because planners ask millions of times and few cells have evidence: one bit
   // for all cells with the same coordinates modulo 128 x 128 x 64.
@@ -168,8 +170,10 @@ class TriedViews {
   Looks& new_look_at(const OccupancyMap& map, const VoxelIndex& unknown);
   void forget(const OccupancyMap& map);
   void evaluate(const OccupancyMap& map, const Pose& current);
-  void settle(const VoxelIndex& goal, double off_m);
-  void fail(const VoxelIndex& goal);
+  void fail(Place& place);
+  [[nodiscard]] bool given_up(const Place& place) const;
+  [[nodiscard]] double tolerance_m() const;
+  [[nodiscard]] double way_to_go(const std::vector<Pose>& path) const;
   void rest_now();
   Place& place_of(const VoxelIndex& cell);
   void remember_scan(const Pose& pose);

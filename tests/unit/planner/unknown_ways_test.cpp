@@ -16,15 +16,15 @@ namespace {
 
 using detail::UnknownWays;
 
-constexpr double kCellM = 0.2;
+constexpr double kWaysCellM = 0.2;
 constexpr std::int32_t kSide = 48;
 
 VoxelBox plane() { return {{0, 0, 0}, {kSide, kSide, 1}}; }
 
 // A plane of rooms with walls, of which a part is known.
 OccupancyMap partly_known(std::mt19937& engine) {
-  const VoxelFrame frame{kCellM};
-  OccupancyMap map({.resolution_m = kCellM, .region = frame.box_of(plane())});
+  const VoxelFrame frame{kWaysCellM};
+  OccupancyMap map({.resolution_m = kWaysCellM, .region = frame.box_of(plane())});
   const auto known_to = static_cast<std::int32_t>(16 + engine() % 24);
   const auto wall_at = static_cast<std::int32_t>(4 + engine() % 10);
   const auto door_at = static_cast<std::int32_t>(engine() % (kSide - 6));
@@ -59,7 +59,7 @@ double slow_mean_m(const OccupancyMap& map, const VoxelIndex& from) {
       const bool cuts = map.at(cell + VoxelIndex{step.x, 0, 0}) == Occupancy::Occupied ||
                         map.at(cell + VoxelIndex{0, step.y, 0}) == Occupancy::Occupied;
       if (plane().contains(next) && map.at(next) != Occupancy::Occupied && !cuts) {
-        open.emplace(way_m + kCellM * std::sqrt(step.x * step.x + step.y * step.y), next);
+        open.emplace(way_m + kWaysCellM * std::sqrt(step.x * step.x + step.y * step.y), next);
       }
     }
   }
@@ -90,7 +90,7 @@ TEST(UnknownWays, AreAsLongAsCellByCell) {
 }
 
 TEST(UnknownWays, FollowTheKnownSpaceNotItsBox) {
-  OccupancyMap map({.resolution_m = kCellM});
+  OccupancyMap map({.resolution_m = kWaysCellM});
   for (const std::int32_t at : {-6'000, 0, 6'000}) {  // 2.4 km apart
     for_each_cell(VoxelBox{{at, at, at}, {at + 8, at + 8, at + 8}},
                   [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
@@ -107,7 +107,7 @@ TEST(UnknownWays, CostNoMoreInALargerMap) {
   std::vector<std::size_t> sizes;
   std::vector<double> means_m;
   for (const std::int32_t length : {2'400, 8'000}) {
-    OccupancyMap map({.resolution_m = kCellM});
+    OccupancyMap map({.resolution_m = kWaysCellM});
     map.set_log_odds(VoxelBox{{0, -1, -1}, {length, 9, 9}}, 3.5);
     map.set_log_odds(VoxelBox{{0, 0, 0}, {length, 8, 8}}, -2.0);
     const VoxelIndex place{length - 4, 4, 4};
@@ -120,8 +120,8 @@ TEST(UnknownWays, CostNoMoreInALargerMap) {
 }
 
 TEST(UnknownWays, AreNoneWhereAllIsKnown) {
-  const VoxelFrame frame{kCellM};
-  OccupancyMap map({.resolution_m = kCellM, .region = frame.box_of(plane())});
+  const VoxelFrame frame{kWaysCellM};
+  OccupancyMap map({.resolution_m = kWaysCellM, .region = frame.box_of(plane())});
   for_each_cell(plane(), [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
   EXPECT_EQ(UnknownWays(map, 5.0, std::vector<VoxelIndex>{{3, 3, 0}}).mean_m({3, 3, 0}), 0.0);
 }

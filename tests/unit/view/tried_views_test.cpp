@@ -32,10 +32,17 @@ Pose at(const OccupancyMap& map, const VoxelIndex& cell, double yaw_rad = 0.0) {
   return pose_looking(map.frame().centre_of(cell), yaw_rad);
 }
 
+// A straight path of this length, without a turn.
+std::vector<Pose> path_to(const Pose& goal, double length_m) {
+  Pose start = goal;
+  start.translation().y() -= length_m;
+  return {start, goal};
+}
+
 // Plays planner and host: a view is planned, a scan without new information is inserted, the planner reviews.
 void view_in_vain(TriedViews& tried, OccupancyMap& map, const Pose& goal, const Pose& taken_from) {
   tried.review(map, taken_from);
-  tried.expect(map, goal, 1.0, {kHidden});
+  EXPECT_TRUE(tried.expect(map, path_to(goal, 1.0), {kHidden}));
   map.confirm();
   tried.review(map, taken_from);
 }
@@ -94,7 +101,7 @@ TEST(TriedViews, AViewThatArrivedAndResolvedNothingIsEvidenceAgainstWhatItSought
   TriedViews tried(sees_all_around(), {.patience = 1});
   const Pose goal = at(map, {2, 5, 5});
   tried.review(map, goal);
-  tried.expect(map, goal, 1.0, {kHidden});
+  EXPECT_TRUE(tried.expect(map, path_to(goal, 1.0), {kHidden}));
   EXPECT_FALSE(tried.review(map, goal)) << "no scan was taken";
   EXPECT_FALSE(tried.tried(kHidden));
   map.confirm();
@@ -154,7 +161,7 @@ TEST(TriedViews, WhatAViewHopedForWasInVainOnlyIfItResolvedNoneOfIt) {
     TriedViews tried(sees_all_around(), {.patience = 1});
     const Pose goal = at(map, {2, 5, 5});
     tried.review(map, goal);
-    tried.expect(map, goal, 1.0, {kHidden}, {kOther, {5, 7, 7}});
+    EXPECT_TRUE(tried.expect(map, path_to(goal, 1.0), {kHidden}, {kOther, {5, 7, 7}}));
     map.set(one_resolved ? VoxelIndex{5, 7, 7} : VoxelIndex{0, 0, 0}, Occupancy::Free);
     tried.review(map, goal);
     EXPECT_TRUE(tried.gave_up(kHidden));
@@ -168,7 +175,7 @@ TEST(TriedViews, AHostThatReportsIsBelieved) {
     OccupancyMap map = free_before_the_hidden();
     TriedViews tried(sees_all_around(), {.patience = 1});
     tried.review(map, at(map, robot));
-    tried.expect(map, at(map, place), 1.0, {kHidden});
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 1.0), {kHidden}));
     tried.report(result);
     map.confirm();
     tried.review(map, at(map, robot));
@@ -189,34 +196,83 @@ TEST(TriedViews, AFailureNeedsNoScanToCount) {
   TriedViews tried(sees_all_around());
   const VoxelIndex place{0, 5, 5};
   tried.review(map, at(map, {-8, 5, 5}));
-  tried.expect(map, at(map, place), 1.0, {kHidden});
+  EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 1.0), {kHidden}));
   tried.report(GoalResult::Failed);
   tried.review(map, at(map, {-8, 5, 5}));
   EXPECT_TRUE(tried.rests(place));
 }
 
+// A goal is asked for while the rest of the path, or of the turn at its end, gets shorter; then twice at most.
 TEST(TriedViews, AGoalThatTheRobotComesNoNearerToRests) {
-  const auto asked_for = [](double nearer_each_time_m) {
+  const VoxelIndex place{2, 5, 5};
+  const auto asked_for = [&](double way_m, double shorter_m, double turn_rad, double smaller_rad) {
     OccupancyMap map = free_before_the_hidden();
     TriedViews tried(sees_all_around());
-    const VoxelIndex place{2, 5, 5};
     int times = 0;
     for (; times < 20; ++times) {
       tried.review(map, at(map, {-8, 5, 5}));
-      if (tried.rests(place)) {
+      std::vector<Pose> path = path_to(at(map, place), way_m - shorter_m * times);
+      path.front() = pose_looking(path.front().translation(), turn_rad - smaller_rad * times);
+      if (!tried.expect(map, path, {kHidden})) {
         break;
       }
-      tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});
-      tried.expect(map, at(map, place), 5.0 - nearer_each_time_m * times, {kHidden});  // planning twice counts once
+      EXPECT_FALSE(tried.any_rests());
+      EXPECT_TRUE(tried.expect(map, path, {kHidden})) << "planning twice counts once";
       map.confirm();
     }
+    EXPECT_EQ(tried.rests(place), times < 20);
+    EXPECT_EQ(tried.places_given_up(), times < 20 ? 1U : 0U);
+    EXPECT_FALSE(tried.try_resting_again()) << "what the robot comes no nearer to is not asked for at once";
     EXPECT_FALSE(tried.tried(kHidden)) << "it was never there";
     return times;
   };
-  EXPECT_EQ(asked_for(0.0), 2);
-  EXPECT_EQ(asked_for(0.005), 2) << "jitter";
-  EXPECT_EQ(asked_for(-0.1), 2) << "it goes away";
-  EXPECT_EQ(asked_for(0.1), 20) << "it is on its way";
+  EXPECT_EQ(asked_for(5.0, 0.0, 0.0, 0.0), 2);
+  EXPECT_EQ(asked_for(5.0, 0.005, 0.0, 0.0), 2) << "jitter";
+  EXPECT_EQ(asked_for(5.0, -0.1, 0.0, 0.0), 2) << "it goes away";
+  EXPECT_EQ(asked_for(5.0, 0.1, 0.0, 0.0), 20) << "it is on its way";
+  EXPECT_EQ(asked_for(5.0, 0.0, 3.0, 0.1), 2) << "a turn far from the goal is no progress";
+  EXPECT_EQ(asked_for(5.0, 0.1, 1.0, -0.1), 20) << "nor the opposite";
+  EXPECT_EQ(asked_for(0.1, 0.0, 3.0, 0.1), 20) << "it turns at the goal";
+  EXPECT_EQ(asked_for(0.1, 0.0, 3.0, 0.0), 2);
+}
+
+// A place that was asked for before, from nearer by, is no failure while the robot comes from far away: the view in
+// between has served its purpose.
+TEST(TriedViews, AViewThatServedItsPurposeStartsAnew) {
+  for (const bool serves : {false, true}) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    const Pose far = at(map, {-8, 5, 5});
+    tried.review(map, far);
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, {2, 5, 5}), 1.0), {kHidden}));
+    map.confirm();
+    tried.review(map, far);
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, {2, 5, 8}), 1.0), {{5, 8, 8}}));
+    map.set(serves ? VoxelIndex{5, 8, 8} : VoxelIndex{5, 9, 9}, Occupancy::Free);
+    int times = 0;
+    for (; times < 20; ++times) {
+      tried.review(map, far);
+      if (!tried.expect(map, path_to(at(map, {2, 5, 5}), 5.0 - 0.1 * times), {kHidden})) {
+        break;
+      }
+      map.confirm();
+    }
+    EXPECT_EQ(times, serves ? 20 : 1);
+  }
+}
+
+// From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
+TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
+  for (const bool is_free : {false, true}) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around(), {.patience = 1});
+    const Pose goal = at(map, {0, 0, 5});  // on the diagonal of kHidden
+    map.set({3, 2, 5}, is_free ? Occupancy::Free : Occupancy::Occupied);
+    map.set({2, 3, 5}, Occupancy::Free);
+    view_in_vain(tried, map, goal, goal);
+    EXPECT_EQ(tried.gave_up(kHidden), is_free);
+    EXPECT_TRUE(tried.tried_from(kHidden, {0, 0, 5})) << "it is not sought from there again";
+  }
 }
 
 TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
@@ -226,7 +282,7 @@ TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
   const Pose robot = at(map, {-8, 5, 5});
   tried.review(map, robot);
   for (const int rest : {8, 16, 32}) {
-    tried.expect(map, at(map, place), 5.0, {kHidden});
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 5.0), {kHidden}));
     tried.report(GoalResult::Failed);
     for (int plan = 0; plan < rest; ++plan) {
       map.confirm();
@@ -248,7 +304,7 @@ TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
   TriedViews impatient(sees_all_around());
   impatient.review(map, robot);
   for (int failure = 1; failure <= 3; ++failure) {
-    impatient.expect(map, at(map, place), 5.0, {kHidden});
+    EXPECT_TRUE(impatient.expect(map, path_to(at(map, place), 5.0), {kHidden}));
     impatient.report(GoalResult::Failed);
     map.confirm();
     impatient.review(map, robot);
@@ -264,7 +320,7 @@ TEST(TriedViews, AGoalThatWasReachedAfterAllHasNeverFailed) {
   TriedViews tried(sees_all_around());
   const VoxelIndex place{2, 5, 5};
   const auto ask = [&](GoalResult result) {
-    tried.expect(map, at(map, place), 5.0, {});
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 5.0), {}));
     tried.report(result);
     map.confirm();
     tried.review(map, at(map, {-8, 5, 5}));
@@ -306,7 +362,7 @@ TEST(TriedViews, BelongsToOneMap) {
   TriedViews tried(sees_all_around(), {.patience = 1});
   const Pose here = at(map, {2, 5, 5});
   view_in_vain(tried, map, here, here);
-  tried.expect(map, at(map, {0, 5, 5}), 1.0, {});
+  EXPECT_TRUE(tried.expect(map, path_to(at(map, {0, 5, 5}), 1.0), {}));
   tried.report(GoalResult::Failed);
   map.confirm();
   tried.review(map, here);
@@ -365,7 +421,7 @@ TEST(TriedViews, IsTheSameAfterItWasText) {
         const Pose here = at(map, step(), 0.1 * i);
         with.review(map, here);
         with.in_vain(map, {5 + static_cast<std::int32_t>(steps() % 4), 5, 5}, step());
-        with.expect(map, at(map, step()), 1.0 + i, {kHidden, {6, 5, 5}}, {{7, 5, 5}});
+        (void)with.expect(map, path_to(at(map, step()), 1.0 + i), {kHidden, {6, 5, 5}}, {{7, 5, 5}});
         with.report(std::array{GoalResult::Failed, GoalResult::Reached, GoalResult::Preempted}[steps() % 3]);
         map.confirm();
       }

@@ -38,22 +38,31 @@ VANTAGE_INLINE std::optional<std::vector<Pose>> FrontierPlanner::path_to(const P
 
 VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
   situation_.sync(map, current);
-  Plan plan = situation_.open_plan();
-  prepare(plan);
-  if (std::optional<Plan> end = situation_.end()) {
-    end->statistics.void_cells = plan.statistics.void_cells;
-    if (end->outcome == Outcome::Move) {
-      situation_.remember(*end, {});
+  for (;;) {  // ends, because another place rests each time
+    Plan plan = situation_.open_plan();
+    prepare(plan);
+    std::vector<VoxelIndex> hoped;
+    if (std::optional<Plan> end = situation_.end()) {
+      end->statistics.void_cells = plan.statistics.void_cells;
+      plan = std::move(*end);
+    } else {
+      hoped = take_a_view(plan);
     }
-    return std::move(*end);
+    if (plan.outcome != Outcome::Move || situation_.remember(plan, std::move(hoped))) {
+      return plan;
+    }
   }
+}
+
+// Makes the plan a Move to a chosen view, if a path leads to one. Returns what the view hopes for.
+VANTAGE_INLINE std::vector<VoxelIndex> FrontierPlanner::take_a_view(Plan& plan) {
   plan.reason = "the platform cannot follow the way to any view of a frontier";
   while (!situation_.survey().targets.empty()) {
     detail::Stopwatch watch;
     std::optional<ChosenView> choice = choose(plan);
     plan.statistics.choose_ms += watch.lap_ms();
     if (!choice) {
-      return plan;
+      return {};
     }
     TargetView& view = choice->view;
     if (choice->path.empty()) {
@@ -62,7 +71,7 @@ VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& c
     plan.statistics.path_ms += watch.lap_ms();
     if (choice->path.empty()) {
       if (!situation_.drop(view)) {
-        return plan;
+        return {};
       }
       continue;
     }
@@ -72,10 +81,9 @@ VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& c
     plan.goal = view.view;
     plan.path = std::move(choice->path);
     plan.sought = std::move(view.unknown);
-    situation_.remember(plan, std::move(view.hoped));
-    return plan;
+    return std::move(view.hoped);
   }
-  return plan;
+  return {};
 }
 
 VANTAGE_INLINE void FrontierPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) {

@@ -191,17 +191,18 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
     plan.statistics.choose_ms += stopwatch.lap_ms();
     auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
     plan.statistics.path_ms += stopwatch.lap_ms();
-    if (path) {
+    std::vector<VoxelIndex> cells;
+    sought.for_each([&](const VoxelIndex& cell) { cells.push_back(cell); });
+    if (path && tried_.expect(map, *path, cells)) {
       plan.outcome = Outcome::Move;
       plan.goal = {view.pose, view.utility};
       plan.path = std::move(*path);
-      sought.for_each([&](const VoxelIndex& cell) { plan.sought.push_back(cell); });
+      plan.sought = std::move(cells);
       plan.reason = "a view of " + std::to_string(plan.sought.size()) + " unknown cells of the object";
     }
   }
   plan.statistics.choose_ms += stopwatch.lap_ms();
   if (plan.outcome == Outcome::Move) {
-    tried_.expect(map, plan.goal.pose, way_of(plan.path), plan.sought);
     return plan;
   }
   // Lines 22 to 25: no view is taken.

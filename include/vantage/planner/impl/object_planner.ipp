@@ -93,16 +93,17 @@ VANTAGE_INLINE std::vector<std::size_t> ObjectPlanner::order_of(const std::vecto
   return order;
 }
 
-// The first worthwhile candidate to which there is a way and whose place does not rest.
+// The first worthwhile candidate to which there is a way, whose place does not rest and need not.
 VANTAGE_INLINE bool ObjectPlanner::take_first(const OccupancyMap& map, const Pose& current,
                                               const std::vector<Candidate>& all,
-                                              const std::vector<std::size_t>& worthwhile, Plan& plan) const {
+                                              const std::vector<std::size_t>& worthwhile, Plan& plan) {
   for (const std::size_t i : worthwhile) {
     const Candidate& candidate = all[i];
     if (tried_.rests(map.frame().cell_of(candidate.pose.translation()))) {
       continue;
     }
-    if (auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.candidates.object.centre())) {
+    auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.candidates.object.centre());
+    if (path && tried_.expect(map, *path, {})) {
       plan.outcome = Outcome::Move;
       plan.goal = {candidate.pose, static_cast<double>(candidate.shows)};
       plan.path = std::move(*path);
@@ -138,10 +139,13 @@ VANTAGE_INLINE Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pos
     }
   }
   plan.statistics.choose_ms = stopwatch.lap_ms();
-  if (take_first(map, current, all, worthwhile, plan) ||
-      (tried_.try_resting_again() && take_first(map, current, all, worthwhile, plan))) {
-    tried_.expect(map, plan.goal.pose, way_of(plan.path), {});
-  } else if (all.empty()) {
+  const bool moves = take_first(map, current, all, worthwhile, plan) ||
+                     (tried_.try_resting_again() && take_first(map, current, all, worthwhile, plan));
+  plan.statistics.path_ms = stopwatch.lap_ms();
+  if (moves) {
+    return plan;
+  }
+  if (all.empty()) {
     plan.reason =
         "the platform admits none of the candidate views: declare the space around the object free (assume_free)";
   } else if (worthwhile.empty()) {
@@ -153,7 +157,6 @@ VANTAGE_INLINE Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pos
     plan.leftover.unreachable = best;
     plan.reason = "there is no way to any view that would show more of the object";
   }
-  plan.statistics.path_ms = stopwatch.lap_ms();
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
+#include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vantage/planner/target_view.hpp>
 
@@ -52,15 +53,19 @@ VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current
   if (tried_.review(map, current_)) {
     note_what_was_in_vain();
   }
-  survey_ = surveyor_.survey(map, current_, tried_, frontier_->cells());
-  if (survey_.targets.empty() && tried_.try_resting_again()) {
-    survey_ = surveyor_.survey(map, current_, tried_, frontier_->cells());
-  }
+  find_targets();
   sync_ms_ = watch.lap_ms();
 }
 
+VANTAGE_INLINE void Situation::find_targets() {
+  survey_ = surveyor_.survey(*map_, current_, tried_, frontier_->cells());
+  if (survey_.targets.empty() && tried_.try_resting_again()) {
+    survey_ = surveyor_.survey(*map_, current_, tried_, frontier_->cells());
+  }
+}
+
 // Stores as looked at in vain the unknown neighbours of frontier cells that are in the field of view, near enough
-// (half the resolving range) and in clear line of sight, since this scan should have resolved them.
+// (half the resolving range) and in clear line of sight, edges included, since this scan should have resolved them.
 VANTAGE_INLINE void Situation::note_what_was_in_vain() {
   const VoxelIndex here = map_->frame().cell_of(current_.translation());
   const double furthest_m = std::min(sensor().max_range_m, 0.5 * sensor().resolving_range_m(map_->resolution_m()));
@@ -73,7 +78,9 @@ VANTAGE_INLINE void Situation::note_what_was_in_vain() {
       const VoxelIndex unknown = cell + step;
       if (map_->in_region(unknown) && map_->at(unknown) == Occupancy::Unknown &&
           (map_->frame().centre_of(unknown) - current_.translation()).norm() <= furthest_m &&
-          sees(*map_, sensor(), current_, unknown, operations)) {
+          sees(*map_, sensor(), current_, unknown, operations) &&
+          VoxelRay(map_->frame(), current_.translation(), map_->frame().centre_of(unknown))
+              .all_touched([&](const VoxelIndex& other) { return other == unknown || map_->is_clear(other); })) {
         tried_.in_vain(*map_, unknown, here);
       }
     }
@@ -111,7 +118,7 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
     if (std::optional<Plan> turn = turn_on_the_spot()) {
       return turn;
     }
-    if (hardly_moves()) {
+    if (hardly_moves() && stands_beside_unknown()) {
       plan.reason =
           "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
           detail::reason_of(survey_);
@@ -119,8 +126,8 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
     }
     if (const std::size_t places = tried_.places_given_up(); places > 0) {
       plan.outcome = Outcome::Unreachable;
-      plan.reason = "the robot failed three times to get to each of " +
-                    detail::counted(places, "places with more to see; ") + detail::reason_of(survey_);
+      plan.reason = "the robot does not get to " + detail::counted(places, "places with more to see; ") +
+                    detail::reason_of(survey_);
       return plan;
     }
     if (const std::optional<VoxelIndex> beyond = place_cut_off()) {
@@ -150,10 +157,30 @@ VANTAGE_INLINE bool Situation::hardly_moves() const {
   });
 }
 
+// Whether the body would touch an unknown cell beside a free one if it moved one cell further. If not, only known
+// cells are in its way, and there is nothing to declare free.
+VANTAGE_INLINE bool Situation::stands_beside_unknown() const {
+  const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
+  const double near_m = 0.5 * body_m + map_->resolution_m();
+  const std::vector<VoxelIndex> places = reachable().cells();
+  const auto is_near = [&](const VoxelIndex& cell) {
+    const Box box = map_->frame().box_of(cell);
+    return std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
+      return box.distance_to(reachable().position_in(place)) < near_m;
+    });
+  };
+  const std::vector<VoxelIndex> frontier = frontier_->cells();
+  return std::any_of(frontier.begin(), frontier.end(), [&](const VoxelIndex& cell) {
+    return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+      return map_->in_region(cell + step) && map_->at(cell + step) == Occupancy::Unknown && is_near(cell + step);
+    });
+  });
+}
+
 // A sensor with a narrow field of view does not see free space beside the body, so it first looks in all horizontal
 // directions. Views overlap by a fifth.
 VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() const {
-  if (sensor().looks_all_around() || !hardly_moves()) {
+  if (sensor().looks_all_around() || !hardly_moves() || tried_.rests(map_->frame().cell_of(current_.translation()))) {
     return std::nullopt;
   }
   constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
@@ -210,8 +237,12 @@ VANTAGE_INLINE bool Situation::drop(const TargetView& view) {
          }) > 0;
 }
 
-VANTAGE_INLINE void Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {
-  tried_.expect(*map_, plan.goal.pose, way_of(plan.path), plan.sought, std::move(hoped));
+VANTAGE_INLINE bool Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {
+  if (tried_.expect(*map_, plan.path, plan.sought, std::move(hoped))) {
+    return true;
+  }
+  find_targets();
+  return false;
 }
 
 VANTAGE_INLINE void Situation::follow_rays() const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/tried_views.hpp>
@@ -16,8 +17,9 @@ inline constexpr std::size_t kMostCells = std::size_t{1} << 18;
 inline constexpr std::size_t kMostPlaces = 256;
 inline constexpr std::size_t kMostScans = 64;
 inline constexpr int kMostFailures = 3;
+inline constexpr int kMostAsks = 2;             // for a goal to which the robot comes no nearer
 inline constexpr std::uint64_t kFirstRest = 8;  // plans
-inline constexpr double kNearerM = 0.01;        // smaller progress is ignored as jitter
+inline constexpr double kNearer = 0.01;         // metres or radians; smaller progress is ignored as jitter
 
 inline int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
   return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
@@ -51,20 +53,7 @@ inline double angle_rad(const Pose& a, const Pose& b) {
   return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
 }
 
-// Distance in metres plus angle in radians.
-inline double off_by(const Pose& goal, const Pose& pose) {
-  return (goal.translation() - pose.translation()).norm() + angle_rad(goal, pose);
-}
-
 }  // namespace detail
-
-VANTAGE_INLINE double way_of(const std::vector<Pose>& path) {
-  double way = path.empty() ? 0.0 : detail::angle_rad(path.front(), path.back());
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    way += (path[i].translation() - path[i - 1].translation()).norm();
-  }
-  return way;
-}
 
 VANTAGE_INLINE TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
     : sensor_(sensor), options_(options) {
@@ -75,21 +64,37 @@ VANTAGE_INLINE TriedViews::TriedViews(const RangeSensor& sensor, const TriedView
   detail::require_option(options.patience >= 1, "patience", options.patience, ">= 1");
 }
 
-VANTAGE_INLINE void TriedViews::expect(const OccupancyMap& map, const Pose& goal, double way,
+VANTAGE_INLINE double TriedViews::tolerance_m() const { return std::max(options_.goal_tolerance_m, cell_m_); }
+
+// What is left of a path, as one number that shrinks while a robot follows it: within the tolerance the angle that is
+// left, which is at most pi, and before that pi plus the metres that are left.
+VANTAGE_INLINE double TriedViews::way_to_go(const std::vector<Pose>& path) const {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length_m += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return length_m > tolerance_m() ? std::numbers::pi + length_m : detail::angle_rad(path.front(), path.back());
+}
+
+VANTAGE_INLINE bool TriedViews::expect(const OccupancyMap& map, const std::vector<Pose>& path,
                                        std::vector<VoxelIndex> sought, std::vector<VoxelIndex> hoped) {
-  expected_ = Expectation{goal, map.revision(), std::move(sought), std::move(hoped)};
-  Place& place = place_of(map.frame().cell_of(goal.translation()));
-  if (place.revision == map.revision()) {
-    return;  // this map was already planned in
+  Place& place = place_of(map.frame().cell_of(path.back().translation()));
+  if (place.revision != map.revision()) {  // else this map was already planned in
+    const double way = way_to_go(path);
+    const bool first = place.revision == 0;
+    place.revision = map.revision();
+    if (first || way < place.nearest_way - detail::kNearer) {
+      place.nearest_way = way;
+      place.no_nearer = 0;
+    } else if (++place.no_nearer == detail::kMostAsks) {
+      fail(place);
+      rest_now();
+      expected_.reset();
+      return false;
+    }
   }
-  const bool first = place.revision == 0;
-  place.revision = map.revision();
-  if (first || way < place.nearest_way - detail::kNearerM) {
-    place.nearest_way = way;
-    place.no_nearer = 0;
-  } else {
-    ++place.no_nearer;
-  }
+  expected_ = Expectation{path.back(), map.revision(), std::move(sought), std::move(hoped)};
+  return true;
 }
 
 VANTAGE_INLINE TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
@@ -107,8 +112,7 @@ VANTAGE_INLINE bool TriedViews::review(const OccupancyMap& map, const Pose& curr
   const bool same_map = map_.is_copied_from(map) && map.revision() >= reviewed_;
   if (same_map && reviewed_ == map.revision()) {
     if (expected_ && reported_ == GoalResult::Failed) {  // a failure is known without a new scan
-      fail(map.frame().cell_of(expected_->goal.translation()));
-      expected_.reset();
+      evaluate(map, current);
       reported_.reset();
       rest_now();
     }
@@ -162,23 +166,30 @@ VANTAGE_INLINE void TriedViews::forget(const OccupancyMap& map) {
 }
 
 VANTAGE_INLINE bool TriedViews::arrived(const Pose& current) const {
-  const double off_m = (expected_->goal.translation() - current.translation()).norm();
-  return off_m <= std::max(options_.goal_tolerance_m, cell_m_) &&
+  return (expected_->goal.translation() - current.translation()).norm() <= tolerance_m() &&
          detail::angle_rad(expected_->goal, current) <= options_.goal_tolerance_rad;
 }
 
 // Evaluates what became of the last planned view.
 VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   const VoxelIndex goal = map.frame().cell_of(expected_->goal.translation());
+  const std::vector<VoxelIndex>& sought = expected_->sought;
+  const auto is_unknown = [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; };
+  const bool served = !sought.empty() && std::none_of(sought.begin(), sought.end(), is_unknown);
+  if (served) {
+    std::erase_if(places_, [](const Place& place) { return place.failures == 0; });
+  }
   if (reported_ == GoalResult::Preempted) {
     std::erase_if(places_, [&](const Place& place) { return place.cell == goal && place.failures == 0; });
   } else if (reported_ == GoalResult::Failed) {
-    fail(goal);
+    Place& place = place_of(goal);
+    fail(place);
+    place.no_nearer = 0;
   } else if (reported_ == GoalResult::Reached || arrived(current)) {
-    settle(goal, reported_ ? 0.0 : (expected_->goal.translation() - current.translation()).norm());
+    std::erase_if(places_, [&](const Place& place) { return place.cell == goal; });
     const VoxelIndex here = map.frame().cell_of(current.translation());
     const auto look = [&](const VoxelIndex& cell, std::vector<VoxelIndex> Looks::*unseen) {
-      if (map.at(cell) != Occupancy::Unknown) {
+      if (!is_unknown(cell)) {
         return;
       }
       Looks& looks = new_look_at(map, cell);
@@ -193,23 +204,16 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
         }
       }
     };
-    for (const VoxelIndex& cell : expected_->sought) {
+    for (const VoxelIndex& cell : sought) {
       look(cell, &Looks::missed);
     }
     const std::vector<VoxelIndex>& hoped = expected_->hoped;
-    if (std::all_of(hoped.begin(), hoped.end(),
-                    [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; })) {
+    if (std::all_of(hoped.begin(), hoped.end(), is_unknown)) {
       for (const VoxelIndex& cell : hoped) {
         look(cell, &Looks::hoped);
       }
     }
-  } else {
-    // The length of the way is only known after planning, so the last stretch is judged by the distance to the goal.
-    const bool nearer = detail::off_by(expected_->goal, current) <
-                        detail::off_by(expected_->goal, scanned_from_.back()) - detail::kNearerM;
-    if (const int no_nearer = place_of(goal).no_nearer; no_nearer >= 2 || (no_nearer == 1 && !nearer)) {
-      fail(goal);
-    }
+  } else if (!served) {
     return;  // still on the way
   }
   expected_.reset();
@@ -223,35 +227,27 @@ VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose&
   return range_m >= sensor_.min_range_m && range_m <= sensor_.max_range_m &&
          sensor_.in_view(pose.linear().transpose() * line) &&
          VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
-             .all_from_the_end(
-                 [&](const VoxelIndex& cell) { return detail::touch(cell, unknown) || map.is_clear(cell); });
+             .all_touched([&](const VoxelIndex& cell) { return detail::touch(cell, unknown) || map.is_clear(cell); });
 }
 
-// The robot stopped `off_m` from the goal. If it is off the cell and the same goal is planned again, the goal fails:
-// the robot would stop in the same place.
-VANTAGE_INLINE void TriedViews::settle(const VoxelIndex& goal, double off_m) {
-  Place& place = place_of(goal);
-  if (off_m < 0.5 * cell_m_) {
-    std::erase_if(places_, [&](const Place& one) { return one.cell == goal; });
-  } else if (place.nearest_way == 0.0) {
-    fail(goal);
-  } else {
-    place.nearest_way = 0.0;
-  }
-}
-
-VANTAGE_INLINE void TriedViews::fail(const VoxelIndex& goal) {
-  Place& place = place_of(goal);
-  place.no_nearer = 0;
+VANTAGE_INLINE void TriedViews::fail(Place& place) {
   ++place.failures;
   place.rests_until = plans_ + (detail::kFirstRest << std::min(place.failures - 1, 8));
 }
 
+VANTAGE_INLINE bool TriedViews::given_up(const Place& place) const {
+  return place.rests_until > plans_ &&
+         (place.failures >= detail::kMostFailures || place.no_nearer >= detail::kMostAsks);
+}
+
+// After its rest, a place is asked for as if for the first time.
 VANTAGE_INLINE void TriedViews::rest_now() {
   resting_.clear();
-  for (const Place& place : places_) {
+  for (Place& place : places_) {
     if (place.rests_until > plans_) {
       resting_.push_back(place.cell);
+    } else if (place.rests_until > 0) {
+      place = {.cell = place.cell, .failures = place.failures};
     }
   }
 }
@@ -259,7 +255,7 @@ VANTAGE_INLINE void TriedViews::rest_now() {
 VANTAGE_INLINE bool TriedViews::try_resting_again() {
   bool any = false;
   for (Place& place : places_) {
-    if (place.rests_until > plans_ && place.failures < detail::kMostFailures) {
+    if (place.rests_until > plans_ && !given_up(place)) {
       place.rests_until = 0;
       any = true;
     }
@@ -269,9 +265,8 @@ VANTAGE_INLINE bool TriedViews::try_resting_again() {
 }
 
 VANTAGE_INLINE std::size_t TriedViews::places_given_up() const {
-  return static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), [&](const Place& place) {
-    return place.rests_until > plans_ && place.failures >= detail::kMostFailures;
-  }));
+  return static_cast<std::size_t>(
+      std::count_if(places_.begin(), places_.end(), [&](const Place& place) { return given_up(place); }));
 }
 
 VANTAGE_INLINE TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& map, const VoxelIndex& unknown) {

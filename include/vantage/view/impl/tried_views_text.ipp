@@ -182,6 +182,7 @@ VANTAGE_INLINE void TriedViews::recall(const OccupancyMap& map, std::string_view
     } else if (entry.word() == "place") {
       constexpr double kMost = 1e6;
       Place& place = read.place_of(entry.cell(7));
+      place.revision = map.revision();
       place.nearest_way = entry.numbers(7)[3];
       place.no_nearer = entry.whole<int>(4, kMost);
       place.failures = entry.whole<int>(5, kMost);

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/situation.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+constexpr VoxelBox kHouse{{0, 0, 0}, {21, 11, 7}};
+constexpr std::int32_t kWall = 9;
+constexpr VoxelBox kDoor{{kWall, 4, 1}, {kWall + 1, 7, 6}};
+
+RangeSensor round_about() {
+  RangeSensor sensor = RangeSensor::spherical(180, 90, 2 * std::numbers::pi, std::numbers::pi, 0.0, 2.0);
+  sensor.reports_no_return = true;
+  return sensor;
+}
+
+/// A room whose cells are all known and, behind a wall with a closed door, a second room of which the cells `seen`
+/// are free and the others unknown.
+OccupancyMap two_rooms(const VoxelBox& seen) {
+  OccupancyMap map({.resolution_m = 0.2, .region = VoxelFrame{0.2}.box_of(kHouse)});
+  for_each_cell(VoxelBox{kHouse.lo, {kWall, kHouse.hi.y, kHouse.hi.z}}, [&](const VoxelIndex& cell) {
+    const bool inside = VoxelBox{{1, 1, 1}, {kWall, kHouse.hi.y - 1, kHouse.hi.z - 1}}.contains(cell);
+    map.set(cell, inside ? Occupancy::Free : Occupancy::Occupied);
+  });
+  for_each_cell(VoxelBox{{kWall, 0, 0}, {kWall + 1, kHouse.hi.y, kHouse.hi.z}},
+                [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Occupied); });
+  for_each_cell(seen, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  return map;
+}
+
+Pose in_the_first_room() { return pose_looking({0.9, 1.1, 0.7}, 0.0); }
+
+PlannerSetup robot_with(const RangeSensor& sensor, double radius_m) {
+  return {.sensor = sensor, .platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = radius_m})};
+}
+
+TEST(Situation, BehindAClosedDoorIsUnreachableUntilItOpens) {
+  constexpr VoxelBox kSeen{{kWall + 1, 3, 1}, {kWall + 5, 8, 6}};
+  OccupancyMap map = two_rooms(kSeen);
+  Situation situation(robot_with(round_about(), 0.25));
+  situation.sync(map, in_the_first_room());
+  const std::optional<Plan> end = situation.end();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::Unreachable);
+  EXPECT_GT(end->leftover.unreachable, 0U);
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+  const std::size_t place = end->reason.find("around (");
+  ASSERT_NE(place, std::string::npos) << end->reason;
+  ASSERT_EQ(std::sscanf(end->reason.c_str() + place, "around (%lf, %lf, %lf)", &x, &y, &z), 3);
+  EXPECT_TRUE(kSeen.contains(map.frame().cell_of({x, y, z}))) << end->reason;
+
+  for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  situation.sync(map, in_the_first_room());
+  EXPECT_FALSE(situation.end());
+  EXPECT_FALSE(situation.survey().targets.empty());
+}
+
+// A crack that no body fits through or into is no place that is cut off.
+TEST(Situation, ACrackThatNoBodyFitsIntoIsNotUnreachable) {
+  const OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 2}});
+  Situation situation(robot_with(round_about(), 0.25));
+  situation.sync(map, in_the_first_room());
+  const std::optional<Plan> end = situation.end();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::Explored);
+  EXPECT_GT(end->leftover.unreachable, 0U);
+}
+
+TEST(Situation, ARoomThatIsKnownIsExplored) {
+  const OccupancyMap map = two_rooms({});
+  Situation situation(robot_with(round_about(), 0.25));
+  situation.sync(map, in_the_first_room());
+  const std::optional<Plan> end = situation.end();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::Explored);
+  EXPECT_EQ(end->leftover, Leftover());
+}
+
+// A host whose controller fails every time gets other goals, each place three times at most, and an end that says so.
+TEST(Situation, WhereTheRobotNeverArrivesIsUnreachable) {
+  std::size_t planners = 0;
+  for (const std::string_view name : planner_names()) {
+    OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 6}});
+    for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+    const std::unique_ptr<ExplorationPlanner> planner = make_planner(name, robot_with(round_about(), 0.25));
+    Plan plan = planner->plan(map, in_the_first_room());
+    std::size_t failures = 0;
+    for (; plan.outcome == Outcome::Move && failures < 500; ++failures) {
+      planner->report(map, in_the_first_room(), GoalResult::Failed);
+      plan = planner->plan(map, in_the_first_room());
+    }
+    EXPECT_EQ(plan.outcome, Outcome::Unreachable) << name << ": " << plan.reason;
+    EXPECT_NE(plan.reason.find("does not get to"), std::string::npos) << plan.reason;
+    EXPECT_GE(failures, 3U);
+    ++planners;
+  }
+  EXPECT_EQ(planners, planner_names().size());
+}
+
+// A robot that does not move and does not say so: no goal at which it is not is asked for a third time, not even the
+// last one, before it has rested.
+TEST(Situation, NoGoalIsAskedForAThirdTimeByARobotThatNeverMoves) {
+  std::size_t asked = 0;
+  for (const std::string_view name : planner_names()) {
+    OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 6}});
+    for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+    const PlannerSetup setup = robot_with(round_about(), 0.25);
+    const std::unique_ptr<ExplorationPlanner> planner = make_planner(name, setup);
+    std::vector<std::pair<std::size_t, Pose>> asks;
+    const auto is_there = [&](const Pose& goal, const Pose& robot) {
+      return (goal.translation() - robot.translation()).norm() <= setup.goal_tolerance_m &&
+             optical_axis(goal).dot(optical_axis(robot)) >= std::cos(setup.goal_tolerance_rad);
+    };
+    std::size_t plans = 0;
+    for (; plans < 1000; ++plans) {
+      const Plan plan = planner->plan(map, in_the_first_room());
+      if (plan.outcome != Outcome::Move) {
+        EXPECT_EQ(plan.outcome, Outcome::Unreachable) << name << ": " << plan.reason;
+        break;
+      }
+      map.confirm();
+      const Pose& goal = plan.goal.pose;
+      if (!is_there(goal, in_the_first_room())) {
+        asks.emplace_back(plans, goal);
+        EXPECT_LE(std::count_if(asks.begin(), asks.end(),
+                                [&](const auto& ask) {
+                                  return ask.first + 8 > plans && ask.second.translation() == goal.translation() &&
+                                         optical_axis(ask.second).dot(optical_axis(goal)) > 0.995;
+                                }),
+                  2)
+            << name << ", plan " << plans;
+      }
+    }
+    asked += asks.size();
+    EXPECT_LT(plans, 1000U);
+    std::size_t waits = 0;
+    for (; waits < 10 && planner->plan(map, in_the_first_room()).outcome != Outcome::Move; ++waits) {
+      map.confirm();
+    }
+    EXPECT_LT(waits, 10U) << "a host that waits is asked again";
+  }
+  EXPECT_GE(asked, 2 * planner_names().size());
+}
+
+// A robot between two obstacles that are known: there is nothing to declare free, but there is more to see.
+TEST(Situation, ARobotThatIsHemmedInByTheKnownIsNotBlocked) {
+  OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 6}});
+  for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  const VoxelIndex here = map.frame().cell_of(in_the_first_room().translation());
+  const VoxelBox around = VoxelBox{here, here + VoxelIndex{1, 1, 1}}.grown(3);
+  for_each_cell(around, [&](const VoxelIndex& cell) {
+    if (!VoxelBox{here, here + VoxelIndex{1, 1, 1}}.grown(2).contains(cell)) {
+      map.set(cell, Occupancy::Occupied);
+    }
+  });
+  Situation situation(robot_with(round_about(), 0.25));
+  situation.sync(map, in_the_first_room());
+  const std::optional<Plan> end = situation.end();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::Unreachable) << end->reason;
+  EXPECT_NE(end->reason.find("around ("), std::string::npos) << end->reason;
+}
+
+// Nothing is known but the space that the body fills: a narrow sensor first looks in every direction.
+TEST(Situation, ANarrowSensorTurnsOnTheSpotBeforeItIsBlocked) {
+  std::size_t turns = 0;
+  for (const double angle_rad : {0.5, 0.8, 1.2, 2.0}) {
+    OccupancyMap map({.resolution_m = 0.2});
+    for_each_cell(VoxelBox{{0, 0, 0}, {3, 3, 3}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+    Situation situation(robot_with(RangeSensor::pinhole(48, 36, angle_rad, 0.5, 0.5, 4.0), 0.2));
+    Pose pose = pose_looking({0.3, 0.3, 0.3}, 0.4);
+    std::vector<double> looked_at_rad{0.4};
+    situation.sync(map, pose);
+    std::optional<Plan> end = situation.end();
+    while (end && end->outcome == Outcome::Move && looked_at_rad.size() < 40) {
+      EXPECT_EQ(end->goal.pose.translation(), pose.translation());
+      EXPECT_EQ(end->path.size(), 2U);
+      EXPECT_TRUE(situation.remember(*end, {}));
+      pose = end->goal.pose;
+      looked_at_rad.push_back(std::atan2(optical_axis(pose).y(), optical_axis(pose).x()));
+      map.confirm();
+      situation.sync(map, pose);
+      end = situation.end();
+      ++turns;
+    }
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->outcome, Outcome::Blocked);
+    EXPECT_NE(end->reason.find("assume_free"), std::string::npos) << end->reason;
+    for (double direction_rad = 0.0; direction_rad < 6.28; direction_rad += 0.05) {
+      EXPECT_TRUE(std::any_of(
+          looked_at_rad.begin(), looked_at_rad.end(),
+          [&](double looked_rad) { return std::cos(looked_rad - direction_rad) >= std::cos(0.5 * angle_rad); }))
+          << direction_rad << " with a view of " << angle_rad;
+    }
+    EXPECT_LE(static_cast<double>(looked_at_rad.size()), std::ceil(2 * std::numbers::pi / (0.8 * angle_rad)));
+  }
+  EXPECT_GT(turns, 20U);
+}
+
+}  // namespace
+}  // namespace vantage
