@@ -165,10 +165,10 @@ class DrivenRobot {
 
   std::size_t plans = 0;
   Plan last;
-  std::size_t collisions = 0;     // poses in which the body overlaps a solid cell that the map does not hold free
-  std::size_t misled = 0;         // poses in which it overlaps only solid cells that the map holds free
-  std::size_t most_asks = 0;      // longest series of plans for one goal without progress
-  std::size_t disagreements = 0;  // between plans of one and of two threads
+  std::size_t collisions = 0;      // poses in which the body overlaps a solid cell that the map does not hold free
+  std::set<VoxelIndex> misled_by;  // solid cells that it overlaps and that the map holds free
+  std::size_t most_asks = 0;       // longest series of plans for one goal without progress
+  std::size_t disagreements = 0;   // between plans of one and of two threads
   std::size_t thrown = 0;
 
   [[nodiscard]] std::vector<VoxelIndex> left() const {
@@ -313,39 +313,40 @@ class DrivenRobot {
   }
   // Whether the sphere of the body overlaps a person or a closing door.
   [[nodiscard]] bool meets_a_moving_object(const Pose& pose) const {
-    return touches(pose, kBodyCells * scene_.cell_m, [&](const VoxelIndex& cell) {
-      return world_.solid.value_or(cell, 1) == 0 && world_.is_solid(cell);
-    });
+    return !touched(pose, kBodyCells * scene_.cell_m, [&](const VoxelIndex& cell) {
+              return world_.solid.value_or(cell, 1) == 0 && world_.is_solid(cell);
+            }).empty();
   }
-  // Counts the pose if the sphere of the body overlaps a static solid cell. A ray through the edge of a solid cell
-  // may clear it in the map; then the map is wrong, not the plan.
+  // A ray through the edge of a solid cell may clear it in the map; then the map is wrong, not the plan.
   void count_collision(const Pose& pose) {
-    if (collides(pose, [](const VoxelIndex&) { return true; })) {
-      ++(collides(pose, [&](const VoxelIndex& cell) { return map_.at(cell) != Occupancy::Free; }) ? collisions
-                                                                                                  : misled);
+    bool collides = false;
+    for (const VoxelIndex& cell : static_cells_in(pose)) {
+      if (map_.at(cell) == Occupancy::Free) {
+        misled_by.insert(cell);
+      } else {
+        collides = true;
+      }
     }
+    collisions += collides ? 1U : 0U;
   }
-  // Whether the sphere of the body overlaps a static solid cell that `counts`.
-  template <class Counts>
-  [[nodiscard]] bool collides(const Pose& pose, const Counts& counts) const {
+  // The static solid cells that the sphere of the body overlaps.
+  [[nodiscard]] std::vector<VoxelIndex> static_cells_in(const Pose& pose) const {
     // A host that is off by half a degree maps distant surfaces beside their true place.
     const double off_m = host_ == Host::Inexact ? 0.01 + 0.01 * sensor_.max_range_m : 1e-6;
-    return touches(pose, kBodyCells * scene_.cell_m - off_m,
-                   [&](const VoxelIndex& cell) { return world_.solid.value_or(cell, 1) != 0 && counts(cell); });
+    return touched(pose, kBodyCells * scene_.cell_m - off_m,
+                   [&](const VoxelIndex& cell) { return world_.solid.value_or(cell, 1) != 0; });
   }
   template <class Solid>
-  [[nodiscard]] bool touches(const Pose& pose, double radius_m, Solid&& is_solid) const {
+  [[nodiscard]] std::vector<VoxelIndex> touched(const Pose& pose, double radius_m, Solid&& is_solid) const {
     const VoxelIndex at = world_.frame.cell_of(pose.translation());
-    bool touches = false;
+    std::vector<VoxelIndex> cells;
     for_each_cell(VoxelBox{at, at + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& cell) {
-      if (!is_solid(cell) || (scene_.flat && cell.z != 0)) {
-        return;
+      if (is_solid(cell) && !(scene_.flat && cell.z != 0) &&
+          world_.frame.box_of(cell).distance_to(pose.translation()) < radius_m) {
+        cells.push_back(cell);
       }
-      const Box box = world_.frame.box_of(cell);
-      const Eigen::Vector3d nearest = pose.translation().cwiseMax(box.min).cwiseMin(box.max);
-      touches = touches || (nearest - pose.translation()).norm() < radius_m;
     });
-    return touches;
+    return cells;
   }
   // Moves the robot to a random place where it fits.
   void carry() {
@@ -355,8 +356,7 @@ class DrivenRobot {
       there.translation() = world_.frame.centre_of({static_cast<std::int32_t>(draw(1.0, extent.x - 1.0)),
                                                     static_cast<std::int32_t>(draw(1.0, extent.y - 1.0)),
                                                     scene_.flat ? 0 : static_cast<std::int32_t>(draw(2.0, 5.0))});
-      if (!collides(there, [](const VoxelIndex&) { return true; }) &&
-          !world_.is_solid(world_.frame.cell_of(there.translation()))) {
+      if (static_cells_in(there).empty() && !world_.is_solid(world_.frame.cell_of(there.translation()))) {
         pose_ = there;
         assume_free(map_, *platform_, pose_);
         return;
@@ -387,59 +387,80 @@ std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
   return text != nullptr ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
 }
 
+// Runs to the end. Returns whether the run ended as it must.
+bool expect_contract(const std::string& planner, Host host, const Scene& scene) {
+  const DrivenRobot run(planner, host, scene);
+  const std::string what = ::testing::PrintToString(scene) + ", " + planner + ", " + name_of(host) + ", " +
+                           std::to_string(run.plans) + " plans, " + std::string(to_string(run.last.outcome)) + ": " +
+                           run.last.reason;
+  SCOPED_TRACE(what);
+  EXPECT_LT(run.plans, kMostPlans) << "it does not end by itself";
+  // Beside bars one cell apart, a map that is off by 1 cm leaves no cell in which the body fits. A robot that is
+  // carried to another place may see none either. Then the plan says what helps.
+  const bool may_be_blocked =
+      host == Host::MovedByHand || (host == Host::Inexact && scene.building == Building::Grille);
+  if (run.last.outcome == Outcome::Blocked && may_be_blocked) {
+    EXPECT_NE(run.last.reason.find("assume_free"), std::string::npos);
+  } else {
+    EXPECT_NE(run.last.outcome, Outcome::Blocked);
+  }
+  EXPECT_LE(run.misled_by.size(), 3U);
+  EXPECT_EQ(run.collisions, 0U);
+  EXPECT_EQ(run.disagreements, 0U) << "of one and two threads";
+  EXPECT_LE(run.most_asks, 2U) << "the same goal again and again";
+  if (run.last.outcome == Outcome::Explored) {
+    const std::vector<VoxelIndex> left = run.left();
+    EXPECT_EQ(left.size(), 0U) << "still observable: " << left.front().x << " " << left.front().y << " "
+                               << left.front().z;
+  }
+  // With walls between cells, the map decides which cells are free. A robot that is placed behind bars, or that
+  // maps walls where none are, may be cut off and report that.
+  const bool may_be_cut_off = host == Host::MovedByHand && run.last.outcome != Outcome::Explored;
+  const bool bars_look_closed = host == Host::Inexact && scene.building == Building::Grille;
+  const bool ended = host == Host::Stuck || run.last.outcome != Outcome::Move;
+  if (!scene.world().is_static() || scene.building == Building::Sheets || host == Host::Stuck || may_be_cut_off ||
+      bars_look_closed || run.last.outcome == Outcome::Move) {
+    return ended;
+  }
+  EXPECT_GE(run.coverage(), 0.99);
+  if (host != Host::Perfect) {
+    const DrivenRobot perfect(planner, Host::Perfect, scene);
+    EXPECT_LE(run.plans, 3 * perfect.plans + 5) << "the perfect host takes " << perfect.plans;
+  }
+  return ended;
+}
+
 class ExplorationContract : public ::testing::TestWithParam<std::tuple<std::string, Host>> {};
 
 TEST_P(ExplorationContract, Holds) {
   const auto& [planner, host] = GetParam();
   const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
   const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
-  std::size_t cases = 0;
   std::size_t ended = 0;
   for (std::uint32_t i = 0; i < seeds; ++i) {
     const Scene scene = Scene::numbered(first + i * kHosts + static_cast<std::uint32_t>(host));
-    const DrivenRobot run(planner, host, scene);
-    const std::string what = ::testing::PrintToString(scene) + ", " + planner + ", " + name_of(host) + ", " +
-                             std::to_string(run.plans) + " plans, " + std::string(to_string(run.last.outcome)) +
-                             ": " + run.last.reason;
-    SCOPED_TRACE(what);
-    ++cases;
-    EXPECT_LT(run.plans, kMostPlans) << "it does not end by itself";
-    // Beside bars one cell apart, a map that is off by 1 cm leaves no cell in which the body fits. A robot that is
-    // carried to another place may see none either. Then the plan says what helps.
-    const bool may_be_blocked =
-        host == Host::MovedByHand || (host == Host::Inexact && scene.building == Building::Grille);
-    if (run.last.outcome == Outcome::Blocked && may_be_blocked) {
-      EXPECT_NE(run.last.reason.find("assume_free"), std::string::npos);
-    } else {
-      EXPECT_NE(run.last.outcome, Outcome::Blocked);
-    }
-    ended += host == Host::Stuck || run.last.outcome != Outcome::Move ? 1U : 0U;
-    EXPECT_LE(run.misled, 3U);
-    EXPECT_EQ(run.collisions, 0U);
-    EXPECT_EQ(run.disagreements, 0U) << "of one and two threads";
-    // A place is given up after three failures, each of which is known after at most three plans.
-    EXPECT_LE(run.most_asks, host == Host::Stuck ? 9U : 2U) << "the same goal again and again";
-    if (run.last.outcome == Outcome::Explored) {
-      const std::vector<VoxelIndex> left = run.left();
-      EXPECT_EQ(left.size(), 0U) << "still observable: " << left.front().x << " " << left.front().y << " "
-                                 << left.front().z;
-    }
-    // With walls between cells, the map decides which cells are free. A robot that is placed behind bars, or that
-    // maps walls where none are, may be cut off and report that.
-    const bool may_be_cut_off = host == Host::MovedByHand && run.last.outcome != Outcome::Explored;
-    const bool bars_look_closed = host == Host::Inexact && scene.building == Building::Grille;
-    if (!scene.world().is_static() || scene.building == Building::Sheets || host == Host::Stuck || may_be_cut_off ||
-        bars_look_closed || run.last.outcome == Outcome::Move) {
-      continue;
-    }
-    EXPECT_GE(run.coverage(), 0.99);
-    if (host != Host::Perfect) {
-      const DrivenRobot perfect(planner, Host::Perfect, scene);
-      EXPECT_LE(run.plans, 3 * perfect.plans + 5) << "the perfect host takes " << perfect.plans;
-    }
+    ended += expect_contract(planner, host, scene) ? 1U : 0U;
   }
-  EXPECT_EQ(cases, seeds);
   EXPECT_EQ(ended, seeds);
+}
+
+// Runs that once broke the contract, by what was wrong.
+
+// A person stood in the way. The robot turned on the spot, and that passed for progress.
+TEST(ExplorationContractCase, ATurnOnTheSpotIsNotNearer) {
+  EXPECT_TRUE(expect_contract("harmonic", Host::StopsShort, Scene::numbered(5102)));
+}
+// A person who had gone still stood in the map on both sides of the robot, which then asked for free space around it.
+TEST(ExplorationContractCase, BetweenObstaclesThatAreKnownNothingIsToBeDeclaredFree) {
+  EXPECT_TRUE(expect_contract("frontier-gain", Host::StopsShort, Scene::numbered(5142)));
+}
+// The robot stopped beside a goal from which alone it could look through a crack, for another cell each time.
+TEST(ExplorationContractCase, BesideAGoalTheRobotComesNoNearer) {
+  EXPECT_TRUE(expect_contract("tour", Host::StopsShort, Scene::numbered(6052)));
+}
+// A cell was in line with two corners of walls as seen from two places, and was given up.
+TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {
+  EXPECT_TRUE(expect_contract("frontier-gain", Host::MovedByHand, Scene::numbered(5115)));
 }
 
 std::vector<std::string> planners() { return {planner_names().begin(), planner_names().end()}; }

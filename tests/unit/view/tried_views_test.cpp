@@ -261,6 +261,33 @@ TEST(TriedViews, AViewThatServedItsPurposeStartsAnew) {
   }
 }
 
+// A robot that stops beside a goal would stop there again. One at the goal may look from there as often as there is
+// something new to look at.
+TEST(TriedViews, ARobotThatStopsOffTheGoalIsAskedTwice) {
+  const auto asked_for = [](double off_m, bool reports) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    const Pose goal = at(map, {2, 5, 5});
+    Pose robot = goal;
+    robot.translation().x() -= off_m;
+    int times = 0;
+    for (; times < 10; ++times) {
+      tried.review(map, robot);
+      if (!tried.expect(map, {robot, goal}, {{5, times, 5}})) {
+        break;
+      }
+      if (reports) {
+        tried.report(GoalResult::Reached);
+      }
+      map.confirm();
+    }
+    return times;
+  };
+  EXPECT_EQ(asked_for(0.15, false), 2);
+  EXPECT_EQ(asked_for(0.15, true), 10);
+  EXPECT_EQ(asked_for(0.05, false), 10);
+}
+
 // From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
 TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
   for (const bool is_free : {false, true}) {

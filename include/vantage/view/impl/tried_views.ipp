@@ -186,7 +186,12 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
     fail(place);
     place.no_nearer = 0;
   } else if (reported_ == GoalResult::Reached || arrived(current)) {
-    std::erase_if(places_, [&](const Place& place) { return place.cell == goal; });
+    const double off_m = (expected_->goal.translation() - current.translation()).norm();
+    if (reported_ == GoalResult::Reached || off_m < 0.5 * cell_m_) {
+      std::erase_if(places_, [&](const Place& place) { return place.cell == goal; });
+    } else if (!served) {
+      place_of(goal).nearest_way = 0.0;  // it stops off the cell, and comes no nearer than this
+    }
     const VoxelIndex here = map.frame().cell_of(current.translation());
     const auto look = [&](const VoxelIndex& cell, std::vector<VoxelIndex> Looks::*unseen) {
       if (!is_unknown(cell)) {
