@@ -409,6 +409,29 @@ TEST_F(Program, SaysThatABudgetEndedIt) {
   EXPECT_EQ(report["views"], 1);
 }
 
+// Two rooms, and between them a gap that sight passes and the body does not.
+TEST_F(Program, SaysThatSomethingIsLeft) {
+  constexpr int kWidth = 60;
+  constexpr int kHeight = 30;
+  fs::create_directories(out());
+  std::ofstream image(out() + "/rooms.pgm");
+  image << "P2\n" << kWidth << ' ' << kHeight << "\n255\n";
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const bool border = x == 0 || x == kWidth - 1 || y == 0 || y == kHeight - 1;
+      image << (border || (x == 25 && y != 14 && y != 15) ? 0 : 254) << '\n';
+    }
+  }
+  image.close();
+  std::ofstream(out() + "/rooms.yaml") << "image: rooms.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\n"
+                                          "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  const Ran ran = run("explore --world '" + out() + "/rooms.yaml' --start 1,1,0 --robot-radius 0.25 --json -");
+  EXPECT_EQ(ran.code, 4) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["outcome"], "unreachable");
+  EXPECT_NE(report["reason"].get<std::string>().find("free space that is cut off"), std::string::npos);
+}
+
 TEST_F(Program, SaysThatAFullMapEndedIt) {
   const Ran ran = run("explore " + std::string(kTable) + "--memory-limit 0.02 --json - --out '" + out() + "'");
   EXPECT_EQ(ran.code, 3) << ran.err;
