@@ -368,7 +368,7 @@ void fail_to_reach(SurveyedWorld& world, const FrontierSurvey& survey) {
     const FrontierTarget& target = survey.targets[i];
     Pose goal = Pose::Identity();
     goal.translation() = world.map.frame().centre_of(target.viewpoint);
-    world.tried.expect(world.map, goal, 1.0, {target.unknown});
+    (void)world.tried.expect(world.map, {world.current, goal}, {target.unknown});
     world.tried.report(GoalResult::Failed);
     (void)world.tried.review(world.map, world.current);
   }
