@@ -93,7 +93,7 @@ void for_each_cell_in_hull(const OccupancyMap& map, const Visit& visit) {
   const VoxelBox box = map.bounds();
   for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
     for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
-      const auto [first, last] = detail::row_in_hull(planes, box, y, z);
+      const auto [first, last] = detail::HullRow{box.lo.x, box.hi.x}.within(planes, Eigen::Vector3d(0.0, y, z), 0);
       for (std::int32_t x = first; x < last; ++x) {
         visit(VoxelIndex{x, y, z});
       }

@@ -3,6 +3,7 @@
 
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel_table.hpp>
+#include <vantage/map/brick_set.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vector>
 
@@ -25,15 +26,15 @@ class VoidTiles {
   [[nodiscard]] const std::vector<VoxelIndex>& tiles() const { return tiles_; }
   /// Whether a tile is searched.
   [[nodiscard]] bool contains(const VoxelIndex& tile) const { return near_.find(tile) != nullptr; }
-  /// Whether a tile holds a brick of the map.
-  [[nodiscard]] bool holds_brick(const VoxelIndex& tile) const { return held_.find(tile) != nullptr; }
+  /// The bricks of the map in a tile, as the cells of a brick; null if there are none.
+  [[nodiscard]] const BrickPlane* held(const VoxelIndex& tile) const { return held_.find(tile); }
   /// The bricks of a tile, as a box in units of bricks.
   [[nodiscard]] static VoxelBox bricks_of(const VoxelIndex& tile) {
     return {{tile.x * 8, tile.y * 8, tile.z * 8}, {tile.x * 8 + 8, tile.y * 8 + 8, tile.z * 8 + 8}};
   }
 
  private:
-  VoxelTable<bool> held_;  // tiles that hold a brick of the map
+  BrickSet held_;  // bricks of the map
   VoxelTable<bool> near_;
   std::vector<VoxelIndex> tiles_;
 };

@@ -11,12 +11,21 @@
 
 namespace vantage::detail {
 
-/// Finds the bricks in which the set of cells inside the hull may differ between two hulls.
+/// Finds the bricks in which the set of cells inside the hull may differ between two hulls, and counts by how much.
 ///
 /// A cell that is inside only one hull lies beyond a plane of the other, and this plane is not shared. So only the
 /// space beyond unshared planes is searched. The search bisects boxes of bricks and drops a box if no part of it lies
-/// beyond an unshared plane, or if all of it lies outside both hulls. A box inside one hull and outside the other is
-/// counted as a whole, so that a count costs what the surfaces between the hulls hold, not the space between them.
+/// beyond an unshared plane, or if all of it lies outside both hulls.
+///
+/// Where cells are only counted, it bisects across the surfaces, not along them, and counts bars of bricks by rows of
+/// cells. A row is cut by planes, whatever its length:
+///
+///      old hull          new corner            |  |  |  |    bars; between the surfaces, a wedge that
+///     --------------.___     o                 |  |  |  |    is long and thin holds few rows
+///                       ---.___  the wedge    _|__|__|__|___ new surface
+///                              ---.____       -|--|--|--|--- old surface
+///
+/// A box inside one hull and outside the other is counted as a whole.
 class HullChange {
  public:
   /// A hull given by its planes, ascending, and its corners.
@@ -24,38 +33,38 @@ class HullChange {
     std::span<const LatticeHull::Plane> planes;
     std::span<const VoxelIndex> corners;
   };
-  /// Called with the address of a brick and the cells of it that are inside the new hull. Returns whether it has
-  /// counted them itself.
-  using Visit = std::function<bool(const VoxelIndex&, const BrickPlane&)>;
+  /// Called with the address of a brick and the cells of it that are inside the new hull.
+  using Visit = std::function<void(const VoxelIndex&, const BrickPlane&)>;
+  /// Whether a box of bricks holds one that is to be visited.
+  using Holds = std::function<bool(const VoxelBox&)>;
 
   HullChange(const Hull& before, const Hull& now);
 
-  /// Calls `visit` for every such brick of a box of bricks. Returns by how many the cells inside the hull have become
-  /// more in those that it has not counted.
-  std::int64_t for_each_brick(const VoxelBox& bricks, const Visit& visit);
-  /// By how many the cells of a box of bricks inside the hull have become more.
-  [[nodiscard]] std::int64_t growth(const VoxelBox& bricks);
+  /// Calls `visit` for every such brick of a box of bricks.
+  void for_each_brick(const VoxelBox& bricks, const Visit& visit);
+  /// The same for those that `holds`. Returns by how many the cells inside the hull have become more in the others.
+  [[nodiscard]] std::int64_t growth(const VoxelBox& bricks, const Holds& holds, const Visit& visit);
 
  private:
   // The planes of one kind that cut a box, as a range of indices.
   struct Cutting {
     std::size_t first = 0;
     std::size_t last = 0;
-    bool beyond = false;  // the whole box lies beyond one of them
+    bool beyond = false;                               // the whole box lies beyond one of them
+    Eigen::Vector3d slopes = Eigen::Vector3d::Zero();  // sum of their normals, without signs
 
     [[nodiscard]] bool empty() const { return first == last; }
   };
   using Planes = std::vector<HullPlane>;
 
-  template <class Whole>
   void visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone, const Cutting& added,
-                 const Whole& whole, const Visit& visit);
-  template <class Whole>
-  void visit_overlap(const VoxelBox& bricks, const Whole& whole, const Visit& visit);
+                 const Holds& holds, const Visit& visit);
+  void count_rows(const VoxelBox& cells, std::size_t axis, const Cutting& common, const Cutting& gone,
+                  const Cutting& added);
   [[nodiscard]] VoxelBox cells_of(const VoxelBox& bricks) const;
   static Cutting narrow(Planes& planes, const Cutting& from, const VoxelBox& cells);
-  [[nodiscard]] BrickPlane inside(const VoxelIndex& brick, const Cutting& common, const Planes& planes,
-                                  const Cutting& own) const;
+  static std::span<const HullPlane> of(const Planes& planes, const Cutting& cutting);
+  [[nodiscard]] BrickPlane inside(const VoxelIndex& brick, const Cutting& common, const Cutting& added) const;
 
   VoxelBox cells_;  // around both hulls
   std::int64_t growth_ = 0;

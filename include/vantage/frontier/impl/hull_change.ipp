@@ -4,10 +4,13 @@
 #include <vantage/frontier/impl/hull_change.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include <vantage/frontier/impl/hull_row.hpp>
 #include <vantage/frontier/impl/lattice_point.hpp>
 #include <vantage/frontier/impl/on_facet.hpp>
+#include <vantage/geometry/impl/along.hpp>
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/geometry/impl/plane_distance.hpp>
@@ -15,18 +18,11 @@
 
 namespace vantage::detail {
 
-// Splits a box into two halves across its longest side.
-inline std::pair<VoxelBox, VoxelBox> halves(const VoxelBox& box) {
-  const VoxelIndex extent = box.extent();
+// Splits a box into two halves across an axis.
+inline std::pair<VoxelBox, VoxelBox> halves(const VoxelBox& box, std::size_t axis) {
   VoxelIndex low_end = box.hi;
   VoxelIndex high_start = box.lo;
-  if (extent.x >= extent.y && extent.x >= extent.z) {
-    low_end.x = high_start.x = box.lo.x + extent.x / 2;
-  } else if (extent.y >= extent.z) {
-    low_end.y = high_start.y = box.lo.y + extent.y / 2;
-  } else {
-    low_end.z = high_start.z = box.lo.z + extent.z / 2;
-  }
+  along(low_end, axis) = along(high_start, axis) = along(box.lo, axis) + along(box.extent(), axis) / 2;
   return {{box.lo, low_end}, {high_start, box.hi}};
 }
 
@@ -84,65 +80,81 @@ VANTAGE_INLINE VoxelBox HullChange::cells_of(const VoxelBox& bricks) const {
   return box_overlap({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)}, cells_);
 }
 
-VANTAGE_INLINE std::int64_t HullChange::for_each_brick(const VoxelBox& bricks, const Visit& visit) {
-  growth_ = 0;
-  visit_overlap(
-      bricks, [](const VoxelBox&, bool) { return false; }, visit);
-  return growth_;
+VANTAGE_INLINE void HullChange::for_each_brick(const VoxelBox& bricks, const Visit& visit) {
+  (void)growth(
+      bricks, [](const VoxelBox&) { return true; }, visit);
 }
 
-VANTAGE_INLINE std::int64_t HullChange::growth(const VoxelBox& bricks) {
+VANTAGE_INLINE std::int64_t HullChange::growth(const VoxelBox& bricks, const Holds& holds, const Visit& visit) {
   growth_ = 0;
-  visit_overlap(
-      bricks,
-      [this](const VoxelBox& cells, bool is_inside) {
-        const auto size = static_cast<std::int64_t>(cells.size());
-        growth_ += is_inside ? size : -size;
-        return true;
-      },
-      [](const VoxelIndex&, const BrickPlane&) { return false; });
-  return growth_;
-}
-
-// `whole(cells, is inside)` may take a box inside one hull and outside the other.
-template <class Whole>
-void HullChange::visit_overlap(const VoxelBox& bricks, const Whole& whole, const Visit& visit) {
   const VoxelBox overlap = cells_of(bricks);
   if (!overlap.empty()) {
     const VoxelIndex last = Brick::of_cell(overlap.hi - VoxelIndex{1, 1, 1});
     visit_box({Brick::of_cell(overlap.lo), last + VoxelIndex{1, 1, 1}}, {0, common_.size()}, {0, gone_.size()},
-              {0, added_.size()}, whole, visit);
+              {0, added_.size()}, holds, visit);
   }
+  return growth_;
 }
 
-template <class Whole>
-void HullChange::visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone, const Cutting& added,
-                           const Whole& whole, const Visit& visit) {
+VANTAGE_INLINE void HullChange::visit_box(const VoxelBox& bricks, const Cutting& common, const Cutting& gone,
+                                          const Cutting& added, const Holds& holds, const Visit& visit) {
   const VoxelBox cells = cells_of(bricks);
   const Cutting gone_here = narrow(gone_, gone, cells);
   const Cutting added_here = narrow(added_, added, cells);
   const bool outside_both = gone_here.beyond && added_here.beyond;
   if (!outside_both && !(gone_here.empty() && added_here.empty())) {
     const Cutting common_here = narrow(common_, common, cells);
+    const bool held = holds(bricks);
     const bool gained = common_here.empty() && added_here.empty() && gone_here.beyond;
     const bool lost = common_here.empty() && gone_here.empty() && added_here.beyond;
-    if (common_here.beyond || ((gained || lost) && whole(cells, gained))) {
+    Eigen::Index flattest = 0;  // the axis along which the planes of only one hull run
+    (void)(gone_here.slopes + added_here.slopes).minCoeff(&flattest);
+    const auto axis = static_cast<std::size_t>(flattest);
+    std::array<std::int32_t, 3> sides{bricks.extent().x, bricks.extent().y, bricks.extent().z};
+    if (!held) {
+      sides[axis] = 1;
+    }
+    const auto longest = std::max_element(sides.begin(), sides.end());
+    if (common_here.beyond) {
       // nothing of it is left to look at
-    } else if (bricks.size() > 1) {
-      const auto [low, high] = halves(bricks);
-      visit_box(low, common_here, gone_here, added_here, whole, visit);
-      visit_box(high, common_here, gone_here, added_here, whole, visit);
+    } else if (!held && (gained || lost)) {
+      growth_ += gained ? static_cast<std::int64_t>(cells.size()) : -static_cast<std::int64_t>(cells.size());
+    } else if (*longest > 1) {
+      const auto [low, high] = halves(bricks, static_cast<std::size_t>(longest - sides.begin()));
+      visit_box(low, common_here, gone_here, added_here, holds, visit);
+      visit_box(high, common_here, gone_here, added_here, holds, visit);
+    } else if (held) {
+      visit(bricks.lo, inside(bricks.lo, common_here, added_here));
     } else {
-      const BrickPlane now = inside(bricks.lo, common_here, added_, added_here);
-      if (!visit(bricks.lo, now)) {
-        const BrickPlane before = inside(bricks.lo, common_here, gone_, gone_here);
-        growth_ += static_cast<std::int64_t>(size_of(now)) - static_cast<std::int64_t>(size_of(before));
-      }
+      count_rows(cells, axis, common_here, gone_here, added_here);
     }
     common_.resize(common_here.first);
   }
   gone_.resize(gone_here.first);
   added_.resize(added_here.first);
+}
+
+// Counts the cells of a box by rows along an axis.
+VANTAGE_INLINE void HullChange::count_rows(const VoxelBox& cells, std::size_t axis, const Cutting& common,
+                                           const Cutting& gone, const Cutting& added) {
+  const auto along_row = static_cast<Eigen::Index>(axis);
+  const std::size_t beside = (axis + 1) % 3;
+  const std::size_t above = (axis + 2) % 3;
+  const HullRow whole{along(cells.lo, axis), along(cells.hi, axis)};
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  for (std::int32_t v = along(cells.lo, above); v < along(cells.hi, above); ++v) {
+    start[static_cast<Eigen::Index>(above)] = v;
+    for (std::int32_t u = along(cells.lo, beside); u < along(cells.hi, beside); ++u) {
+      start[static_cast<Eigen::Index>(beside)] = u;
+      const HullRow row = whole.within(of(common_, common), start, along_row);
+      growth_ += row.within(of(added_, added), start, along_row).size() -
+                 row.within(of(gone_, gone), start, along_row).size();
+    }
+  }
+}
+
+VANTAGE_INLINE std::span<const HullPlane> HullChange::of(const Planes& planes, const Cutting& cutting) {
+  return std::span(planes).subspan(cutting.first, cutting.last - cutting.first);
 }
 
 // Pushes the planes beyond which a part of the box lies.
@@ -155,6 +167,7 @@ VANTAGE_INLINE HullChange::Cutting HullChange::narrow(Planes& planes, const Cutt
     const double reach = box.reach(plane) + kOnFacet;  // adds a margin for rounding
     if (distance > -reach) {
       planes.push_back(plane);
+      cutting.slopes += plane.normal.cwiseAbs();
       cutting.beyond = cutting.beyond || distance > reach;
     }
   }
@@ -162,10 +175,10 @@ VANTAGE_INLINE HullChange::Cutting HullChange::narrow(Planes& planes, const Cutt
   return cutting;
 }
 
-// The cells of a brick within the common planes and those of one hull.
-VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutting& common, const Planes& planes,
-                                             const Cutting& own) const {
-  if (own.beyond) {
+// The cells of a brick inside the new hull.
+VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutting& common,
+                                             const Cutting& added) const {
+  if (added.beyond) {
     return {};
   }
   BrickPlane inside = plane_of(brick, cells_);
@@ -182,8 +195,8 @@ VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutt
       }
     }
   };
-  std::for_each_n(common_.begin() + static_cast<std::ptrdiff_t>(common.first), common.last - common.first, cut_by);
-  std::for_each_n(planes.begin() + static_cast<std::ptrdiff_t>(own.first), own.last - own.first, cut_by);
+  std::ranges::for_each(of(common_, common), cut_by);
+  std::ranges::for_each(of(added_, added), cut_by);
   return inside;
 }
 

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vantage/geometry/lattice_hull.hpp>
-#include <vantage/geometry/voxel.hpp>
 #include <vector>
 
 #include <vantage/frontier/impl/on_facet.hpp>
@@ -15,30 +13,35 @@
 
 namespace vantage::detail {
 
-/// The cells [first, last) of the row (., y, z) of a box whose centre lies inside all planes of a hull.
-[[nodiscard]] inline std::pair<std::int32_t, std::int32_t> row_in_hull(std::span<const HullPlane> planes,
-                                                                       const VoxelBox& box, std::int32_t y,
-                                                                       std::int32_t z) {
-  double lo = box.lo.x;
-  double hi = box.hi.x - 1;
-  for (const HullPlane& plane : planes) {
-    const double slope = plane.normal.x();
-    const double rest = distance_from(plane, {0.0, static_cast<double>(y), static_cast<double>(z)}) - kOnFacet;
-    if (std::abs(slope) < 1e-12) {
-      if (rest > 0.0) {
-        return {box.lo.x, box.lo.x};
-      }
-    } else if (slope > 0.0) {
-      hi = std::min(hi, std::floor(-rest / slope));
-    } else {
-      lo = std::max(lo, std::ceil(-rest / slope));
-    }
-  }
-  return lo <= hi ? std::pair(static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi) + 1)
-                  : std::pair(box.lo.x, box.lo.x);
-}
+/// The cells [first, last) of a row along an axis.
+struct HullRow {
+  std::int32_t first = 0;
+  std::int32_t last = 0;
 
-/// The planes of a hull, for row_in_hull.
+  [[nodiscard]] std::int64_t size() const { return last - first; }
+  /// Those whose centre lies inside all planes. `start`: the point of the row whose coordinate along `axis` is 0.
+  [[nodiscard]] HullRow within(std::span<const HullPlane> planes, const Eigen::Vector3d& start,
+                               Eigen::Index axis) const {
+    constexpr double kAlong = 1e-12;  // a plane with a smaller slope runs along the row
+    double lo = first;
+    double hi = last - 1;
+    for (const HullPlane& plane : planes) {
+      const double slope = plane.normal[axis];
+      const double rest = distance_from(plane, start) - kOnFacet;
+      if (slope > kAlong) {
+        hi = std::min(hi, std::floor(-rest / slope));
+      } else if (slope < -kAlong) {
+        lo = std::max(lo, std::ceil(-rest / slope));
+      } else if (rest > 0.0) {
+        return {first, first};
+      }
+    }
+    return lo <= hi ? HullRow{static_cast<std::int32_t>(lo), static_cast<std::int32_t>(hi) + 1}
+                    : HullRow{first, first};
+  }
+};
+
+/// The planes of a hull.
 [[nodiscard]] inline std::vector<HullPlane> planes_of(const LatticeHull& hull) {
   std::vector<HullPlane> planes;
   for (const LatticeHull::Plane& plane : hull.planes()) {

@@ -65,7 +65,8 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
     for (std::int32_t z = std::max(tile_z * kTile, box.lo.z); z < std::min((tile_z + 1) * kTile, box.hi.z); ++z) {
       for (const auto& [tile_y, xs] : ys) {
         for (std::int32_t y = std::max(tile_y * kTile, box.lo.y); y < std::min((tile_y + 1) * kTile, box.hi.y); ++y) {
-          const auto [first, last] = detail::row_in_hull(planes, box, y, z);
+          const auto [first, last] =
+              detail::HullRow{box.lo.x, box.hi.x}.within(planes, Eigen::Vector3d(0.0, y, z), 0);
           for (const std::int32_t tile_x : xs) {
             visit_row(std::max(tile_x * kTile, first), std::min((tile_x + 1) * kTile, last), y, z);
           }

@@ -11,11 +11,11 @@ VANTAGE_INLINE VoidTiles::VoidTiles(const OccupancyMap& map) {
 
 VANTAGE_INLINE void VoidTiles::add(const VoxelIndex& brick) {
   const VoxelIndex tile{brick.x >> 3, brick.y >> 3, brick.z >> 3};
-  bool& held = held_.place(tile);
-  if (held) {
+  const bool is_new = held_.find(tile) == nullptr;
+  held_.insert(brick);
+  if (!is_new) {
     return;
   }
-  held = true;
   for_each_cell(VoxelBox{tile, tile + VoxelIndex{1, 1, 1}}.grown(1), [this](const VoxelIndex& near) {
     bool& known = near_.place(near);
     if (!known) {

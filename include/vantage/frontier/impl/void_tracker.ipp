@@ -105,10 +105,7 @@ VANTAGE_INLINE void VoidTracker::widen(const std::vector<VoxelIndex>& touched) {
       if (tiles_.contains(Brick::of_cell(address))) {
         detail::HullChange& hull = whole ? *whole : whole.emplace(detail::HullChange({}, {planes_, corners_}));
         hull.for_each_brick({address, address + VoxelIndex{1, 1, 1}},
-                            [&](const VoxelIndex&, const BrickPlane& cells) {
-                              inside = cells;
-                              return true;
-                            });
+                            [&](const VoxelIndex&, const BrickPlane& cells) { inside = cells; });
       }
       store(address, inside);
     }
@@ -146,29 +143,22 @@ VANTAGE_INLINE void VoidTracker::reshape(LatticeHull hull, std::vector<VoxelInde
 // Applies a change of the hull to the bricks of a tile, and appends those of the map to `reshaped`.
 VANTAGE_INLINE void VoidTracker::apply(detail::HullChange& change, const VoxelIndex& tile,
                                        std::vector<VoxelIndex>* reshaped) {
-  const VoxelBox bricks = VoidTiles::bricks_of(tile);
-  std::int64_t growth = 0;
-  bool changed = false;
-  if (!tiles_.holds_brick(tile)) {
-    growth = change.growth(bricks);
-    changed = growth != 0;  // a hull that changes contains the other one
-  } else {
-    growth = change.for_each_brick(bricks, [&](const VoxelIndex& address, const BrickPlane& inside) {
-      changed = true;
-      Stored* const brick = find(address);
-      if (brick == nullptr) {
-        return false;
-      }
-      brick->inside = inside;
-      refresh(*brick);
-      if (reshaped != nullptr) {
-        reshaped->push_back(address);
-      }
-      return true;
-    });
-  }
+  const BrickPlane* const held = tiles_.held(tile);
+  bool visited = false;
+  const std::int64_t growth = change.growth(
+      VoidTiles::bricks_of(tile),
+      [&](const VoxelBox& bricks) { return held != nullptr && detail::overlaps(*held, tile, bricks); },
+      [&](const VoxelIndex& address, const BrickPlane& inside) {
+        visited = true;
+        Stored& brick = *find(address);
+        brick.inside = inside;
+        refresh(brick);
+        if (reshaped != nullptr) {
+          reshaped->push_back(address);
+        }
+      });
   cell_count_ += static_cast<std::size_t>(growth);
-  if (changed) {
+  if (visited || growth != 0) {  // a hull that changes contains the other one
     connected_->changed(tile);
   }
 }
@@ -219,7 +209,6 @@ VANTAGE_INLINE void VoidTracker::fill(detail::HullChange& whole, const VoxelInde
     whole.for_each_brick(VoidTiles::bricks_of(tile), [&](const VoxelIndex& address, const BrickPlane& inside) {
       const Stored* const brick = find(address);
       bricks[detail::ConnectedCells::in_tile(address)] = brick == nullptr ? inside : brick->voids;
-      return true;
     });
   }
 }
@@ -244,7 +233,6 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells() const {
     whole.for_each_brick(VoidTiles::bricks_of(tile), [&](const VoxelIndex& address, const BrickPlane& inside) {
       const Stored* const brick = find(address);
       detail::append(brick == nullptr ? inside : brick->voids, address, cells);
-      return true;
     });
   }
   std::sort(cells.begin(), cells.end(), RasterOrder{});

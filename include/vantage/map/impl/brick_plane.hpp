@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 #include <vantage/map/brick.hpp>
 #include <vector>
 
@@ -64,6 +66,13 @@ inline BrickPlane plane_of(const VoxelIndex& brick, const VoxelBox& box) {
                   layers(kAxes[2], inside.lo.z - start.z, inside.hi.z - start.z);
   }
   return plane;
+}
+
+/// Whether a plane of a brick holds a cell of a box.
+inline bool overlaps(const BrickPlane& plane, const VoxelIndex& brick, const VoxelBox& box) {
+  const BrickPlane inside = plane_of(brick, box);
+  return std::inner_product(plane.begin(), plane.end(), inside.begin(), std::uint64_t{0}, std::bit_or<>(),
+                            std::bit_and<>()) != 0;
 }
 
 /// A plane dilated by one cell in both directions along an axis, within the brick.
