@@ -9,7 +9,7 @@
 #include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/frontier/void_cells.hpp>
 
-#include <vantage/frontier/impl/hull_row.hpp>
+#include <vantage/frontier/impl/hull_rows.hpp>
 
 namespace vantage {
 namespace {
@@ -89,11 +89,12 @@ void for_each_cell_in_hull(const OccupancyMap& map, const Visit& visit) {
   if (hull.empty()) {
     return;
   }
-  const std::vector<HullPlane> planes = detail::planes_of(hull);
+  const detail::HullRows rows(detail::planes_of(hull), 0);
   const VoxelBox box = map.bounds();
+  const detail::HullRow whole{1.0 * box.lo.x, box.hi.x - 1.0};
   for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
     for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
-      const auto [first, last] = detail::HullRow{box.lo.x, box.hi.x}.within(planes, Eigen::Vector3d(0.0, y, z), 0);
+      const auto [first, last] = rows.within(whole, y, z).cells();
       for (std::int32_t x = first; x < last; ++x) {
         visit(VoxelIndex{x, y, z});
       }

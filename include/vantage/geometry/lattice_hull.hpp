@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vantage/compiler.hpp>
@@ -43,6 +44,8 @@ class LatticeHull {
   [[nodiscard]] bool empty() const { return facets_.empty(); }
   /// Whether a point lies in the hull or on its surface.
   [[nodiscard]] bool contains(const VoxelIndex& point) const;
+  /// The number of triangles. Insertions in the plane of others add triangles that the hull of its corners has not.
+  [[nodiscard]] std::size_t triangle_count() const { return facets_.size() - unused_.size(); }
   /// The planes that bound the hull, each once, sorted by normal.
   [[nodiscard]] std::vector<Plane> planes() const;
   /// The corners of the hull, ascending. Points inside an edge or a plane are not corners.

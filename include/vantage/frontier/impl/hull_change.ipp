@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-#include <vantage/frontier/impl/hull_row.hpp>
+#include <vantage/frontier/impl/hull_rows.hpp>
 #include <vantage/frontier/impl/lattice_point.hpp>
 #include <vantage/frontier/impl/on_facet.hpp>
 #include <vantage/geometry/impl/along.hpp>
@@ -110,7 +110,8 @@ VANTAGE_INLINE void HullChange::visit_box(const VoxelBox& bricks, const Cutting&
     Eigen::Index flattest = 0;  // the axis along which the planes of only one hull run
     (void)(gone_here.slopes + added_here.slopes).minCoeff(&flattest);
     const auto axis = static_cast<std::size_t>(flattest);
-    std::array<std::int32_t, 3> sides{bricks.extent().x, bricks.extent().y, bricks.extent().z};
+    const VoxelIndex extent = bricks.extent();
+    std::array<std::int32_t, 3> sides{extent.x, extent.y, extent.z};
     if (!held) {
       sides[axis] = 1;
     }
@@ -137,18 +138,16 @@ VANTAGE_INLINE void HullChange::visit_box(const VoxelBox& bricks, const Cutting&
 // Counts the cells of a box by rows along an axis.
 VANTAGE_INLINE void HullChange::count_rows(const VoxelBox& cells, std::size_t axis, const Cutting& common,
                                            const Cutting& gone, const Cutting& added) {
-  const auto along_row = static_cast<Eigen::Index>(axis);
   const std::size_t beside = (axis + 1) % 3;
   const std::size_t above = (axis + 2) % 3;
-  const HullRow whole{along(cells.lo, axis), along(cells.hi, axis)};
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  const HullRows both(of(common_, common), axis);
+  const HullRows before(of(gone_, gone), axis);
+  const HullRows now(of(added_, added), axis);
+  const HullRow whole{1.0 * along(cells.lo, axis), along(cells.hi, axis) - 1.0};
   for (std::int32_t v = along(cells.lo, above); v < along(cells.hi, above); ++v) {
-    start[static_cast<Eigen::Index>(above)] = v;
     for (std::int32_t u = along(cells.lo, beside); u < along(cells.hi, beside); ++u) {
-      start[static_cast<Eigen::Index>(beside)] = u;
-      const HullRow row = whole.within(of(common_, common), start, along_row);
-      growth_ += row.within(of(added_, added), start, along_row).size() -
-                 row.within(of(gone_, gone), start, along_row).size();
+      const HullRow row = both.within(whole, u, v);
+      growth_ += now.within(row, u, v).size() - before.within(row, u, v).size();
     }
   }
 }

@@ -8,7 +8,7 @@
 #include <vantage/frontier/void_tiles.hpp>
 #include <vantage/frontier/void_tracker.hpp>
 
-#include <vantage/frontier/impl/hull_row.hpp>
+#include <vantage/frontier/impl/hull_rows.hpp>
 #include <vantage/geometry/impl/box_overlap.hpp>
 
 namespace vantage {
@@ -48,7 +48,8 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
   if (box.empty()) {
     return;
   }
-  const std::vector<HullPlane> planes = detail::planes_of(hull);
+  const HullRows rows(planes_of(hull), 0);
+  const HullRow whole{1.0 * box.lo.x, box.hi.x - 1.0};
   const auto visit_row = [&](std::int32_t first, std::int32_t last, std::int32_t y, std::int32_t z) {
     const Brick* brick = nullptr;
     for (std::int32_t x = first; x < last; ++x) {
@@ -65,8 +66,7 @@ void for_each_void_cell(const OccupancyMap& map, const Visit& visit) {
     for (std::int32_t z = std::max(tile_z * kTile, box.lo.z); z < std::min((tile_z + 1) * kTile, box.hi.z); ++z) {
       for (const auto& [tile_y, xs] : ys) {
         for (std::int32_t y = std::max(tile_y * kTile, box.lo.y); y < std::min((tile_y + 1) * kTile, box.hi.y); ++y) {
-          const auto [first, last] =
-              detail::HullRow{box.lo.x, box.hi.x}.within(planes, Eigen::Vector3d(0.0, y, z), 0);
+          const auto [first, last] = rows.within(whole, y, z).cells();
           for (const std::int32_t tile_x : xs) {
             visit_row(std::max(tile_x * kTile, first), std::min((tile_x + 1) * kTile, last), y, z);
           }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -18,6 +19,9 @@
 
 namespace vantage {
 namespace detail {
+
+// A hull of n corners has 2 n - 4 triangles. One with many more is made anew from its corners.
+inline constexpr std::size_t kTrianglesPerCorner = 8;
 
 // Whether all cells that can become known lie in one plane, so that the hull is always empty.
 inline bool is_one_layer(const OccupancyMap& map) {
@@ -135,7 +139,9 @@ VANTAGE_INLINE void VoidTracker::reshape(LatticeHull hull, std::vector<VoxelInde
   for (const VoxelIndex& tile : tiles_.tiles()) {
     apply(change, tile, reshaped);
   }
-  hull_ = std::move(hull);
+  // The cost of a hull follows its triangles.
+  hull_ =
+      hull.triangle_count() > detail::kTrianglesPerCorner * corners.size() ? LatticeHull(corners) : std::move(hull);
   planes_ = std::move(planes);
   corners_ = std::move(corners);
 }
@@ -144,21 +150,18 @@ VANTAGE_INLINE void VoidTracker::reshape(LatticeHull hull, std::vector<VoxelInde
 VANTAGE_INLINE void VoidTracker::apply(detail::HullChange& change, const VoxelIndex& tile,
                                        std::vector<VoxelIndex>* reshaped) {
   const BrickPlane* const held = tiles_.held(tile);
-  bool visited = false;
-  const std::int64_t growth = change.growth(
-      VoidTiles::bricks_of(tile),
-      [&](const VoxelBox& bricks) { return held != nullptr && detail::overlaps(*held, tile, bricks); },
-      [&](const VoxelIndex& address, const BrickPlane& inside) {
-        visited = true;
-        Stored& brick = *find(address);
-        brick.inside = inside;
-        refresh(brick);
-        if (reshaped != nullptr) {
-          reshaped->push_back(address);
-        }
-      });
+  const auto holds = [&](const VoxelBox& bricks) { return held != nullptr && detail::overlaps(*held, tile, bricks); };
+  const auto visit = [&](const VoxelIndex& address, const BrickPlane& inside) {
+    Stored& brick = *find(address);
+    brick.inside = inside;
+    refresh(brick);
+    if (reshaped != nullptr) {
+      reshaped->push_back(address);
+    }
+  };
+  const std::int64_t growth = change.growth(VoidTiles::bricks_of(tile), std::cref(holds), std::cref(visit));
   cell_count_ += static_cast<std::size_t>(growth);
-  if (visited || growth != 0) {  // a hull that changes contains the other one
+  if (growth != 0) {  // a hull that changes contains the other one
     connected_->changed(tile);
   }
 }
