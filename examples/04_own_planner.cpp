@@ -29,7 +29,8 @@ class LargestClusterPlanner final : public vantage::FrontierPlanner {
     const auto target = std::find_if(targets.begin(), targets.end(), [&](const vantage::FrontierTarget& one) {
       return one.frontier == largest[largest.size() / 2];
     });
-    return vantage::ChosenView{.view = view_of_target(situation(), *target, plan.statistics.ray_operations)};
+    return vantage::ChosenView{.view =
+                                   view_of_target(situation().surveyed(), *target, plan.statistics.ray_operations)};
   }
 };
 

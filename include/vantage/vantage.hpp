@@ -5,6 +5,7 @@
 /// Includes all of vantage::core. Prefer the header of the class that you use.
 
 #include <vantage/compiler.hpp>
+#include <vantage/field/harmonic_field.hpp>
 #include <vantage/field/laplace_domain.hpp>
 #include <vantage/field/laplace_multigrid.hpp>
 #include <vantage/field/laplace_problem.hpp>
@@ -63,7 +64,6 @@
 #include <vantage/planner/plan_check.hpp>
 #include <vantage/planner/planner_setup.hpp>
 #include <vantage/planner/situation.hpp>
-#include <vantage/planner/target_view.hpp>
 #include <vantage/planner/tour_planner.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
@@ -97,10 +97,14 @@
 #include <vantage/view/information_gain.hpp>
 #include <vantage/view/leftover.hpp>
 #include <vantage/view/object_views.hpp>
+#include <vantage/view/object_visibility.hpp>
 #include <vantage/view/sensing_constraint.hpp>
+#include <vantage/view/target_view.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vantage/view/unseen_surface.hpp>
 #include <vantage/view/utility_vectors.hpp>
+#include <vantage/view/view.hpp>
 #include <vantage/view/view_cover.hpp>
 #include <vantage/view/view_utility.hpp>
+#include <vantage/view/void_views.hpp>

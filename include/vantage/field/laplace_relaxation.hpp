@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vantage/compiler.hpp>
@@ -20,16 +19,9 @@ enum class NeumannScheme : std::uint8_t {
   Mirror,
 };
 
-/// The order in which a sweep visits the cells.
-enum class SweepOrder : std::uint8_t {
-  Lexicographic,  ///< z, then y, then x
-  RedBlack,  ///< first the cells with even x + y + z, then the odd ones; updates within one colour are independent
-};
-
 /// Options of LaplaceRelaxation. The defaults give the paper's method, except for the Neumann scheme.
 struct RelaxationOptions {
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< boundary condition at closed faces
-  SweepOrder order = SweepOrder::Lexicographic;         ///< order of a sweep
   double tolerance = 1e-4;          ///< stop when the largest relative change in a sweep is below this (eq. 10), > 0
   std::size_t max_sweeps = 100000;  ///< limit on the number of sweeps, > 0
   double over_relaxation = 1.0;     ///< relaxation factor, in (0, 2); 1 is Gauss-Seidel, larger values are SOR
@@ -55,7 +47,6 @@ struct LaplaceReport {
   std::size_t sweeps = 0;                      ///< number of sweeps
   double last_change = 0.0;                    ///< largest relative change in the last sweep (eq. 10)
   std::uint64_t cell_updates = 0;              ///< total number of cell updates
-  double seconds = 0.0;                        ///< wall time
 };
 
 /// The field and the statistics of its solution.
@@ -75,10 +66,7 @@ class LaplaceRelaxation {
   /// Keeps a reference to `problem`. Throws std::invalid_argument, which names the invalid option.
   explicit LaplaceRelaxation(const LaplaceProblem& problem, const RelaxationOptions& options = {});
 
-  /// Starts from `phi` (by position) instead of zero. The values at sinks and source are ignored; they stay 0 and 1.
-  /// Throws std::invalid_argument unless there is one finite value per cell.
-  void start_from(std::span<const double> phi);
-  /// Visits every interior cell once. Returns the largest relative change (eq. 10).
+  /// Visits every interior cell once, in the order z, then y, then x. Returns the largest relative change (eq. 10).
   double sweep();
   /// Sweeps until it has converged or reached `max_sweeps`.
   void run();
@@ -89,8 +77,6 @@ class LaplaceRelaxation {
   [[nodiscard]] std::span<const double> phi() const { return {values_.data(), problem_->size()}; }
   /// Statistics of the sweeps so far.
   [[nodiscard]] const LaplaceReport& report() const { return report_; }
-  /// Largest |mean of the neighbours - phi| over the interior cells; 0 for an exact solution.
-  [[nodiscard]] double largest_defect() const;
 
  private:
   struct Row {  // equation of a cell: phi[self] = weight * (sum of phi[neighbours] + source)
@@ -109,9 +95,8 @@ class LaplaceRelaxation {
   LaplaceReport report_;
 };
 
-/// One-shot version: relaxes from `start`, or from zero if it is empty. Errors as LaplaceRelaxation.
-[[nodiscard]] LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options = {},
-                                            std::span<const double> start = {});
+/// One-shot version. Errors as LaplaceRelaxation.
+[[nodiscard]] LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options = {});
 
 }  // namespace vantage
 

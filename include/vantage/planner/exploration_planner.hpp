@@ -10,6 +10,7 @@
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/view/goal_result.hpp>
 #include <vantage/view/leftover.hpp>
+#include <vantage/view/view.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -36,12 +37,6 @@ enum class Outcome : std::uint8_t {
   }
   return "blocked";
 }
-
-/// A sensor pose and its expected utility.
-struct View {
-  Pose pose = Pose::Identity();  ///< world_from_sensor
-  double utility = 0.0;          ///< in the unit of the planner, e.g. cells or faces; 0 if nothing is expected
-};
 
 /// Counts and times of one plan. Times are for reports only; no decision depends on them.
 struct PlanStatistics {

@@ -9,7 +9,7 @@
 #include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/situation.hpp>
-#include <vantage/planner/target_view.hpp>
+#include <vantage/view/target_view.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -43,7 +43,9 @@ class FrontierPlanner : public ExplorationPlanner {
       : situation_(setup, options) {}
 
   [[nodiscard]] Plan plan(const OccupancyMap& map, const Pose& current) final;
-  void report(const OccupancyMap& map, const Pose& current, GoalResult result) final;
+  void report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) final {
+    situation_.report(result);
+  }
   [[nodiscard]] std::string memory() const final { return situation_.tried().text(); }
   void recall(const OccupancyMap& map, std::string_view memory) final { situation_.recall(map, memory); }
 

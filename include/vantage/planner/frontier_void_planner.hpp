@@ -10,9 +10,9 @@
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/map/following.hpp>
 #include <vantage/planner/frontier_planner.hpp>
-#include <vantage/raytrace/view_rays.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vantage/view/utility_vectors.hpp>
+#include <vantage/view/void_views.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -21,14 +21,7 @@ namespace VANTAGE_EXPORT vantage {
 struct FrontierVoidStrategy {
   /// The frontier cells through which a void is observed.
   FrontierShare share = FrontierShare::TouchingCells;
-  /// Orientations tried per place, >= 1; one is enough for a sensor that sees all around.
-  std::size_t orientations_per_place = 5;
-  /// Minimum distance between places, metres, in [0, 1e6]. The places of highest utility lie side by side and see the
-  /// same.
-  double place_spacing_m = 0.3;
-  /// True: orientations look at a frontier cell of a void, drawn with its utility as weight. False: in random
-  /// directions.
-  bool aimed = true;
+  VoidSampling sampling = {};  ///< how views are drawn
   /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
   /// alone count (eq. 3).
   double cost_per_m = 0.3;
@@ -55,8 +48,7 @@ struct FrontierVoidStrategy {
   /// Blocked.
   [[nodiscard]] static FrontierVoidStrategy faithful() {
     return {.share = FrontierShare::WholeClusters,
-            .place_spacing_m = 0.0,
-            .aimed = false,
+            .sampling = {.place_spacing_m = 0.0, .aimed = false},
             .cost_per_m = 0.0,
             .finalists = std::numeric_limits<std::size_t>::max(),
             .opaque_share = 1.0,
@@ -70,8 +62,7 @@ struct FrontierVoidStrategy {
   /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
   /// when no view sees a void.
   [[nodiscard]] static FrontierVoidStrategy searching() {
-    return {.orientations_per_place = 8,
-            .place_spacing_m = 0.1,
+    return {.sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
             .cost_per_m = 0.0,
             .finalists = 30,
             .sought_chance = 0.0,
@@ -82,7 +73,6 @@ struct FrontierVoidStrategy {
 /// Options of FrontierVoidPlanner.
 struct FrontierVoidOptions {
   VoidClusterOptions clusters = {};    ///< how void cells are clustered; its seed is replaced by that of the setup
-  std::size_t most_vectors = 200'000;  ///< limit of utility_vectors, > 0
   std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, in [1, 1e6]
   FrontierVoidStrategy strategy = {};  ///< refinements of the method
   /// How frontiers are surveyed, with fewer rays than elsewhere: a void is seen through many frontier cells.
@@ -116,15 +106,12 @@ class FrontierVoidPlanner final : public FrontierPlanner {
 
   [[nodiscard]] std::string_view name() const override { return "frontier-void"; }
 
-  /// The options, with the seed of the setup in `clusters`.
-  [[nodiscard]] const FrontierVoidOptions& options() const { return options_; }
   /// The intermediate results of the last plan; empty if no observable frontier was left.
   [[nodiscard]] const VoidSearch& search() const { return search_; }
 
  private:
   struct Candidate {
-    Pose pose;
-    std::size_t void_cells = 0;
+    View view;  // its utility is the expected number of void cells
     double value = 0.0;
     std::uint64_t operations = 0;  // cells on its rays
   };
@@ -133,16 +120,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
   [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays,
                                                          std::uint64_t& operations) const;
-  void extract();
-  void accumulate(PlanStatistics& statistics);
-  [[nodiscard]] std::vector<Pose> sample_views(PlanStatistics& statistics) const;
-  [[nodiscard]] std::vector<Pose> views_of(const std::vector<const FrontierTarget*>& targets, std::size_t most,
-                                           PlanStatistics& statistics) const;
-  [[nodiscard]] std::vector<Pose> near_views(PlanStatistics& statistics) const;
-  [[nodiscard]] std::vector<Pose> views_of_voids(PlanStatistics& statistics) const;
+  [[nodiscard]] std::vector<double> search_places(PlanStatistics& statistics);
   [[nodiscard]] double discounted(double utility, double way_m) const;
-  [[nodiscard]] std::vector<Candidate> rank(std::vector<Candidate> candidates, const ViewRays& rays,
-                                            std::uint64_t& operations) const;
   [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
 
   FrontierVoidOptions options_;
@@ -155,5 +134,4 @@ class FrontierVoidPlanner final : public FrontierPlanner {
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/planner/impl/frontier_void_planner.ipp>
-#include <vantage/planner/impl/frontier_void_views.ipp>
 #endif

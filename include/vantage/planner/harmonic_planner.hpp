@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <vantage/compiler.hpp>
-#include <vantage/field/laplace_relaxation.hpp>
-#include <vantage/field/potential.hpp>
+#include <vantage/field/harmonic_field.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-/// How the harmonic field is solved.
-enum class FieldSolver : std::uint8_t {
-  /// Multigrid, to a small residual. It certifies that descent from every cell ends at a sink.
-  Multigrid,
-  /// The method of the paper: relaxation from zero until the largest relative change is small (eq. 10).
-  GaussSeidel,
-};
 
 /// What HarmonicPlanner does beyond the paper or differently.
 struct HarmonicStrategy {
@@ -52,25 +42,9 @@ struct HarmonicStrategy {
 
 /// Options of HarmonicPlanner.
 struct HarmonicOptions {
-  FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< closed faces; Mirror (eq. 9) needs GaussSeidel
-  double tolerance = 1e-4;         ///< GaussSeidel: largest relative change of the last sweep, in [1e-15, 1] (eq. 10)
-  std::size_t max_sweeps = 50000;  ///< GaussSeidel: maximum number of sweeps per field, in [1, 1e7]
-  double uniform_source = 1e-4;    ///< see RelaxationOptions; 0: the field of the paper
-  HarmonicStrategy strategy = {};  ///< refinements of the method
+  HarmonicFieldOptions field = {};    ///< how the field is solved
+  HarmonicStrategy strategy = {};     ///< refinements of the method
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
-};
-
-/// The field of a plan, for display.
-struct HarmonicField {
-  Potential potential;                      ///< the solution: domain, sinks, source and values
-  std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the chosen sink, metres, world
-  LaplaceReport report;                     ///< how the solver ended
-  /// Cells without a strictly lower neighbour. 0: descent from every cell ends at a sink.
-  std::size_t stuck_cells = 0;
-  /// False: the field is not certified (Multigrid), or descent from the source does not reach a sink (GaussSeidel).
-  /// The plan then takes the shortest path.
-  bool followed = true;
 };
 
 /// Harmonic exploration: solves Laplace's equation over the reachable space, with 1 at the sensor, 0 at the frontiers
@@ -92,19 +66,15 @@ class HarmonicPlanner final : public FrontierPlanner {
 
   [[nodiscard]] std::string_view name() const override { return "harmonic"; }
 
-  /// The options of the constructor.
-  [[nodiscard]] const HarmonicOptions& options() const { return options_; }
-  /// The field of the last plan. None if the plan needed none: nothing was left, the sensor looks from where it is,
+  /// The field of the last plan, for display. If it does not lead to a sink (HarmonicField::followed), the plan takes
+  /// the shortest path. None if the plan needed none: nothing was left, the sensor looks from where it is,
   /// or there was only one sink and the shortest path is taken.
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
 
  private:
   void prepare(Plan& plan) override;
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
-  void solve(const NearGoals& near, PlanStatistics& statistics);
-  void solve_by_multigrid(LaplaceDomain domain, const VoxelIndex& source);
-  void relax(const LaplaceDomain& domain, const std::vector<VoxelIndex>& sinks, const VoxelIndex& source);
-  [[nodiscard]] std::vector<VoxelIndex> way_down();
+  [[nodiscard]] std::vector<VoxelIndex> way_down(const NearGoals& near, PlanStatistics& statistics);
   [[nodiscard]] NearGoals sinks() const;
   [[nodiscard]] bool can_look(const FrontierTarget& target, const VoxelIndex& from, std::uint64_t& operations) const;
   [[nodiscard]] FrontierTarget first_look(const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
@@ -119,6 +89,5 @@ class HarmonicPlanner final : public FrontierPlanner {
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/harmonic_field.ipp>
 #include <vantage/planner/impl/harmonic_planner.ipp>
 #endif

@@ -15,11 +15,9 @@ class NearestFrontierPlanner final : public FrontierPlanner {
   [[nodiscard]] std::string_view name() const override { return "nearest-frontier"; }
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override {
+    return nearest_view(situation(), plan.statistics.ray_operations);
+  }
 };
 
 }  // namespace vantage
-
-#if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/nearest_frontier_planner.ipp>
-#endif

@@ -7,22 +7,14 @@
 #include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/planner/planner_setup.hpp>
-#include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/information_gain.hpp>
 #include <vantage/view/object_views.hpp>
-#include <vantage/view/sensing_constraint.hpp>
+#include <vantage/view/object_visibility.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vantage/view/view_utility.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-/// How a NextBestViewPlanner counts the cells that a view of an object sees.
-enum class VisibilityMethod : std::uint8_t {
-  Exact,         ///< distinct cells, by evaluate_view
-  Uniform,       ///< the same cells, by walking each ray: the method that the paper compares with
-  Hierarchical,  ///< rays instead of cells, by HierarchicalRayTracer: the method of the paper
-};
 
 /// How a NextBestViewPlanner chooses a view of an object.
 enum class ViewChoice : std::uint8_t {
@@ -50,8 +42,7 @@ struct NextBestViewOptions {
   ViewChoice choice = ViewChoice::Cover;  ///< how the view is chosen
 
   VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
-  int hierarchical_levels = 3;  ///< HierarchicalRayTracerOptions::levels, in [1, 16] (VI-B: start depth 14 of 16)
-  int patience = TriedViewsOptions{}.patience;  ///< TriedViewsOptions::patience
+  int patience = TriedViewsOptions{}.patience;        ///< TriedViewsOptions::patience
 };
 
 /// Next-best-view planning for one object: takes the candidate view of the highest utility `u = pos reg sur dist`
@@ -84,8 +75,6 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,
                                               std::span<const Pose> views,
                                               const std::vector<ViewEvaluation>& seen) const;
-  [[nodiscard]] std::vector<ViewEvaluation> evaluate(const OccupancyMap& map, const VoxelBox& object,
-                                                     std::span<const Pose> views, std::span<CellSet> seen) const;
   [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& candidates) const;
 
   PlannerSetup setup_;

@@ -13,12 +13,11 @@
 #include <vantage/raytrace/following_caster.hpp>
 #include <vantage/view/frontier_survey.hpp>
 #include <vantage/view/frontier_surveyor.hpp>
+#include <vantage/view/target_view.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-struct TargetView;
 
 /// The input of a plan: the map and its frontier, the reachable space, the observable frontier cells with their
 /// viewpoints, and the memory of tried views. A planner owns one and updates it once per plan; the strategy only
@@ -84,18 +83,15 @@ class Situation {
   void report(GoalResult result) { tried_.report(result); }
   /// Replaces the memory of tried views, see TriedViews::recall.
   void recall(const OccupancyMap& map, std::string_view memory) { tried_.recall(map, memory); }
-  /// Casts rays through the map of the last `sync`. The first call of `caster` or `rays` after a `sync` updates the
-  /// caster, which has a cost; later calls may come from several threads.
-  [[nodiscard]] const RayCaster& caster() const;
-  /// The rays of the sensor, as dense as the cells of the map require.
-  [[nodiscard]] const ViewRays& rays() const;
-  /// About a sixteenth of them, for a first ranking of many views.
-  [[nodiscard]] const ViewRays& sparse_rays() const;
+  /// The map, the sensor and its body, and what the survey found.
+  [[nodiscard]] SurveyedMap surveyed() const { return {map(), sensor(), platform(), reachable(), survey_, tried_}; }
+  /// Casts the rays of the sensor through the map of the last `sync`. The first call after a `sync` updates it, which
+  /// has a cost; later calls may come from several threads.
+  [[nodiscard]] const FollowingCaster& looking() const;
   /// A plan that contains the counts of the survey and no choice.
   [[nodiscard]] Plan open_plan() const;
 
  private:
-  void follow_rays() const;
   void note_what_was_in_vain();
   void find_targets();
   [[nodiscard]] bool hardly_moves() const;

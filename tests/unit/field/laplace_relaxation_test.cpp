@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <vantage/field/laplace_relaxation.hpp>
 
@@ -52,7 +51,7 @@ TEST(LaplaceRelaxation, StopsAtTheSweepLimitAndSaysSo) {
 
 TEST(LaplaceRelaxation, ChangeIsInfiniteWhilePhiLeavesZero) {
   const LaplaceProblem problem = corridor(6);
-  LaplaceRelaxation relaxation(problem, {.order = SweepOrder::RedBlack});
+  LaplaceRelaxation relaxation(problem);
   EXPECT_TRUE(std::isinf(relaxation.sweep()));
 }
 
@@ -64,12 +63,6 @@ TEST(LaplaceRelaxation, OverRelaxationNeedsFewerSweepsForTheSameField) {
   for (std::size_t i = 0; i < problem.size(); ++i) {
     EXPECT_NEAR(plain.phi[i], fast.phi[i], 1e-4);
   }
-}
-
-TEST(LaplaceRelaxation, StartingFromTheSolutionStopsAtOnce) {
-  const LaplaceProblem problem = corridor(20);
-  const LaplaceSolution solution = relax_laplace(problem, {.tolerance = 1e-10});
-  EXPECT_EQ(relax_laplace(problem, {.tolerance = 1e-6}, solution.phi).report.sweeps, 1U);
 }
 
 TEST(LaplaceRelaxation, RefusesOptionsByName) {
@@ -86,10 +79,6 @@ TEST(LaplaceRelaxation, RefusesOptionsByName) {
   EXPECT_NE(message({.max_sweeps = 0}).find("RelaxationOptions::max_sweeps"), std::string::npos);
   EXPECT_NE(message({.over_relaxation = 2.0}).find("RelaxationOptions::over_relaxation"), std::string::npos);
   EXPECT_NE(message({.uniform_source = -1.0}).find("RelaxationOptions::uniform_source"), std::string::npos);
-  LaplaceRelaxation relaxation(problem);
-  EXPECT_THROW(relaxation.start_from(std::vector<double>(3)), std::invalid_argument);
-  EXPECT_THROW(relaxation.start_from(std::vector<double>(4, std::numeric_limits<double>::quiet_NaN())),
-               std::invalid_argument);
 }
 
 }  // namespace

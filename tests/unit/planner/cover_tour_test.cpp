@@ -11,8 +11,8 @@
 #include <random>
 #include <set>
 #include <utility>
-#include <vantage/planner/target_view.hpp>
 #include <vantage/robot/free_flyer.hpp>
+#include <vantage/view/target_view.hpp>
 #include <vector>
 
 #include <vantage/planner/impl/cover_tour.hpp>
@@ -218,7 +218,7 @@ TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
       ++views;
       EXPECT_TRUE(situation.reachable().contains(view.place));
       std::set<VoxelIndex> expected;
-      for (const VoxelIndex& cell : targets_seen_from(situation, view.pose, operations).unknown) {
+      for (const VoxelIndex& cell : targets_seen_from(situation.surveyed(), view.pose, operations).unknown) {
         expected.insert(cell);
       }
       std::set<VoxelIndex> seen;

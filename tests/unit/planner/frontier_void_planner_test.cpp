@@ -141,7 +141,7 @@ TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
     std::uint64_t operations = 0;
     for (const View& other : plan.candidates) {
       const auto way = robot.platform->path(robot.map, robot.pose, other.pose);
-      if (way && !targets_seen_from(situation, other.pose, operations).unknown.empty()) {
+      if (way && !targets_seen_from(situation.surveyed(), other.pose, operations).unknown.empty()) {
         EXPECT_GE(chosen * 1.05, other.utility / (1.0 + kCostPerM * length_m(*way))) << "step " << step;
         ++compared;
       }
@@ -234,12 +234,11 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
   };
   EXPECT_EQ(message({}), "");
   EXPECT_EQ(message({.clusters = {.min_score = -1.0}}), "FrontierVoidOptions::min_score is -1, must be > 0");
-  EXPECT_EQ(message({.most_vectors = 0}), "FrontierVoidOptions::most_vectors is 0, must be >= 1");
   EXPECT_EQ(message({.views = 0}), "FrontierVoidOptions::views is 0, must be in [1, 1e+06]");
-  EXPECT_EQ(message({.strategy = {.orientations_per_place = 0}}),
-            "FrontierVoidStrategy::orientations_per_place is 0, must be >= 1");
-  EXPECT_EQ(message({.strategy = {.place_spacing_m = -1.0}}),
-            "FrontierVoidStrategy::place_spacing_m is -1, must be in [0, 1e+06]");
+  EXPECT_EQ(message({.strategy = {.sampling = {.orientations_per_place = 0}}}),
+            "VoidSampling::orientations_per_place is 0, must be >= 1");
+  EXPECT_EQ(message({.strategy = {.sampling = {.place_spacing_m = -1.0}}}),
+            "VoidSampling::place_spacing_m is -1, must be in [0, 1e+06]");
   EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidOptions::cost_per_m is -1, must be >= 0");
   EXPECT_EQ(message({.strategy = {.opaque_share = 0.0}}),
             "FrontierVoidStrategy::opaque_share is 0, must be in (0, 1]");

@@ -57,8 +57,8 @@ TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
         continue;  // refused
       }
       const PlannerSetup setup = setup_with(all_around());
-      HarmonicPlanner planner(setup,
-                              {.solver = solver, .neumann = neumann, .strategy = HarmonicStrategy::faithful()});
+      HarmonicPlanner planner(
+          setup, {.field = {.solver = solver, .neumann = neumann}, .strategy = HarmonicStrategy::faithful()});
       const Plan plan = planner.plan(map, current);
       ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
       expect_admitted(map, *setup.platform, current, plan);
@@ -79,7 +79,7 @@ TEST(HarmonicPlanner, InAClosedBoxWithOneOpeningTheStreamlineLeadsThere) {
       });
       EXPECT_EQ(sinks, domain.sink_count());
       EXPECT_GE(sinks, 1U);
-      EXPECT_EQ(plan.statistics.solver_sweeps, field.report.sweeps);
+      EXPECT_EQ(plan.statistics.solver_sweeps, field.sweeps);
     }
   }
 }
@@ -137,7 +137,7 @@ TEST(HarmonicPlanner, LooksFromTheFirstPlaceThatSeesTheBoundary) {
 TEST(HarmonicPlanner, EquationNineIsRelaxed) {
   const PlannerSetup setup = setup_with(all_around());
   try {
-    (void)HarmonicPlanner(setup, {.neumann = NeumannScheme::Mirror});
+    (void)HarmonicPlanner(setup, {.field = {.neumann = NeumannScheme::Mirror}});
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "HarmonicOptions::neumann is mirror, must be finite-volume with solver=multigrid");
@@ -263,7 +263,7 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   EXPECT_NE(message(setup, {.survey = {.patience = 0}}).find("FrontierSurveyOptions::patience"), std::string::npos);
   EXPECT_NE(message(setup, {.strategy = {.detour_m = -1.0}}).find("HarmonicOptions::detour_m"), std::string::npos);
   EXPECT_NE(message(setup, {.strategy = {.look_spacing_m = -1.0}}).find("look_spacing_m"), std::string::npos);
-  EXPECT_NE(message(setup, {.tolerance = -1.0}).find("tolerance"), std::string::npos);
+  EXPECT_NE(message(setup, {.field = {.tolerance = -1.0}}).find("tolerance"), std::string::npos);
   EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"),
             std::string::npos);
   HarmonicPlanner planner(setup);

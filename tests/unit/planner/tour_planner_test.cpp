@@ -16,8 +16,8 @@
 #include <vector>
 
 #include <vantage/planner/impl/block_ways.hpp>
-#include <vantage/planner/impl/frontier_sites.hpp>
 #include <vantage/planner/impl/open_tour.hpp>
+#include <vantage/view/impl/frontier_sites.hpp>
 
 namespace vantage {
 namespace {

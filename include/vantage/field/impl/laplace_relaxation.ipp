@@ -2,24 +2,12 @@
 #pragma once
 
 // Shade & Newman 2011, "Choosing Where To Go: Complete 3D Exploration With Stereo", section IV-C.
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vantage/field/laplace_relaxation.hpp>
 
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
-namespace detail {
-
-using Position = LaplaceProblem::Position;
-
-inline bool is_red(const VoxelIndex& cell) { return ((cell.x ^ cell.y ^ cell.z) & 1) == 0; }
-
-}  // namespace detail
-
 VANTAGE_INLINE void RelaxationOptions::validate() const {
   detail::require_option(tolerance > 0.0, "RelaxationOptions::tolerance", tolerance, "> 0");
   detail::require_option(max_sweeps > 0, "RelaxationOptions::max_sweeps", max_sweeps, "> 0");
@@ -33,23 +21,19 @@ VANTAGE_INLINE LaplaceRelaxation::LaplaceRelaxation(const LaplaceProblem& proble
     : problem_(&problem), options_(options), values_(problem.size() + 1, 0.0) {
   options_.validate();
   values_[static_cast<std::size_t>(problem.source())] = 1.0;
-  const auto size = static_cast<detail::Position>(problem.size());
+  const auto size = static_cast<LaplaceProblem::Position>(problem.size());
   rows_.reserve(problem.size());
-  for (const bool red : {true, false}) {
-    for (detail::Position position = 0; position < size; ++position) {
-      const bool due =
-          options_.order == SweepOrder::Lexicographic ? red : detail::is_red(problem.cell(position)) == red;
-      // A cell without an open face is alone in its component, so it is the source.
-      if (due && problem.kind(position) == LaplaceCell::Interior) {
-        rows_.push_back(row_of(position));
-      }
+  for (LaplaceProblem::Position position = 0; position < size; ++position) {
+    // A cell without an open face is alone in its component, so it is the source.
+    if (problem.kind(position) == LaplaceCell::Interior) {
+      rows_.push_back(row_of(position));
     }
   }
   source_per_cell_ = rows_.empty() ? 0.0 : options_.uniform_source / static_cast<double>(rows_.size());
 }
 
-VANTAGE_INLINE LaplaceRelaxation::Row LaplaceRelaxation::row_of(detail::Position position) const {
-  const auto nothing = static_cast<detail::Position>(problem_->size());
+VANTAGE_INLINE LaplaceRelaxation::Row LaplaceRelaxation::row_of(LaplaceProblem::Position position) const {
+  const auto nothing = static_cast<LaplaceProblem::Position>(problem_->size());
   Row row{problem_->neighbours(position), position, 0.0};
   int terms = 0;
   for (std::size_t face = 0; face < 6; ++face) {
@@ -57,7 +41,7 @@ VANTAGE_INLINE LaplaceRelaxation::Row LaplaceRelaxation::row_of(detail::Position
       ++terms;
       continue;
     }
-    const detail::Position opposite = problem_->neighbours(position)[face ^ 1U];
+    const LaplaceProblem::Position opposite = problem_->neighbours(position)[face ^ 1U];
     if (options_.neumann == NeumannScheme::Mirror && opposite != LaplaceProblem::kClosed) {
       row.neighbours[face] = opposite;  // eq. 9
       ++terms;
@@ -69,21 +53,10 @@ VANTAGE_INLINE LaplaceRelaxation::Row LaplaceRelaxation::row_of(detail::Position
   return row;
 }
 
-VANTAGE_INLINE void LaplaceRelaxation::start_from(std::span<const double> phi) {
-  if (phi.size() != problem_->size()) {
-    throw std::invalid_argument("LaplaceRelaxation: the start has " + std::to_string(phi.size()) + " values for " +
-                                std::to_string(problem_->size()) + " cells");
-  }
-  if (!std::all_of(phi.begin(), phi.end(), [](double value) { return std::isfinite(value); })) {
-    throw std::invalid_argument("LaplaceRelaxation: the start has a value that is not finite");
-  }
-  for (const Row& row : rows_) {
-    values_[static_cast<std::size_t>(row.self)] = phi[static_cast<std::size_t>(row.self)];
-  }
-}
-
 VANTAGE_INLINE double LaplaceRelaxation::mean_of(const Row& row) const {
-  const auto value = [this](detail::Position position) { return values_[static_cast<std::size_t>(position)]; };
+  const auto value = [this](LaplaceProblem::Position position) {
+    return values_[static_cast<std::size_t>(position)];
+  };
   const auto& n = row.neighbours;
   return row.weight * ((value(n[0]) + value(n[1])) + (value(n[2]) + value(n[3])) + (value(n[4]) + value(n[5])) +
                        source_per_cell_);  // eq. 8
@@ -107,7 +80,6 @@ VANTAGE_INLINE double LaplaceRelaxation::sweep() {
 }
 
 VANTAGE_INLINE void LaplaceRelaxation::run() {
-  const auto started = std::chrono::steady_clock::now();
   report_.stop = LaplaceStop::SweepLimit;
   while (report_.sweeps < options_.max_sweeps) {
     if (sweep() < options_.tolerance) {
@@ -115,31 +87,16 @@ VANTAGE_INLINE void LaplaceRelaxation::run() {
       break;
     }
   }
-  report_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
 VANTAGE_INLINE void LaplaceRelaxation::run(std::size_t count) {
-  const auto started = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < count; ++i) {
     sweep();
   }
-  report_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
-VANTAGE_INLINE double LaplaceRelaxation::largest_defect() const {
-  double largest = 0.0;
-  for (const Row& row : rows_) {
-    largest = std::max(largest, std::abs(mean_of(row) - values_[static_cast<std::size_t>(row.self)]));
-  }
-  return largest;
-}
-
-VANTAGE_INLINE LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options,
-                                             std::span<const double> start) {
+VANTAGE_INLINE LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options) {
   LaplaceRelaxation relaxation(problem, options);
-  if (!start.empty()) {
-    relaxation.start_from(start);
-  }
   relaxation.run();
   return {{relaxation.phi().begin(), relaxation.phi().end()}, relaxation.report()};
 }

@@ -35,12 +35,12 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan)
   };
   const auto aimed = [&] {
     const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
-    consider(view_of_target(situation(), target, plan.statistics.ray_operations));
+    consider(view_of_target(situation().surveyed(), target, plan.statistics.ray_operations));
   };
   const auto anywhere = [&] {
     const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
     const Pose pose = platform.facing(reachable.position_in(cell), dice.direction());
-    consider(targets_seen_from(situation(), pose, plan.statistics.ray_operations));
+    consider(targets_seen_from(situation().surveyed(), pose, plan.statistics.ray_operations));
   };
 
   const auto aimed_count = static_cast<std::size_t>(options_.aimed_share * static_cast<double>(options_.hypotheses));
@@ -51,7 +51,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan)
     aimed();
   }
   if (!best) {  // no random pose sees a target, and the aimed ones are beyond the resolving range
-    best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
+    best = view_of_target(situation().surveyed(), survey.targets.front(), plan.statistics.ray_operations);
   }
   return ChosenView{std::move(*best)};
 }

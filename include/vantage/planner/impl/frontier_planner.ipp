@@ -13,7 +13,7 @@ VANTAGE_INLINE ChosenView nearest_view(const Situation& situation, std::uint64_t
   const FrontierSurvey& survey = situation.survey();
   std::vector<VoxelIndex> way = GridPaths(situation.reachable()).to_nearest(survey.viewpoints());
   const std::optional<FrontierTarget> nearest = survey.target_seen_from(way.back());
-  return {.view = view_of_target(situation, *nearest, operations), .way = std::move(way)};
+  return {.view = view_of_target(situation.surveyed(), *nearest, operations), .way = std::move(way)};
 }
 
 VANTAGE_INLINE void ExplorationPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/,
@@ -84,10 +84,6 @@ VANTAGE_INLINE std::vector<VoxelIndex> FrontierPlanner::take_a_view(Plan& plan) 
     return std::move(view.hoped);
   }
   return {};
-}
-
-VANTAGE_INLINE void FrontierPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/, GoalResult result) {
-  situation_.report(result);
 }
 
 }  // namespace vantage

@@ -4,29 +4,32 @@
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vantage/planner/frontier_void_planner.hpp>
 
 #include <vantage/planner/impl/planner_tables.hpp>
-#include <vantage/raytrace/impl/shared_work.hpp>
+#include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage {
 namespace detail {
 
-inline std::string volume(std::size_t cells, double cell_m) {
-  const double litres = static_cast<double>(cells) * std::pow(10.0 * cell_m, 3);
+inline constexpr std::size_t kMostVectors = 200'000;  // see utility_vectors
+// Views of targets that are tested before the planner concludes that no view sees a void.
+inline constexpr std::size_t kProofViews = 50;
+
+inline std::string volume(double cells, double cell_m) {
+  const double litres = cells * std::pow(10.0 * cell_m, 3);
   const std::string tenths = std::to_string(std::llround(10.0 * litres));
-  return std::to_string(cells) + " void cells (" + (tenths.size() > 1 ? tenths.substr(0, tenths.size() - 1) : "0") +
-         "." + tenths.back() + " dm^3)";
+  return std::to_string(std::llround(cells)) + " void cells (" +
+         (tenths.size() > 1 ? tenths.substr(0, tenths.size() - 1) : "0") + "." + tenths.back() + " dm^3)";
 }
 
-inline std::size_t expected(const std::vector<SightedCell>& seen) {
-  double cells = 0.0;
-  for (const SightedCell& one : seen) {
-    cells += one.chance;
-  }
-  return static_cast<std::size_t>(std::llround(cells));
+// A whole number of cells.
+inline double expected(const std::vector<SightedCell>& seen) {
+  const auto add = [](double cells, const SightedCell& one) { return cells + one.chance; };
+  return std::round(std::accumulate(seen.begin(), seen.end(), 0.0, add));
 }
 
 inline double length_m(const std::vector<Pose>& path) {
@@ -38,8 +41,8 @@ inline double length_m(const std::vector<Pose>& path) {
 }
 
 // At least one cell.
-inline std::size_t least_cells(double volume_m3, double cell_m) {
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(volume_m3 / std::pow(cell_m, 3))));
+inline double least_cells(double volume_m3, double cell_m) {
+  return std::max(1.0, std::ceil(volume_m3 / std::pow(cell_m, 3)));
 }
 
 }  // namespace detail
@@ -58,65 +61,63 @@ VANTAGE_INLINE void FrontierVoidPlanner::prepare(Plan& plan) {
 
 VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
   const OccupancyMap& map = situation().map();
-  PlanStatistics& statistics = plan.statistics;
-  search_ = {};
-  extract();
-  accumulate(statistics);
-
-  std::vector<Pose> views = sample_views(statistics);
-  const std::vector<Pose> near = near_views(statistics);
+  const std::vector<double> values = search_places(plan.statistics);
+  const VoidViews of_voids(situation().surveyed(), search_.voids, plan.statistics.ray_operations);
+  std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids, options_.strategy.sampling,
+                                          options_.views, situation().setup().seed);
+  const std::vector<Pose> near = of_voids.near(options_.strategy.near_views);
   views.insert(views.end(), near.begin(), near.end());
   std::optional<ChosenView> choice = best_of(views, plan);
   if (!choice) {
-    choice = best_of(views_of_voids(statistics), plan);
+    choice = best_of(of_voids.of_targets(std::min(options_.views, detail::kProofViews)), plan);
   }
   if (choice) {
     search_.view = choice->view.view.pose;
-    choice->reason =
-        "a view of " + detail::volume(static_cast<std::size_t>(choice->view.view.utility), map.resolution_m());
+    choice->reason = "a view of " + detail::volume(choice->view.view.utility, map.resolution_m());
     return choice;
   }
   if (!options_.strategy.beyond_voids) {
-    const std::size_t least = detail::least_cells(options_.strategy.least_view_m3, map.resolution_m());
-    plan.reason = (least == 1 ? "no view sees a void (the best utility is 0); "
-                              : "the best utility is below " + detail::volume(least, map.resolution_m()) + "; ") +
+    const double least = detail::least_cells(options_.strategy.least_view_m3, map.resolution_m());
+    plan.reason = (least == 1.0 ? "no view sees a void (the best utility is 0); "
+                                : "the best utility is below " + detail::volume(least, map.resolution_m()) + "; ") +
                   std::to_string(situation().survey().targets.size()) + " observable frontier cells are left";
     return std::nullopt;
   }
-  choice = nearest_view(situation(), statistics.ray_operations);
+  choice = nearest_view(situation(), plan.statistics.ray_operations);
   choice->view.view.utility = 0.0;
   choice->reason = "no view sees a void; a view of " + std::to_string(choice->view.unknown.size()) + " unknown cells";
   return choice;
 }
 
-// IV-A and IV-B: void clusters, frontier clusters and their combination.
-VANTAGE_INLINE void FrontierVoidPlanner::extract() {
+// IV-A and IV-B: void clusters, frontier clusters and their combination. Algorithm 1, over the reachable cells: the
+// places. Returns what each place counts.
+VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(PlanStatistics& statistics) {
   const OccupancyMap& map = situation().map();
-  const FrontierSurvey& survey = situation().survey();
-  for (const FrontierTarget& target : survey.targets) {
+  const RangeSensor& sensor = situation().sensor();
+  const FrontierVoidStrategy& strategy = options_.strategy;
+  search_ = {};
+  for (const FrontierTarget& target : situation().survey().targets) {
     search_.frontier.push_back(target.frontier);
   }
   const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells());
   search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
-  sight_.emplace(map, cells,
-                 UnknownSightOptions{options_.strategy.opaque_share, options_.strategy.opaque_beside_surface,
-                                     situation().sensor().reports_no_return});
-  search_.frontier_voids =
-      combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), options_.strategy.share);
-}
-
-// Algorithm 1, over the reachable cells.
-VANTAGE_INLINE void FrontierVoidPlanner::accumulate(PlanStatistics& statistics) {
-  const OccupancyMap& map = situation().map();
-  const std::vector<UtilityVector> vectors =
-      utility_vectors(search_.voids, search_.frontier_voids, map.frame(), options_.most_vectors);
-  const AccumulatedUtility utility = accumulate_utility(
-      map, situation().reachable(), vectors, situation().sensor().min_range_m, situation().sensor().max_range_m);
+  sight_.emplace(
+      map, cells,
+      UnknownSightOptions{strategy.opaque_share, strategy.opaque_beside_surface, sensor.reports_no_return});
+  search_.frontier_voids = combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), strategy.share);
+  const AccumulatedUtility utility =
+      accumulate_utility(map, situation().reachable(),
+                         utility_vectors(search_.voids, search_.frontier_voids, map.frame(), detail::kMostVectors),
+                         sensor.min_range_m, sensor.max_range_m);
   statistics.ray_operations += utility.operations;
+  const Eigen::Vector3d here = situation().current().translation();
+  std::vector<double> values;
   for (const auto& [cell, value] : utility.cells) {
     search_.places.push_back(cell);
     search_.utility.push_back(value);
+    values.push_back(discounted(static_cast<double>(value), (map.frame().centre_of(cell) - here).norm()));
   }
+  return values;
 }
 
 VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, double way_m) const {
@@ -126,32 +127,10 @@ VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, double way
 // The void cells that count for a view: not given up, and not looked at in vain from its place.
 VANTAGE_INLINE std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays,
                                                                              std::uint64_t& operations) const {
-  const VoxelIndex place = situation().caster().frame().cell_of(view.translation());
-  std::vector<SightedCell> seen = sight_->look(situation().caster(), view, rays, operations);
-  const TriedViews& tried = situation().tried();
-  if (tried.size() > 0) {
-    std::erase_if(seen, [&](const SightedCell& one) { return tried.hoped_in_vain(one.cell, place); });
-  }
+  const VoxelIndex place = situation().map().frame().cell_of(view.translation());
+  std::vector<SightedCell> seen = sight_->look(situation().looking().caster(), view, rays, operations);
+  std::erase_if(seen, [&](const SightedCell& one) { return situation().tried().hoped_in_vain(one.cell, place); });
   return seen;
-}
-
-// Counts the void cells of each view and sorts the views, best first.
-VANTAGE_INLINE std::vector<FrontierVoidPlanner::Candidate> FrontierVoidPlanner::rank(
-    std::vector<Candidate> candidates, const ViewRays& rays, std::uint64_t& operations) const {
-  (void)situation().caster();  // updates the caster before several threads use it
-  detail::share_work(candidates.size(), static_cast<std::size_t>(situation().setup().threads), [&](std::size_t i) {
-    Candidate& candidate = candidates[i];
-    candidate.operations = 0;
-    candidate.void_cells = detail::expected(void_cells_seen(candidate.pose, rays, candidate.operations));
-    candidate.value = discounted(static_cast<double>(candidate.void_cells),
-                                 (candidate.pose.translation() - situation().current().translation()).norm());
-  });
-  for (const Candidate& candidate : candidates) {
-    operations += candidate.operations;
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-  return candidates;
 }
 
 // Equation (3): the best view to which a path leads. A view must also see a target, because cells that are given up
@@ -160,44 +139,48 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
                                                                       Plan& plan) const {
   plan.statistics.views_scored += views.size();
   std::vector<Candidate> candidates(views.size());
-  std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{pose}; });
-  if (views.size() > options_.strategy.finalists) {
-    candidates = rank(std::move(candidates), situation().sparse_rays(), plan.statistics.ray_operations);
-    candidates.resize(options_.strategy.finalists);
-  }
-  candidates = rank(std::move(candidates), situation().rays(), plan.statistics.ray_operations);
-  const std::size_t least = detail::least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
+  std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{{pose}}; });
+  const Eigen::Vector3d here = situation().current().translation();
+  const FollowingCaster& looking = situation().looking();
+  detail::rank_views(
+      looking, situation().setup().threads, candidates, options_.strategy.finalists, plan.statistics.ray_operations,
+      [&](Candidate& candidate, const ViewRays& rays) {
+        View& view = candidate.view;
+        view.utility = detail::expected(void_cells_seen(view.pose, rays, candidate.operations));
+        candidate.value = discounted(view.utility, (view.pose.translation() - here).norm());
+      },
+      [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  const double least = detail::least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
   std::optional<ChosenView> best;
   double best_value = 0.0;
   for (const Candidate& candidate : candidates) {
     if (best && candidate.value <= best_value) {
       break;  // the discounted value along a path is at most that of the straight line
     }
-    if (candidate.void_cells < least) {
+    if (candidate.view.utility < least) {
       continue;
     }
-    TargetView view = targets_seen_from(situation(), candidate.pose, plan.statistics.ray_operations);
-    auto path = view.unknown.empty() ? std::nullopt : path_to(candidate.pose);
+    TargetView view = targets_seen_from(situation().surveyed(), candidate.view.pose, plan.statistics.ray_operations);
+    auto path = view.unknown.empty() ? std::nullopt : path_to(candidate.view.pose);
     if (!path) {
       continue;
     }
-    const double value = options_.strategy.along_way
-                             ? discounted(static_cast<double>(candidate.void_cells), detail::length_m(*path))
-                             : candidate.value;
+    const double value =
+        options_.strategy.along_way ? discounted(candidate.view.utility, detail::length_m(*path)) : candidate.value;
     if (!best || value > best_value) {
-      view.view.utility = static_cast<double>(candidate.void_cells);
+      view.view.utility = candidate.view.utility;
       best = ChosenView{std::move(view), std::move(*path)};
       best_value = value;
     }
   }
   if (best) {
     for (const SightedCell& one :
-         void_cells_seen(best->view.view.pose, situation().rays(), plan.statistics.ray_operations)) {
+         void_cells_seen(best->view.view.pose, looking.rays(), plan.statistics.ray_operations)) {
       (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
     }
     plan.candidates.clear();
     for (const Candidate& weighed : candidates) {
-      plan.candidates.push_back({weighed.pose, static_cast<double>(weighed.void_cells)});
+      plan.candidates.push_back(weighed.view);
     }
   }
   return best;

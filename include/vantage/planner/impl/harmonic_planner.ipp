@@ -8,13 +8,12 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vantage/field/streamline.hpp>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
-#include <vantage/planner/impl/look_directions.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/view/impl/look_directions.hpp>
 
 namespace vantage {
 namespace detail {
@@ -57,7 +56,7 @@ inline std::optional<std::vector<Pose>> poses_of_curve(const OccupancyMap& map, 
 VANTAGE_INLINE HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const HarmonicOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
   detail::harmonic_settings().validate(options);
-  if (options.neumann == NeumannScheme::Mirror && options.solver != FieldSolver::GaussSeidel) {
+  if (options.field.neumann == NeumannScheme::Mirror && options.field.solver != FieldSolver::GaussSeidel) {
     throw std::invalid_argument("HarmonicOptions::neumann is mirror, must be finite-volume with solver=multigrid");
   }
 }
@@ -78,8 +77,7 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
     if (strategy.shortest_way && near.goals.size() == 1) {  // descent would end there from everywhere
       way = GridPaths(situation().reachable()).to(near.goals.front());
     } else {
-      solve(near, plan.statistics);
-      way = way_down();
+      way = way_down(near, plan.statistics);
       if (strategy.shortest_way) {
         way = GridPaths(situation().reachable()).to(way.back());
       }
@@ -113,7 +111,8 @@ VANTAGE_INLINE std::optional<TargetView> HarmonicPlanner::look_again(std::uint64
   if (!chooses_directions() || here != *situation().reachable().start() || situation().tried().rests(here)) {
     return std::nullopt;
   }
-  std::optional<detail::Look> look = detail::LookDirections(situation(), position, operations).best();
+  std::optional<detail::Look> look = detail::LookDirections(situation().surveyed(), position, operations)
+                                         .best(situation().looking(), situation().setup().threads);
   const double cell_m3 = std::pow(map.resolution_m(), 3);
   return look && look->cells * cell_m3 >= options_.strategy.look_again_m3
              ? std::optional<TargetView>(std::move(look->seen))
@@ -125,11 +124,12 @@ VANTAGE_INLINE TargetView HarmonicPlanner::look_at(const FrontierTarget& wanted,
   if (chooses_directions()) {
     const Eigen::Vector3d position = situation().reachable().position_in(wanted.viewpoint);
     if (std::optional<detail::Look> look =
-            detail::LookDirections(situation(), position, operations).best(wanted.unknown)) {
+            detail::LookDirections(situation().surveyed(), position, operations)
+                .best(situation().looking(), situation().setup().threads, wanted.unknown)) {
       return std::move(look->seen);
     }
   }
-  return view_of_target(situation(), wanted, operations);
+  return view_of_target(situation().surveyed(), wanted, operations);
 }
 
 // Whether `target` can be observed from the centre of `from`: the rule of FrontierSurvey, within the resolving range.
@@ -187,33 +187,18 @@ VANTAGE_INLINE NearGoals HarmonicPlanner::sinks() const {
   return all;
 }
 
-// The cells of the streamline from the start to its sink. The shortest path if the field is not followed.
-VANTAGE_INLINE std::vector<VoxelIndex> HarmonicPlanner::way_down() {
-  const Potential& potential = field_->potential;
-  const VoxelFrame& frame = situation().map().frame();
-  const Pose& current = situation().current();
-  if (!field_->followed) {
-    return GridPaths(situation().reachable()).to_nearest(detail::viewpoints(situation().survey()));
-  }
-  const VoxelIndex& start = potential.source();
-  const bool inside = frame.cell_of(current.translation()) == start;
-  const Eigen::Vector3d from_m = inside ? Eigen::Vector3d(current.translation()) : frame.centre_of(start);
-  if (auto curve = streamline(potential, frame, from_m)) {
-    std::vector<VoxelIndex> cells;
-    for (const Eigen::Vector3d& point : *curve) {
-      if (const VoxelIndex cell = frame.cell_of(point); cells.empty() || cells.back() != cell) {
-        cells.push_back(cell);
-      }
-    }
-    field_->streamline = std::move(*curve);
-    field_->streamline.push_back(frame.centre_of(cells.back()));
-    return cells;
-  }
-  std::vector<VoxelIndex> cells = descend(potential, start).cells;
-  for (const VoxelIndex& cell : cells) {
-    field_->streamline.push_back(frame.centre_of(cell));
-  }
-  return cells;
+// Solves the field. Returns the cells of its streamline from the start to a sink, or of the shortest path if the
+// field is not followed.
+VANTAGE_INLINE std::vector<VoxelIndex> HarmonicPlanner::way_down(const NearGoals& near, PlanStatistics& statistics) {
+  LaplaceDomain domain;
+  near.met.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) { domain.insert(brick, cells); });
+  std::for_each(near.goals.begin(), near.goals.end(), [&](const VoxelIndex& goal) { domain.insert_sink(goal); });
+  field_ = HarmonicField::solve(std::move(domain), *situation().reachable().start(), options_.field,
+                                static_cast<std::size_t>(situation().setup().threads));
+  statistics.solver_sweeps += field_->sweeps;
+  statistics.ray_operations += field_->cell_updates;
+  return field_->followed ? field_->follow(situation().map().frame(), situation().current().translation())
+                          : GridPaths(situation().reachable()).to_nearest(detail::viewpoints(situation().survey()));
 }
 
 }  // namespace vantage

@@ -15,9 +15,8 @@
 #include <vantage/planner/object_planner.hpp>
 #include <vantage/planner/tour_planner.hpp>
 
-#include <vantage/planner/impl/frontier_survey_settings.hpp>
-#include <vantage/planner/impl/next_best_view_choices.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/view/impl/frontier_survey_settings.hpp>
 
 namespace vantage {
 namespace detail {

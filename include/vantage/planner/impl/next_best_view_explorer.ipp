@@ -39,9 +39,10 @@ VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan
   UtilityFactors factors;
   factors.surface = unknown_cells();
   factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(situation().current(), pose); });
-  const std::vector<ScoredView> scored = score_views(situation().caster(), drawn, situation().rays(),
-                                                     map.region() ? *map.region() : map.bounds().grown(1), factors,
-                                                     static_cast<std::size_t>(situation().setup().threads));
+  const std::vector<ScoredView> scored =
+      score_views(situation().looking().caster(), drawn, situation().looking().rays(),
+                  map.region() ? *map.region() : map.bounds().grown(1), factors,
+                  static_cast<std::size_t>(situation().setup().threads));
   plan.statistics.views_scored += scored.size();
   std::vector<std::size_t> order(scored.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -55,12 +56,12 @@ VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan
       plan.candidates.push_back({scored[i].pose, scored[i].utility});
     }
     if (best.unknown.empty()) {
-      best = targets_seen_from(situation(), scored[i].pose, plan.statistics.ray_operations);
+      best = targets_seen_from(situation().surveyed(), scored[i].pose, plan.statistics.ray_operations);
       best.view.utility = scored[i].utility;
     }
   }
   if (best.unknown.empty()) {
-    best = view_of_target(situation(), survey.targets.front(), plan.statistics.ray_operations);
+    best = view_of_target(situation().surveyed(), survey.targets.front(), plan.statistics.ray_operations);
   }
   return ChosenView{std::move(best)};
 }

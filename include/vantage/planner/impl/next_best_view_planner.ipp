@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 #include <vantage/planner/next_best_view_planner.hpp>
-#include <vantage/raytrace/hierarchical_ray_tracer.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/robot/way_around.hpp>
 #include <vantage/view/view_cover.hpp>
@@ -28,8 +27,6 @@ VANTAGE_INLINE NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setu
   validate(options.candidates);
   detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
                          options.min_unknown_cells, ">= 1");
-  detail::require_option(options.hierarchical_levels >= 1 && options.hierarchical_levels <= 16,
-                         "NextBestViewOptions::hierarchical_levels", options.hierarchical_levels, "in [1, 16]");
   validate(options.sensing);
 }
 
@@ -55,7 +52,10 @@ VANTAGE_INLINE std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::
     const OccupancyMap& map, const Pose& current, const VoxelBox& object) const {
   const std::vector<Pose> views = this->views(map, object);
   std::vector<CellSet> seen(views.size());
-  const std::vector<ViewEvaluation> evaluations = evaluate(map, object, views, seen);
+  std::vector<ViewEvaluation> evaluations(views.size());
+  const ObjectVisibility visibility(map, looking_, setup_.sensor, object, options_.method, options_.sensing);
+  detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads),
+                     [&](std::size_t i) { evaluations[i] = visibility.evaluate(views[i], seen[i]); });
   const std::vector<ScoredView> scored = score(map, current, object, views, evaluations);
   std::vector<Candidate> candidates(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -107,37 +107,6 @@ VANTAGE_INLINE std::vector<ScoredView> NextBestViewPlanner::score(const Occupanc
     scored = scored_by();
   }
   return scored;
-}
-
-VANTAGE_INLINE std::vector<ViewEvaluation> NextBestViewPlanner::evaluate(const OccupancyMap& map,
-                                                                         const VoxelBox& object,
-                                                                         std::span<const Pose> views,
-                                                                         std::span<CellSet> seen) const {
-  const SensingConstraint sensing =
-      options_.sensing.restricts() ? measurable(map, object, options_.sensing) : nullptr;
-  const UniformRayTracer uniform(map);
-  std::optional<HierarchicalRayTracer> hierarchical;
-  if (options_.method == VisibilityMethod::Hierarchical) {
-    hierarchical.emplace(map, setup_.sensor, HierarchicalRayTracerOptions{.levels = options_.hierarchical_levels});
-  }
-  std::vector<ViewEvaluation> evaluations(views.size());
-  detail::share_work(views.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
-    if (options_.method == VisibilityMethod::Uniform) {
-      evaluations[i] = uniform.evaluate(views[i], looking_.rays(), object, &seen[i]);
-    } else {
-      evaluations[i] = evaluate_view(looking_.caster(), views[i], looking_.rays(), object, &seen[i]);
-    }
-    if (sensing) {
-      sensing(views[i], seen[i]);
-      evaluations[i] = {looking_.caster().count(seen[i], Occupancy::Unknown),
-                        looking_.caster().count(seen[i], Occupancy::Occupied)};
-    }
-    if (hierarchical) {
-      const HierarchicalCounts counts = hierarchical->evaluate(views[i], object);
-      evaluations[i] = {counts.unknown, counts.occupied};
-    }
-  });
-  return evaluations;
 }
 
 // Line 21: the candidates with a utility above 0, the best first.

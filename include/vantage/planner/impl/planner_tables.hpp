@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vantage/planner/next_best_view_explorer.hpp>
+#include <vantage/planner/next_best_view_planner.hpp>
+
 #include <vantage/settings/impl/setting_table.hpp>
 
 namespace vantage {
@@ -12,7 +15,11 @@ struct TourOptions;
 
 namespace vantage::detail {
 
-struct NextBestViewChoices;
+/// Options behind the name "next-best-view".
+struct NextBestViewChoices {
+  NextBestViewOptions object = {};               ///< with an object
+  NextBestViewExplorerOptions exploration = {};  ///< without one
+};
 
 /// One table per options struct. `make_planner` reads it, `planner_settings` lists it and most constructors validate
 /// with it.

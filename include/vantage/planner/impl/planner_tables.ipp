@@ -4,10 +4,9 @@
 #include <vantage/planner/frontier_gain_planner.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
-#include <vantage/planner/impl/frontier_survey_settings.hpp>
-#include <vantage/planner/impl/next_best_view_choices.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/tour_planner.hpp>
+#include <vantage/view/impl/frontier_survey_settings.hpp>
 
 #include <algorithm>
 
@@ -45,10 +44,10 @@ VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings()
           .number("least_view_m3", "m^3", "a view that is expected to learn less of the voids is none", at_least(0),
                   &O::strategy, &S::least_view_m3)
           .flag("beyond_voids", "goes on to frontiers that border no void", &O::strategy, &S::beyond_voids)
-          .limit("FrontierVoidOptions::most_vectors", at_least(1), &O::most_vectors)
-          .limit("FrontierVoidStrategy::orientations_per_place", at_least(1), &O::strategy,
-                 &S::orientations_per_place)
-          .limit("FrontierVoidStrategy::place_spacing_m", within(0, 1e6), &O::strategy, &S::place_spacing_m)
+          .limit("VoidSampling::orientations_per_place", at_least(1), &O::strategy, &S::sampling,
+                 &VoidSampling::orientations_per_place)
+          .limit("VoidSampling::place_spacing_m", within(0, 1e6), &O::strategy, &S::sampling,
+                 &VoidSampling::place_spacing_m)
           .limit("FrontierVoidStrategy::finalists", at_least(1), &O::strategy, &S::finalists)
           .limit("FrontierVoidStrategy::opaque_share", {0.0, 1.0, false}, &O::strategy, &S::opaque_share)
           .limit("FrontierVoidStrategy::opaque_beside_surface", {0.0, 1.0, false}, &O::strategy,
@@ -59,6 +58,7 @@ VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings()
 
 VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
   using O = HarmonicOptions;
+  using F = HarmonicFieldOptions;
   using S = HarmonicStrategy;
   static const auto table =
       with_survey<O>("HarmonicOptions", &O::survey)
@@ -66,14 +66,14 @@ VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
                    {{"default", {}}, {"faithful", S::faithful()}}, &O::strategy)
           .choice<FieldSolver>("solver", "how the field is solved",
                                {{"multigrid", FieldSolver::Multigrid}, {"gauss-seidel", FieldSolver::GaussSeidel}},
-                               &O::solver)
+                               &O::field, &F::solver)
           .choice<NeumannScheme>("neumann", "what a closed face contributes; mirror needs gauss-seidel",
                                  {{"finite-volume", NeumannScheme::FiniteVolume}, {"mirror", NeumannScheme::Mirror}},
-                                 &O::neumann)
+                                 &O::field, &F::neumann)
           .number("tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),
-                  &O::tolerance)
+                  &O::field, &F::tolerance)
           .number("uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
-                  at_least(0), &O::uniform_source)
+                  at_least(0), &O::field, &F::uniform_source)
           .number("detour_m", "m", "boundaries further than the nearest by more than this wait", at_least(0),
                   &O::strategy, &S::detour_m)
           .flag("look_early", "looks from the first place on the way that sees the boundary", &O::strategy,
@@ -83,7 +83,7 @@ VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
           .number("look_again_m3", "m^3", "looks again from where it is while a view teaches that much", at_least(0),
                   &O::strategy, &S::look_again_m3)
           .flag("shortest_way", "takes the shortest way, not the streamline", &O::strategy, &S::shortest_way)
-          .limit("HarmonicOptions::max_sweeps", within(1, 1e7), &O::max_sweeps);
+          .limit("HarmonicFieldOptions::max_sweeps", within(1, 1e7), &O::field, &F::max_sweeps);
   return table;
 }
 

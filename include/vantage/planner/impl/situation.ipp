@@ -9,10 +9,10 @@
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/planner/situation.hpp>
-#include <vantage/planner/target_view.hpp>
+#include <vantage/view/target_view.hpp>
 
-#include <vantage/planner/impl/frontier_survey_settings.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
+#include <vantage/view/impl/frontier_survey_settings.hpp>
 
 namespace vantage {
 namespace detail {
@@ -245,26 +245,12 @@ VANTAGE_INLINE bool Situation::remember(const Plan& plan, std::vector<VoxelIndex
   return false;
 }
 
-VANTAGE_INLINE void Situation::follow_rays() const {
+VANTAGE_INLINE const FollowingCaster& Situation::looking() const {
   if (!looking_follows_) {
     looking_.follow(*map_, setup_.sensor);
     looking_follows_ = true;
   }
-}
-
-VANTAGE_INLINE const RayCaster& Situation::caster() const {
-  follow_rays();
-  return looking_.caster();
-}
-
-VANTAGE_INLINE const ViewRays& Situation::rays() const {
-  follow_rays();
-  return looking_.rays();
-}
-
-VANTAGE_INLINE const ViewRays& Situation::sparse_rays() const {
-  follow_rays();
-  return looking_.sparse_rays();
+  return looking_;
 }
 
 }  // namespace vantage

@@ -14,12 +14,12 @@
 
 #include <vantage/planner/impl/block_ways.hpp>
 #include <vantage/planner/impl/cover_tour.hpp>
-#include <vantage/planner/impl/frontier_sites.hpp>
 #include <vantage/planner/impl/open_tour.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
-#include <vantage/planner/impl/targets_in_sight.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
 #include <vantage/planner/impl/unknown_ways.hpp>
+#include <vantage/view/impl/frontier_sites.hpp>
+#include <vantage/view/impl/targets_in_sight.hpp>
 
 namespace vantage {
 namespace detail {
@@ -211,7 +211,7 @@ inline ChosenView first_sight(const Situation& situation, const std::vector<Fron
   std::iota(all.begin(), all.end(), std::size_t{0});
   const FrontierSite& first = sites[ordered(all, situation, middles, legs).front()];
   const FrontierTarget& wanted = nearest_target(situation, first, ways);
-  ChosenView chosen{.view = view_of_target(situation, wanted, plan.statistics.ray_operations),
+  ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
                     .way = GridPaths(situation.reachable()).to(wanted.viewpoint)};
   // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
   TargetView& view = chosen.view;

@@ -5,7 +5,7 @@
 #include <vantage/planner/situation.hpp>
 #include <vector>
 
-#include <vantage/planner/impl/frontier_sites.hpp>
+#include <vantage/view/impl/frontier_sites.hpp>
 
 namespace vantage::detail {
 

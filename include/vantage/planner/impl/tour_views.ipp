@@ -9,7 +9,7 @@
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 
-#include <vantage/planner/impl/targets_in_sight.hpp>
+#include <vantage/view/impl/targets_in_sight.hpp>
 
 namespace vantage::detail {
 
@@ -99,7 +99,7 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
                });
   for (const VoxelIndex& place : places_of(situation, sites, middles)) {
     const Eigen::Vector3d position = situation.reachable().position_in(place);
-    TargetsInSight in_sight(situation, wanted, position, range_m, operations);
+    TargetsInSight in_sight(situation.surveyed(), wanted, position, range_m, operations);
     in_sight.leave_out_tried();
     const std::vector<NumberedLine> lines = numbered(in_sight.all(), unknown);
     const auto first = static_cast<std::ptrdiff_t>(views.size());

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <span>
-#include <vantage/planner/situation.hpp>
-#include <vantage/planner/target_view.hpp>
+#include <vantage/view/target_view.hpp>
 #include <vector>
 
 namespace vantage::detail {
@@ -25,8 +24,8 @@ class TargetsInSight {
 
   /// Of `targets`, from `position` (metres, world), up to `furthest_m`. Adds the number of visited cells to
   /// `operations`.
-  TargetsInSight(const Situation& situation, std::span<const FrontierTarget> targets, const Eigen::Vector3d& position,
-                 double furthest_m, std::uint64_t& operations);
+  TargetsInSight(const SurveyedMap& surveyed, std::span<const FrontierTarget> targets,
+                 const Eigen::Vector3d& position, double furthest_m, std::uint64_t& operations);
 
   /// Those in the field of view of a sensor at this place, turned as in `pose`.
   [[nodiscard]] TargetView in_view(const Pose& pose) const;
@@ -36,7 +35,8 @@ class TargetsInSight {
   void leave_out_tried();
 
  private:
-  const Situation& situation_;
+  const RangeSensor& sensor_;
+  const TriedViews& tried_;
   VoxelIndex place_;
   std::vector<Sighting> sightings_;
 };
@@ -44,5 +44,5 @@ class TargetsInSight {
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/targets_in_sight.ipp>
+#include <vantage/view/impl/targets_in_sight.ipp>
 #endif

@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vantage/planner/situation.hpp>
-#include <vantage/planner/target_view.hpp>
+#include <vantage/raytrace/following_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
+#include <vantage/view/target_view.hpp>
 #include <vantage/view/unknown_sight.hpp>
 #include <vector>
 
-#include <vantage/planner/impl/targets_in_sight.hpp>
+#include <vantage/view/impl/targets_in_sight.hpp>
 
 namespace vantage::detail {
 
@@ -27,22 +27,22 @@ struct Look {
 class LookDirections {
  public:
   /// For the place `position` (metres, world). Adds the number of cells visited by rays to `operations`, also later.
-  LookDirections(const Situation& situation, const Eigen::Vector3d& position, std::uint64_t& operations);
+  LookDirections(const SurveyedMap& surveyed, const Eigen::Vector3d& position, std::uint64_t& operations);
 
-  /// The best view. With `wanted`, only views that see this cell; it must be in sight from here. None if there is no
-  /// such view.
-  [[nodiscard]] std::optional<Look> best(const std::optional<VoxelIndex>& wanted = std::nullopt) const;
+  /// The best view, by the rays of `looking`, which follows the map. With `wanted`, only views that see this cell; it
+  /// must be in sight from here. None if there is no such view.
+  [[nodiscard]] std::optional<Look> best(const FollowingCaster& looking, int threads,
+                                         const std::optional<VoxelIndex>& wanted = std::nullopt) const;
 
   /// Whether orientations can be compared: the sensor does not see all around, and the map has more than one layer of
   /// cells (in one layer, the rows of an image lead out of the map).
   [[nodiscard]] static bool choosable(const OccupancyMap& map, const RangeSensor& sensor);
 
  private:
-  void rank(std::vector<Look>& looks, const ViewRays& rays) const;
-  void count_expected_cells(Look& look, const ViewRays& rays) const;
+  void count_expected_cells(Look& look, const RayCaster& caster, const ViewRays& rays) const;
   [[nodiscard]] bool was_in_view(const VoxelIndex& cell) const;
 
-  const Situation& situation_;
+  SurveyedMap surveyed_;
   Eigen::Vector3d position_;
   VoxelIndex place_;
   TargetsInSight targets_;
@@ -53,5 +53,5 @@ class LookDirections {
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/look_directions.ipp>
+#include <vantage/view/impl/look_directions.ipp>
 #endif

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <vantage/geometry/impl/along.hpp>
-#include <vantage/planner/impl/frontier_sites.hpp>
+#include <vantage/view/impl/frontier_sites.hpp>
 
 #include <algorithm>
 #include <array>

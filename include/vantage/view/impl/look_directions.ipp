@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vantage/planner/impl/look_directions.hpp>
+#include <vantage/view/impl/look_directions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/geometry/impl/spread_directions.hpp>
-#include <vantage/raytrace/impl/shared_work.hpp>
+#include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage::detail {
 
@@ -37,16 +37,16 @@ inline std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, con
   return cells;
 }
 
-VANTAGE_INLINE LookDirections::LookDirections(const Situation& situation, const Eigen::Vector3d& position,
+VANTAGE_INLINE LookDirections::LookDirections(const SurveyedMap& surveyed, const Eigen::Vector3d& position,
                                               std::uint64_t& operations)
-    : situation_(situation),
+    : surveyed_(surveyed),
       position_(position),
-      place_(situation.map().frame().cell_of(position)),
-      targets_(situation, situation.survey().targets, position, counted_range_m(situation.map(), situation.sensor()),
+      place_(surveyed.map.frame().cell_of(position)),
+      targets_(surveyed, surveyed.survey.targets, position, counted_range_m(surveyed.map, surveyed.sensor),
                operations),
       operations_(operations) {
-  const OccupancyMap& map = situation.map();
-  const RangeSensor& sensor = situation.sensor();
+  const OccupancyMap& map = surveyed.map;
+  const RangeSensor& sensor = surveyed.sensor;
   targets_.leave_out_tried();
   if (!targets_.all().empty()) {
     sight_.emplace(map, unknown_cells_around(map, position, sensor.max_range_m),
@@ -61,10 +61,11 @@ VANTAGE_INLINE bool LookDirections::choosable(const OccupancyMap& map, const Ran
   return !sensor.looks_all_around() && map.bounds().hi.z - map.bounds().lo.z > 1;
 }
 
-VANTAGE_INLINE std::optional<Look> LookDirections::best(const std::optional<VoxelIndex>& wanted) const {
+VANTAGE_INLINE std::optional<Look> LookDirections::best(const FollowingCaster& looking, int threads,
+                                                        const std::optional<VoxelIndex>& wanted) const {
   std::vector<Look> looks;
   for (const Eigen::Vector3d& direction : spread_directions(kDirections)) {
-    const Pose pose = situation_.platform().facing(position_, direction);
+    const Pose pose = surveyed_.platform.facing(position_, direction);
     TargetView seen = targets_.in_view(pose);
     const bool serves = wanted ? std::find(seen.unknown.begin(), seen.unknown.end(), *wanted) != seen.unknown.end()
                                : !seen.unknown.empty();
@@ -72,31 +73,23 @@ VANTAGE_INLINE std::optional<Look> LookDirections::best(const std::optional<Voxe
       looks.push_back({std::move(seen)});
     }
   }
-  // Most directions are told apart by few rays.
-  if (looks.size() > kFinalists) {
-    rank(looks, situation_.sparse_rays());
-    looks.resize(kFinalists);
+  if (looks.empty()) {
+    return std::nullopt;
   }
-  rank(looks, situation_.rays());
-  return looks.empty() ? std::nullopt : std::optional<Look>(std::move(looks.front()));
+  rank_views(
+      looking, threads, looks, kFinalists, operations_,
+      [&](Look& look, const ViewRays& rays) { count_expected_cells(look, looking.caster(), rays); },
+      [](const Look& a, const Look& b) {
+        return a.cells != b.cells ? a.cells > b.cells : a.seen.unknown.size() > b.seen.unknown.size();
+      });
+  return std::move(looks.front());
 }
 
-// Counts the expected cells of each view and sorts the views, best first.
-VANTAGE_INLINE void LookDirections::rank(std::vector<Look>& looks, const ViewRays& rays) const {
-  share_work(looks.size(), static_cast<std::size_t>(situation_.setup().threads),
-             [&](std::size_t i) { count_expected_cells(looks[i], rays); });
-  for (Look& look : looks) {
-    operations_ += std::exchange(look.operations, 0);
-  }
-  std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) {
-    return a.cells != b.cells ? a.cells > b.cells : a.seen.unknown.size() > b.seen.unknown.size();
-  });
-}
-
-VANTAGE_INLINE void LookDirections::count_expected_cells(Look& look, const ViewRays& rays) const {
+VANTAGE_INLINE void LookDirections::count_expected_cells(Look& look, const RayCaster& caster,
+                                                         const ViewRays& rays) const {
   look.cells = 0.0;
-  for (const SightedCell& seen : sight_->look(situation_.caster(), look.seen.view.pose, rays, look.operations)) {
-    if (!situation_.tried().tried_from(seen.cell, place_) && !situation_.tried().gave_up(seen.cell) &&
+  for (const SightedCell& seen : sight_->look(caster, look.seen.view.pose, rays, look.operations)) {
+    if (!surveyed_.tried.tried_from(seen.cell, place_) && !surveyed_.tried.gave_up(seen.cell) &&
         !was_in_view(seen.cell)) {
       look.cells += seen.chance;
     }
@@ -105,12 +98,11 @@ VANTAGE_INLINE void LookDirections::count_expected_cells(Look& look, const ViewR
 
 // Whether the cell was in the field of view of a scan from this place, which did not resolve it.
 VANTAGE_INLINE bool LookDirections::was_in_view(const VoxelIndex& cell) const {
-  const VoxelFrame& frame = situation_.map().frame();
+  const VoxelFrame& frame = surveyed_.map.frame();
   const Eigen::Vector3d line = frame.centre_of(cell) - position_;
-  const auto& scans = situation_.tried().scanned_from();
+  const auto& scans = surveyed_.tried.scanned_from();
   return std::any_of(scans.begin(), scans.end(), [&](const Pose& pose) {
-    return frame.cell_of(pose.translation()) == place_ &&
-           situation_.sensor().in_view(pose.linear().transpose() * line);
+    return frame.cell_of(pose.translation()) == place_ && surveyed_.sensor.in_view(pose.linear().transpose() * line);
   });
 }
 

@@ -3,13 +3,21 @@
 
 #include <cstdint>
 #include <vantage/compiler.hpp>
-#include <vantage/planner/exploration_planner.hpp>
 #include <vantage/view/frontier_survey.hpp>
+#include <vantage/view/view.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
 
-class Situation;
+/// A map and what a survey found in it. Borrows all of it.
+struct SurveyedMap {
+  const OccupancyMap& map;
+  const RangeSensor& sensor;
+  const Platform& platform;         ///< the body that carries the sensor
+  const ReachableSpace& reachable;  ///< the cells to which it can bring the sensor
+  const FrontierSurvey& survey;     ///< the targets
+  const TriedViews& tried;          ///< views of them that were tried
+};
 
 /// A view and the cells that it is to resolve.
 struct TargetView {
@@ -22,15 +30,15 @@ struct TargetView {
 /// The targets of the survey that the sensor sees from `pose` (world_from_sensor), within its range and within the
 /// range in which it resolves cells of the map (RangeSensor::resolving_range_m); none if the place rests
 /// (TriedViews). Adds the number of visited cells to `operations`.
-[[nodiscard]] TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::uint64_t& operations);
+[[nodiscard]] TargetView targets_seen_from(const SurveyedMap& surveyed, const Pose& pose, std::uint64_t& operations);
 
 /// A view from the viewpoint of `wanted` that sees `wanted` and, among the orientations tried, the largest number of
 /// other targets within the resolving range. Adds the number of visited cells to `operations`.
-[[nodiscard]] TargetView view_of_target(const Situation& situation, const FrontierTarget& wanted,
+[[nodiscard]] TargetView view_of_target(const SurveyedMap& surveyed, const FrontierTarget& wanted,
                                         std::uint64_t& operations);
 
 }  // namespace vantage
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/target_view.ipp>
+#include <vantage/view/impl/target_view.ipp>
 #endif

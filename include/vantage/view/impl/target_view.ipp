@@ -2,22 +2,24 @@
 #pragma once
 
 #include <algorithm>
-#include <vantage/planner/situation.hpp>
-#include <vantage/planner/target_view.hpp>
+#include <utility>
+#include <vantage/view/target_view.hpp>
 
-#include <vantage/planner/impl/targets_in_sight.hpp>
+#include <vantage/view/impl/targets_in_sight.hpp>
 
 namespace vantage {
-VANTAGE_INLINE TargetView targets_seen_from(const Situation& situation, const Pose& pose, std::uint64_t& operations) {
-  const OccupancyMap& map = situation.map();
-  const RangeSensor& sensor = situation.sensor();
+
+VANTAGE_INLINE TargetView targets_seen_from(const SurveyedMap& surveyed, const Pose& pose,
+                                            std::uint64_t& operations) {
+  const OccupancyMap& map = surveyed.map;
+  const RangeSensor& sensor = surveyed.sensor;
   const double furthest_m = detail::counted_range_m(map, sensor);
   const VoxelIndex place = map.frame().cell_of(pose.translation());
   TargetView seen{.view = {.pose = pose}};
-  if (situation.tried().rests(place)) {
+  if (surveyed.tried.rests(place)) {
     return seen;
   }
-  for (const FrontierTarget& target : situation.survey().targets) {
+  for (const FrontierTarget& target : surveyed.survey.targets) {
     const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - pose.translation();
     const bool in_sight = target.viewpoint == place
                               ? sensor.in_view(pose.linear().transpose() * line)
@@ -30,15 +32,15 @@ VANTAGE_INLINE TargetView targets_seen_from(const Situation& situation, const Po
   return seen;
 }
 
-VANTAGE_INLINE TargetView view_of_target(const Situation& situation, const FrontierTarget& wanted,
+VANTAGE_INLINE TargetView view_of_target(const SurveyedMap& surveyed, const FrontierTarget& wanted,
                                          std::uint64_t& operations) {
-  const OccupancyMap& map = situation.map();
-  const RangeSensor& sensor = situation.sensor();
-  const Platform& platform = situation.platform();
-  const Eigen::Vector3d position = situation.reachable().position_in(wanted.viewpoint);
+  const OccupancyMap& map = surveyed.map;
+  const RangeSensor& sensor = surveyed.sensor;
+  const Platform& platform = surveyed.platform;
+  const Eigen::Vector3d position = surveyed.reachable.position_in(wanted.viewpoint);
   const Eigen::Vector3d line = map.frame().centre_of(wanted.unknown) - position;
   const double furthest_m = std::max(detail::counted_range_m(map, sensor), line.norm());
-  const detail::TargetsInSight in_sight(situation, situation.survey().targets, position, furthest_m, operations);
+  const detail::TargetsInSight in_sight(surveyed, surveyed.survey.targets, position, furthest_m, operations);
   TargetView best = in_sight.in_view(platform.facing(position, line));
   // Orientations half-way between the wanted target and about 32 others, evenly chosen from the list: more of them
   // come into view together with the wanted one.

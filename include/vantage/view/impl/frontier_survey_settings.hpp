@@ -18,10 +18,9 @@ SettingTable<Options> with_survey(std::string_view owner, Members... members) {
 }
 
 /// The table of a planner that has no other settings.
-[[nodiscard]] const SettingTable<FrontierSurveyOptions>& frontier_survey_settings();
+[[nodiscard]] inline const SettingTable<FrontierSurveyOptions>& frontier_survey_settings() {
+  static const auto table = with_survey<FrontierSurveyOptions>("FrontierSurveyOptions");
+  return table;
+}
 
 }  // namespace vantage::detail
-
-#if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/frontier_survey_settings.ipp>
-#endif

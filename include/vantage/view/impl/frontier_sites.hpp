@@ -21,5 +21,5 @@ struct FrontierSite {
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/frontier_sites.ipp>
+#include <vantage/view/impl/frontier_sites.ipp>
 #endif
