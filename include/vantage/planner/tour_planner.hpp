@@ -3,11 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vantage/compiler.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 #include <vantage/robot/motion_model.hpp>
+
+namespace vantage::detail {
+class BlockWays;
+}
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -32,12 +37,12 @@ struct TourOptions {
 ///
 ///     u u u         S  sensor             o  views of the parts, several each; 1, 2, 3 are those of the tour
 ///     f f f o       f  frontier cells     u  unknown cells
-///     3   2 - - 1   price of 1: the mean way to it from all unknown cells, through free and unknown space
+///     3   2 - - 1   price of 1: the mean way to it from the views, each weighed by the unknown cells nearest to it
 ///     o   o     |
 ///          o    S
 ///
-/// 1. Views: from places around each part, and from where the robot is, towards the middles of the parts; what each
-///    sees of the frontier is found by rays.
+/// 1. Views: from places around the nearest parts, beside the others, and from where the robot is, towards the
+///    middles of the parts; what each sees of the frontier is found by rays, for an even choice of its unknown cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
 /// 3. Order: of all orders of the chosen views the one with the least cost of the whole tour less the price of its
 ///    first view. The price is what it would cost to come back to what is left behind, since the robot will later be
@@ -45,18 +50,22 @@ struct TourOptions {
 /// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
 ///
 /// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, the tour leads over the middles of the
-/// parts, and ends at the first place that sees a cell of the first one.
+/// parts, and ends at the first place that sees a cell of the first one. It sees much in passing, so the legs behind
+/// the first count half, and only unknown cells that are out of range of all parts count for the price.
 ///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///
 /// Lengths of ways are computed on blocks of cells, so they are off by some per cent, but lead through no wall. The
-/// idea of the price is that of Ericson et al. 2025 ("distance advantage"), with unknown cells in place of known
-/// ones; that of views for each part and a tour over them is that of Zhou et al. 2021 (FUEL).
+/// blocks are kept from plan to plan, except where the reachable space has changed. The idea of the price is that of
+/// Ericson et al. 2025 ("distance advantage"), with unknown cells in place of known ones; that of views for each part
+/// and a tour over them is that of Zhou et al. 2021 (FUEL).
 class TourPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit TourPlanner(const PlannerSetup& setup, const TourOptions& options = {});
+
+  ~TourPlanner() override;
 
   [[nodiscard]] std::string_view name() const override { return "tour"; }
   /// The options of the constructor.
@@ -68,6 +77,7 @@ class TourPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
 
   TourOptions options_;
+  std::unique_ptr<detail::BlockWays> ways_;  // made with the first plan
 };
 
 }  // namespace vantage

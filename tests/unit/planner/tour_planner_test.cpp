@@ -172,15 +172,22 @@ std::set<VoxelIndex> random_rooms(std::mt19937& engine, std::int32_t height) {
   return cells;
 }
 
-BlockWays ways_of(const std::set<VoxelIndex>& cells, std::int32_t side) {
+// Leads through these cells from now on.
+void follow(BlockWays& ways, const std::set<VoxelIndex>& cells) {
   BrickSet set;
   for (const VoxelIndex& cell : cells) {
     set.insert(cell);
   }
-  return BlockWays(VoxelFrame{kCellM}, side, [set = std::move(set)](const VoxelIndex& brick) {
+  ways.follow([set = std::move(set)](const VoxelIndex& brick) {
     const BrickPlane* const plane = set.find(brick);
     return plane == nullptr ? BrickPlane{} : *plane;
   });
+}
+
+BlockWays ways_of(const std::set<VoxelIndex>& cells, std::int32_t side) {
+  BlockWays ways(VoxelFrame{kCellM}, side);
+  follow(ways, cells);
+  return ways;
 }
 
 // Through faces, edges and corners of cells, around corners only where both sides are free.
@@ -281,6 +288,47 @@ TEST(BlockWays, ThatEndAtTheNearestAreAsLongAsAll) {
   }
   EXPECT_GT(compared, 100U);
   EXPECT_GT(left_out, 100U);
+}
+
+// Ways that were kept while the set changed here and there are those of the set as it is.
+TEST(BlockWays, ThatWereKeptAreAsLongAsNewOnes) {
+  std::mt19937 engine(13);
+  std::size_t compared = 0;
+  std::size_t changed = 0;
+  for (int seed = 0; seed < 12; ++seed) {
+    std::set<VoxelIndex> cells = random_rooms(engine, seed % 2 == 0 ? 1 : 7);
+    const std::int32_t side = seed % 4 < 2 ? 4 : 8;
+    BlockWays kept(VoxelFrame{kCellM}, side);
+    std::vector<double> before;
+    for (int change = 0; change < 6; ++change) {
+      const VoxelIndex lo{static_cast<std::int32_t>(engine() % 60) - 20,
+                          static_cast<std::int32_t>(engine() % 40) - 10, 0};
+      const bool fill = engine() % 2 == 0;
+      for_each_cell({lo, lo + VoxelIndex{3, 3, 7}}, [&](const VoxelIndex& cell) {
+        if (fill) {
+          cells.insert(cell);
+        } else {
+          cells.erase(cell);
+        }
+      });
+      follow(kept, cells);
+      const BlockWays anew = ways_of(cells, side);
+      const std::vector<VoxelIndex> list(cells.begin(), cells.end());
+      const VoxelIndex from = list[engine() % list.size()];
+      const std::vector<double> lengths = kept.lengths_from(from);
+      const std::vector<double> expected = anew.lengths_from(from);
+      for (int i = 0; i < 40; ++i, ++compared) {
+        const VoxelIndex to = list[engine() % list.size()];
+        ASSERT_EQ(kept.length_to(to, from, lengths), anew.length_to(to, from, expected));
+      }
+      EXPECT_EQ(std::count_if(lengths.begin(), lengths.end(), [](double m) { return m != BlockWays::kNoWay; }),
+                std::count_if(expected.begin(), expected.end(), [](double m) { return m != BlockWays::kNoWay; }));
+      changed += lengths != before ? 1U : 0U;
+      before = lengths;
+    }
+  }
+  EXPECT_EQ(compared, 12U * 6U * 40U);
+  EXPECT_GT(changed, 60U);
 }
 
 TEST(BlockWays, KnowNoWayToOrFromACellOutside) {

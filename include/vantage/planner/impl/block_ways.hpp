@@ -26,8 +26,9 @@ namespace vantage::detail {
 ///     +---------+---------+
 ///
 /// Lengths are between the centroids of pieces, the ends of a way are exact: within a few per cent for ways of many
-/// blocks. Pieces and links are made where a search first reaches them, so the cost follows the searches and not the
-/// set. The set must not change meanwhile.
+/// blocks. Pieces and links are made where a search first reaches them, and kept until the set changes beside them.
+/// So the cost follows the searches and the changes, not the set. The lengths depend only on the set as it is, not on
+/// what was kept.
 class BlockWays {
  public:
   /// A piece by its number.
@@ -38,12 +39,16 @@ class BlockWays {
   /// The cells of the set in a brick.
   using CellsOf = std::function<BrickPlane(const VoxelIndex&)>;
 
-  /// Blocks of `side` cells, 4 or 8.
-  BlockWays(const VoxelFrame& frame, std::int32_t side, CellsOf cells_of)
-      : frame_(frame), side_(side), cells_of_(std::move(cells_of)) {}
+  /// Ways through nothing, on blocks of `side` cells, 4 or 8.
+  BlockWays(const VoxelFrame& frame, std::int32_t side) : frame_(frame), side_(side) {}
 
-  /// The number of pieces made so far.
-  [[nodiscard]] std::size_t size() const { return pieces_.size(); }
+  /// Ways through the set as it is now, which must neither change nor end before the next call.
+  void follow(CellsOf cells_of);
+
+  /// The frame of the cells.
+  [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
+  /// The number of pieces that are kept.
+  [[nodiscard]] std::size_t size() const { return pieces_.size() - unused_.size(); }
   /// The piece that holds a cell, or kNone.
   [[nodiscard]] Piece piece_of(const VoxelIndex& cell) const;
   /// The cells of a piece.
@@ -70,20 +75,24 @@ class BlockWays {
     VoxelIndex block;
     BrickPlane cells;
     Eigen::Vector3d centre_m;
+    Piece next;                                                        // of the same block, or kNone
     std::array<std::optional<std::vector<Piece>>, kWays> beside = {};  // pieces that touch, ascending, by direction
     std::optional<std::vector<Link>> links = {};
   };
-  // Pieces of a block follow each other.
-  struct Block {
-    Piece first;
-    std::uint32_t size;
+  // A brick that was read.
+  struct Read {
+    VoxelIndex brick;
+    BrickPlane cells;
   };
   static constexpr double kUnitM = 1e-3;
 
   [[nodiscard]] VoxelIndex block_of(const VoxelIndex& cell) const;
   [[nodiscard]] std::uint32_t units(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   void add_piece(const VoxelIndex& brick, const BrickPlane& cells) const;
-  [[nodiscard]] Block pieces_in(const VoxelIndex& block) const;
+  void make_pieces(const Read& read) const;
+  [[nodiscard]] Piece first_in(const VoxelIndex& block) const;
+  template <class Visit>
+  void for_each_piece_of(const VoxelIndex& brick, Visit&& visit) const;
   [[nodiscard]] const std::vector<Piece>& beside(Piece piece, std::size_t way) const;
   [[nodiscard]] std::vector<Piece> beyond(const std::vector<Piece>& from, std::size_t way) const;
   [[nodiscard]] std::vector<Piece> all_around(Piece piece) const;
@@ -93,8 +102,10 @@ class BlockWays {
   std::int32_t side_;
   CellsOf cells_of_;
   mutable std::deque<Node> pieces_;
-  mutable VoxelTable<Block> blocks_;
-  mutable VoxelTable<bool> bricks_;  // whose pieces are made
+  mutable std::vector<Piece> unused_;  // numbers of pieces that are no more
+  mutable VoxelTable<Piece> blocks_;   // the first piece of each
+  mutable VoxelTable<bool> bricks_;    // in read_
+  mutable std::deque<Read> read_;
 };
 
 }  // namespace vantage::detail

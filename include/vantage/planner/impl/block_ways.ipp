@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <queue>
+#include <vantage/geometry/raster_order.hpp>
 
 #include <vantage/map/impl/brick_plane.hpp>
 
@@ -48,43 +47,93 @@ VANTAGE_INLINE void BlockWays::add_piece(const VoxelIndex& brick, const BrickPla
       ++count;
     });
   }
-  const auto number = static_cast<Piece>(pieces_.size());
-  ++blocks_.place(block_of(first), {number, 0U}).size;
-  pieces_.push_back({brick, block_of(first), cells, sum_m / static_cast<double>(count)});
+  if (unused_.empty()) {
+    unused_.push_back(static_cast<Piece>(pieces_.size()));
+    pieces_.emplace_back();
+  }
+  const Piece number = unused_.back();
+  unused_.pop_back();
+  Piece& first_of_block = blocks_.place(block_of(first), kNone);
+  pieces_[number] = {brick, block_of(first), cells, sum_m / static_cast<double>(count), first_of_block};
+  first_of_block = number;
 }
 
-VANTAGE_INLINE BlockWays::Block BlockWays::pieces_in(const VoxelIndex& block) const {
+VANTAGE_INLINE void BlockWays::make_pieces(const Read& read) const {
+  const auto add_pieces = [&](const BrickPlane& part) {
+    for_each_piece(part, grown_through_faces, [&](const BrickPlane& piece) { add_piece(read.brick, piece); });
+  };
+  for (std::size_t word = 0; side_ == 4 && word < Brick::kWords; ++word) {
+    BrickPlane part{};
+    part[word] = read.cells[word];
+    add_pieces(part);
+  }
+  if (side_ != 4) {
+    add_pieces(read.cells);
+  }
+}
+
+VANTAGE_INLINE BlockWays::Piece BlockWays::first_in(const VoxelIndex& block) const {
   const VoxelIndex brick = side_ == 4 ? VoxelIndex{block.x >> 1, block.y >> 1, block.z >> 1} : block;
   if (!std::exchange(bricks_.place(brick), true)) {
-    const BrickPlane cells = cells_of_(brick);
-    const auto add_pieces = [&](const BrickPlane& part) {
-      for_each_piece(part, grown_through_faces, [&](const BrickPlane& piece) { add_piece(brick, piece); });
-    };
-    for (std::size_t word = 0; side_ == 4 && word < Brick::kWords; ++word) {
-      BrickPlane part{};
-      part[word] = cells[word];
-      add_pieces(part);
+    read_.push_back({brick, cells_of_(brick)});
+    make_pieces(read_.back());
+  }
+  const Piece* const first = blocks_.find(block);
+  return first == nullptr ? kNone : *first;
+}
+
+template <class Visit>
+void BlockWays::for_each_piece_of(const VoxelIndex& brick, Visit&& visit) const {
+  const std::int32_t per_brick = Brick::kSide / side_;
+  const VoxelIndex first{brick.x * per_brick, brick.y * per_brick, brick.z * per_brick};
+  for_each_cell({first, first + VoxelIndex{per_brick, per_brick, per_brick}}, [&](const VoxelIndex& block) {
+    if (Piece* const piece = blocks_.find(block)) {
+      visit(*piece);
     }
-    if (side_ != 4) {
-      add_pieces(cells);
+  });
+}
+
+// A link depends on the cells of the blocks around its ends.
+VANTAGE_INLINE void BlockWays::follow(CellsOf cells_of) {
+  cells_of_ = std::move(cells_of);
+  std::vector<VoxelIndex> touched;
+  for (Read& read : read_) {
+    const BrickPlane cells = cells_of_(read.brick);
+    if (cells != read.cells) {
+      read.cells = cells;
+      for_each_piece_of(read.brick, [&](Piece& first) {
+        for (; first != kNone; first = pieces_[first].next) {
+          unused_.push_back(first);
+        }
+      });
+      make_pieces(read);
+      for_each_cell(VoxelBox{read.brick, read.brick + VoxelIndex{1, 1, 1}}.grown(1),
+                    [&](const VoxelIndex& brick) { touched.push_back(brick); });
     }
   }
-  const Block* const pieces = blocks_.find(block);
-  return pieces == nullptr ? Block{0, 0} : *pieces;
+  sort_unique(touched);
+  for (const VoxelIndex& brick : touched) {
+    for_each_piece_of(brick, [&](Piece first) {
+      for (; first != kNone; first = pieces_[first].next) {
+        pieces_[first].beside = {};
+        pieces_[first].links.reset();
+      }
+    });
+  }
 }
 
 VANTAGE_INLINE const std::vector<BlockWays::Piece>& BlockWays::beside(Piece piece, std::size_t way) const {
   Node& node = pieces_[piece];
   if (!node.beside[way]) {
     std::vector<Piece>& beside = node.beside[way].emplace();
-    const Block next = pieces_in(node.block + kFaceNeighbours[way]);
-    for (Piece other = next.first; other < next.first + next.size; ++other) {
+    for (Piece other = first_in(node.block + kFaceNeighbours[way]); other != kNone; other = pieces_[other].next) {
       const Node& lower = way % 2 == 1 ? node : pieces_[other];
       const Node& upper = way % 2 == 1 ? pieces_[other] : node;
       if (steps_up(lower.cells, upper.cells, lower.brick == upper.brick, kAxes[way / 2])) {
         beside.push_back(other);
       }
     }
+    std::sort(beside.begin(), beside.end());
   }
   return *node.beside[way];
 }
@@ -138,19 +187,18 @@ VANTAGE_INLINE const std::vector<BlockWays::Link>& BlockWays::links(Piece piece)
 }
 
 VANTAGE_INLINE BlockWays::Piece BlockWays::piece_of(const VoxelIndex& cell) const {
-  const Block block = pieces_in(block_of(cell));
   const std::size_t offset = Brick::offset_of(cell);
-  for (Piece piece = block.first; piece < block.first + block.size; ++piece) {
-    if ((pieces_[piece].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
-      return piece;
-    }
+  Piece piece = first_in(block_of(cell));
+  while (piece != kNone && (pieces_[piece].cells[offset >> 6U] >> (offset & 63U) & 1U) == 0) {
+    piece = pieces_[piece].next;
   }
-  return kNone;
+  return piece;
 }
 
 // From the piece of the cell on, the first link starts at the cell itself. `length_to` a wanted cell differs from the
 // length of its piece by no more than a link. So the nearest are known once the search is two links behind the piece
-// at which it has met enough of them.
+// at which it has met enough of them. Pieces wait in buckets by their length (Dial 1969); within a bucket a piece may
+// be met again with a shorter one.
 VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cell, std::span<const VoxelIndex> wanted,
                                                            std::size_t most) const {
   const Piece source = piece_of(cell);
@@ -159,38 +207,52 @@ VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cel
   }
   const Eigen::Vector3d from_m = frame_.centre_of(cell);
   constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t kBucket = 256;
   const double longest_link_m = 3.5 * side_ * frame_.size_m;  // between cells of two blocks that touch
-  const auto behind = static_cast<std::uint32_t>(std::ceil(2.0 * longest_link_m / kUnitM));
+  const auto longest_link = static_cast<std::uint32_t>(std::ceil(longest_link_m / kUnitM));
   std::vector<Piece> goals;
   for (const VoxelIndex& goal : wanted) {
-    goals.push_back(piece_of(goal));
+    if (const Piece piece = piece_of(goal); piece != kNone) {
+      goals.push_back(piece);
+    }
   }
-  std::sort(goals.begin(), goals.end());
-  std::size_t left = wanted.empty() ? kFar : std::min(most, wanted.size());
+  std::vector<std::uint32_t> goals_in(pieces_.size(), 0);
+  for (const Piece goal : goals) {
+    ++goals_in[goal];
+  }
+  std::size_t left = wanted.empty() ? kFar : std::min(most, goals.size());
   std::uint32_t end = kFar;
   std::vector<std::uint32_t> best(pieces_.size(), kFar);
   using Entry = std::pair<std::uint32_t, Piece>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  std::vector<std::vector<Entry>> buckets(longest_link / kBucket + 2);
   best[source] = 0;
-  open.emplace(0U, source);
-  while (!open.empty() && open.top().first <= end) {
-    const auto [length, piece] = open.top();
-    open.pop();
-    if (length != best[piece]) {
-      continue;
-    }
-    const auto [first, last] = std::equal_range(goals.begin(), goals.end(), piece);
-    left -= std::min(left, static_cast<std::size_t>(last - first));
-    end = left == 0 && end == kFar ? length + behind : end;
-    const std::vector<Link>& around = links(piece);
-    best.resize(pieces_.size(), kFar);
-    for (const Link& link : around) {
-      const std::uint32_t reached = piece == source ? units(from_m, pieces_[link.to].centre_m) : length + link.length;
-      if (reached < best[link.to]) {
-        best[link.to] = reached;
-        open.emplace(reached, link.to);
+  buckets.front().emplace_back(0U, source);
+  std::size_t waiting = 1;
+  for (std::uint32_t begin = 0; waiting > 0 && begin <= end; begin += kBucket) {
+    std::vector<Entry>& bucket = buckets[begin / kBucket % buckets.size()];
+    for (std::size_t next = 0; next < bucket.size(); ++next) {  // it grows
+      const auto [length, piece] = bucket[next];
+      --waiting;
+      if (length != best[piece]) {
+        continue;
+      }
+      if (piece < goals_in.size()) {
+        left -= std::min<std::size_t>(left, std::exchange(goals_in[piece], 0));
+      }
+      const std::vector<Link>& around = links(piece);
+      best.resize(pieces_.size(), kFar);
+      for (const Link& link : around) {
+        const std::uint32_t reached =
+            piece == source ? units(from_m, pieces_[link.to].centre_m) : length + link.length;
+        if (reached < best[link.to]) {
+          best[link.to] = reached;
+          buckets[reached / kBucket % buckets.size()].emplace_back(reached, link.to);
+          ++waiting;
+        }
       }
     }
+    bucket.clear();
+    end = left == 0 && end == kFar ? begin + kBucket + 2 * longest_link : end;
   }
   std::vector<double> lengths(best.size(), kNoWay);
   for (std::size_t piece = 0; piece < best.size(); ++piece) {

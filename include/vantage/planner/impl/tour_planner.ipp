@@ -5,10 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/tour_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
@@ -17,7 +18,7 @@
 #include <vantage/planner/impl/open_tour.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
-#include <vantage/planner/impl/unknown_ways.hpp>
+#include <vantage/planner/impl/unknown_shares.hpp>
 #include <vantage/view/impl/frontier_sites.hpp>
 #include <vantage/view/impl/targets_in_sight.hpp>
 
@@ -26,48 +27,46 @@ namespace detail {
 
 // Views at the front of a tour that are chosen anew for a shorter tour.
 inline constexpr std::size_t kRefined = 3;
+// What the legs behind the first count for a sensor that sees all around: it sees about half of the parts in passing.
+inline constexpr double kLaterLegs = 0.5;
 
 // Blocks of about a metre.
 inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
 
-inline BlockWays ways_through(const ReachableSpace& space, const VoxelFrame& frame) {
-  return BlockWays(frame, side_for(frame.size_m), [&space](const VoxelIndex& brick) {
-    const BrickPlane* const cells = space.find(brick);
-    return cells == nullptr ? BrickPlane{} : *cells;
-  });
-}
+// The nearest sites, nearest first, and the ways from the start to them and to what is near to them.
+struct NearestSites {
+  std::vector<FrontierSite> sites;
+  std::vector<double> lengths;  // see BlockWays::lengths_from
 
-// The nearest sites, nearest first.
-inline std::vector<FrontierSite> nearest_sites(const Situation& situation, const TourOptions& options,
-                                               const BlockWays& ways) {
-  const VoxelIndex start = *situation.reachable().start();
-  std::vector<FrontierSite> sites = detail::frontier_sites(
-      situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
-  std::vector<VoxelIndex> places;
-  places.reserve(sites.size());
-  for (const FrontierSite& site : sites) {
-    places.push_back(site.middle.viewpoint);
+  NearestSites(const Situation& situation, const TourOptions& options, const BlockWays& ways) {
+    const VoxelIndex start = *situation.reachable().start();
+    std::vector<FrontierSite> all = detail::frontier_sites(
+        situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
+    std::vector<VoxelIndex> places(all.size());
+    std::transform(all.begin(), all.end(), places.begin(),
+                   [](const FrontierSite& site) { return site.middle.viewpoint; });
+    lengths = ways.lengths_from(start, places, options.most_sites);
+    std::vector<std::pair<double, std::size_t>> near;
+    near.reserve(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      near.emplace_back(ways.length_to(places[i], start, lengths), i);
+    }
+    std::sort(near.begin(), near.end());
+    near.resize(std::min(near.size(), options.most_sites));
+    sites.reserve(near.size());
+    for (const auto& [way_m, i] : near) {
+      sites.push_back(std::move(all[i]));
+    }
   }
-  const std::vector<double> lengths = ways.lengths_from(start, places, options.most_sites);
-  std::vector<std::pair<double, std::size_t>> near;
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    near.emplace_back(ways.length_to(sites[i].middle.viewpoint, start, lengths), i);
-  }
-  std::sort(near.begin(), near.end());
-  near.resize(std::min(near.size(), options.most_sites));
-  std::vector<FrontierSite> nearest;
-  nearest.reserve(near.size());
-  for (const auto& [way_m, i] : near) {
-    nearest.push_back(std::move(sites[i]));
-  }
-  return nearest;
-}
+};
 
 // What a tour from the current pose over views costs: metres, or seconds, for each leg the longer of moving and
 // turning.
 class TourLegs {
  public:
-  TourLegs(const Situation& situation, TourCost cost, const BlockWays& ways, const std::vector<TourView>& views)
+  // `from_start`: see NearestSites.
+  TourLegs(const Situation& situation, TourCost cost, const BlockWays& ways, const std::vector<double>& from_start,
+           const std::vector<TourView>& views)
       : situation_(situation),
         ways_(ways),
         views_(views),
@@ -77,6 +76,13 @@ class TourLegs {
     for (const TourView& view : views) {
       places_.push_back(view.place);
     }
+    sort_unique(places_);
+    for (const TourView& view : views) {
+      const auto at = std::lower_bound(places_.begin(), places_.end(), view.place, RasterOrder{});
+      place_of_.push_back(static_cast<std::size_t>(at - places_.begin()));
+    }
+    ways_m_.resize(places_.size());
+    ways_m_.push_back(ways_to_all(*situation.reachable().start(), from_start));
   }
 
   [[nodiscard]] double of_way(double way_m) const { return is_time_ ? way_m / motion_.max_speed_m_s : way_m; }
@@ -84,36 +90,64 @@ class TourLegs {
   [[nodiscard]] double of_stop() const {
     return of_way(motion_.max_speed_m_s * motion_.max_speed_m_s / motion_.max_acceleration_m_s2);
   }
-  // From a view, or from the current pose if it is the number of views.
-  [[nodiscard]] double between(std::size_t from, std::size_t to) {
-    const bool is_start = from == views_.size();
-    const VoxelIndex& place = is_start ? *situation_.reachable().start() : views_[from].place;
-    auto known = lengths_.find(place);
-    if (known == lengths_.end()) {
-      known = lengths_.emplace(place, ways_.lengths_from(place, places_)).first;
+  // From a view, or from the current pose if it is the number of views, without turning.
+  [[nodiscard]] double moving(std::size_t from, std::size_t to) {
+    const std::size_t place = from == views_.size() ? places_.size() : place_of_[from];
+    if (ways_m_[place].empty()) {
+      ways_m_[place] = ways_to_all(places_[place], ways_.lengths_from(places_[place], places_));
     }
-    const double way = of_way(ways_.length_to(views_[to].place, place, known->second));
+    return of_way(ways_m_[place][place_of_[to]]);
+  }
+  // The longer of moving and turning.
+  [[nodiscard]] double between(std::size_t from, std::size_t to) {
+    const double way = moving(from, to);
     if (!turns_) {
       return way;
     }
-    const Pose& pose = is_start ? situation_.current() : views_[from].pose;
+    const Pose& pose = from == views_.size() ? situation_.current() : views_[from].pose;
     const double cosine = optical_axis(pose).dot(optical_axis(views_[to].pose));
     return std::max(way, motion_.turn_time_s(std::acos(std::clamp(cosine, -1.0, 1.0))));
   }
 
  private:
+  [[nodiscard]] std::vector<double> ways_to_all(const VoxelIndex& from, const std::vector<double>& lengths) const {
+    std::vector<double> all(places_.size());
+    std::transform(places_.begin(), places_.end(), all.begin(),
+                   [&](const VoxelIndex& place) { return ways_.length_to(place, from, lengths); });
+    return all;
+  }
+
   const Situation& situation_;
   const BlockWays& ways_;
   const std::vector<TourView>& views_;
   MotionModel motion_;
   bool is_time_;
   bool turns_;
-  std::vector<VoxelIndex> places_;                     // of the views
-  std::map<VoxelIndex, std::vector<double>> lengths_;  // from places, as far as they were asked for
+  std::vector<VoxelIndex> places_;           // of the views, without duplicates
+  std::vector<std::size_t> place_of_;        // by view: which of the places
+  std::vector<std::vector<double>> ways_m_;  // to the places: from each that was asked for, and from the start
 };
 
-// The views in the order of a tour: the whole tour counts, less the price of its first view, which is what it would
-// cost to come back to it from the unknown.
+// What it would cost to come back to each view from where the unknown is: that is where the robot will be by then.
+// What a sensor that sees all around has in range of a view needs no way.
+inline std::vector<double> prices_of(const std::vector<std::size_t>& chosen, const Situation& situation,
+                                     const std::vector<TourView>& views, TourLegs& legs) {
+  std::vector<VoxelIndex> places(chosen.size());
+  std::transform(chosen.begin(), chosen.end(), places.begin(), [&](std::size_t view) { return views[view].place; });
+  const OccupancyMap& map = situation.map();
+  const double range_m = counted_range_m(map, situation.sensor());
+  const double seen_m = situation.sensor().looks_all_around() ? range_m : 0.0;
+  const std::vector<double> shares = unknown_shares(map, range_m, seen_m, places);
+  std::vector<double> prices(chosen.size(), 0.0);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    for (std::size_t from = 0; from < chosen.size(); ++from) {
+      prices[i] += shares[from] > 0.0 ? shares[from] * legs.moving(chosen[from], chosen[i]) : 0.0;
+    }
+  }
+  return prices;
+}
+
+// The views in the order of a tour: the whole tour counts, less the price of its first view.
 inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, const Situation& situation,
                                         const std::vector<TourView>& views, TourLegs& legs) {
   const std::size_t n = chosen.size();
@@ -126,19 +160,13 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
       problem.legs.push_back(legs.between(from < n ? chosen[from] : views.size(), to));
     }
   }
-  std::vector<VoxelIndex> places;
-  places.reserve(n);
-  for (const std::size_t view : chosen) {
-    places.push_back(views[view].place);
-  }
-  const UnknownWays unknown(situation.map(), counted_range_m(situation.map(), situation.sensor()), places);
-  for (const std::size_t view : chosen) {
-    problem.prices.push_back(legs.of_way(unknown.mean_m(views[view].place)));
-  }
-  problem.leg_weights.assign(n, 1.0);
+  problem.prices = prices_of(chosen, situation, views, legs);
+  problem.leg_weights.assign(n, situation.sensor().looks_all_around() ? kLaterLegs : 1.0);
+  problem.leg_weights.front() = 1.0;
   problem.price_weights.assign(n, 0.0);
   problem.price_weights.front() = -1.0;
   std::vector<std::size_t> tour;
+  tour.reserve(n);
   for (const std::size_t i : detail::open_tour(problem)) {
     tour.push_back(chosen[i]);
   }
@@ -180,37 +208,30 @@ inline std::vector<VoxelIndex> cells_of_first(const std::vector<std::size_t>& to
 
 // The target of a site that is seen from the nearest place.
 inline const FrontierTarget& nearest_target(const Situation& situation, const FrontierSite& site,
-                                            const BlockWays& ways) {
+                                            const BlockWays& ways, const std::vector<double>& from_start) {
   const VoxelIndex start = *situation.reachable().start();
-  std::vector<VoxelIndex> places;
-  places.reserve(site.targets.size());
-  for (const FrontierTarget& target : site.targets) {
-    places.push_back(target.viewpoint);
-  }
-  const std::vector<double> lengths = ways.lengths_from(start, places);
-  std::vector<double> way_m;
-  way_m.reserve(places.size());
-  for (const VoxelIndex& place : places) {
-    way_m.push_back(ways.length_to(place, start, lengths));
-  }
+  std::vector<double> way_m(site.targets.size());
+  std::transform(site.targets.begin(), site.targets.end(), way_m.begin(),
+                 [&](const FrontierTarget& target) { return ways.length_to(target.viewpoint, start, from_start); });
   return site.targets[static_cast<std::size_t>(std::min_element(way_m.begin(), way_m.end()) - way_m.begin())];
 }
 
 // For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over their
 // middles is enough, and ends at the first place that sees a cell of the first part.
-inline ChosenView first_sight(const Situation& situation, const std::vector<FrontierSite>& sites, TourCost cost,
+inline ChosenView first_sight(const Situation& situation, const NearestSites& nearest, TourCost cost,
                               const BlockWays& ways, Plan& plan) {
+  const std::vector<FrontierSite>& sites = nearest.sites;
   std::vector<TourView> middles;
   middles.reserve(sites.size());
   for (const FrontierSite& site : sites) {
     middles.push_back({site.middle.viewpoint, Pose::Identity(), {}});
   }
   plan.statistics.views_scored += middles.size();
-  TourLegs legs(situation, cost, ways, middles);
+  TourLegs legs(situation, cost, ways, nearest.lengths, middles);
   std::vector<std::size_t> all(middles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const FrontierSite& first = sites[ordered(all, situation, middles, legs).front()];
-  const FrontierTarget& wanted = nearest_target(situation, first, ways);
+  const FrontierTarget& wanted = nearest_target(situation, first, ways, nearest.lengths);
   ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
                     .way = GridPaths(situation.reachable()).to(wanted.viewpoint)};
   // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
@@ -223,14 +244,14 @@ inline ChosenView first_sight(const Situation& situation, const std::vector<Fron
 }
 
 // For a sensor that must be aimed: views are chosen for what they show.
-inline ChosenView first_view(const Situation& situation, const std::vector<FrontierSite>& sites,
-                             const TourOptions& options, const BlockWays& ways, Plan& plan) {
-  const TourViews choice(situation, sites, plan.statistics.ray_operations);
+inline ChosenView first_view(const Situation& situation, const NearestSites& nearest, const TourOptions& options,
+                             const BlockWays& ways, Plan& plan) {
+  const TourViews choice(situation, nearest.sites, plan.statistics.ray_operations);
   plan.statistics.views_scored += choice.views.size();
   if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
     return nearest_view(situation, plan.statistics.ray_operations);
   }
-  TourLegs legs(situation, options.cost, ways, choice.views);
+  TourLegs legs(situation, options.cost, ways, nearest.lengths, choice.views);
   CoverTourProblem problem;
   problem.per_view = legs.of_stop();
   problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
@@ -261,15 +282,25 @@ VANTAGE_INLINE TourPlanner::TourPlanner(const PlannerSetup& setup, const TourOpt
   detail::tour_settings().validate(options);
 }
 
+VANTAGE_INLINE TourPlanner::~TourPlanner() = default;
+
 VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
   return {.max_speed_m_s = 2.0, .max_acceleration_m_s2 = 3.0, .max_yaw_rate_rad_s = 0.5 * std::numbers::pi};
 }
 
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
-  const detail::BlockWays ways = detail::ways_through(situation().reachable(), situation().map().frame());
-  const std::vector<detail::FrontierSite> sites = detail::nearest_sites(situation(), options_, ways);
-  return situation().sensor().looks_all_around() ? detail::first_sight(situation(), sites, options_.cost, ways, plan)
-                                                 : detail::first_view(situation(), sites, options_, ways, plan);
+  const VoxelFrame& frame = situation().map().frame();
+  if (!ways_ || ways_->frame().size_m != frame.size_m) {
+    ways_ = std::make_unique<detail::BlockWays>(frame, detail::side_for(frame.size_m));
+  }
+  ways_->follow([&space = situation().reachable()](const VoxelIndex& brick) {
+    const BrickPlane* const cells = space.find(brick);
+    return cells == nullptr ? BrickPlane{} : *cells;
+  });
+  const detail::NearestSites nearest(situation(), options_, *ways_);
+  return situation().sensor().looks_all_around()
+             ? detail::first_sight(situation(), nearest, options_.cost, *ways_, plan)
+             : detail::first_view(situation(), nearest, options_, *ways_, plan);
 }
 
 }  // namespace vantage

@@ -23,12 +23,14 @@ struct TourView {
 ///      o V f f f   o       V  the viewpoint of the survey, the frontier itself, and where the robot is,
 ///        o   o   o         are places too. From each, the sensor looks at the middles of the parts.
 ///
-/// Only reachable places count.
+/// Only reachable places count. The first parts, those that are looked at first, have places all around; the others
+/// have only V and the frontier. If the parts have many unknown cells, some of each stand for all. So the cost of the
+/// rays is bounded, whatever the size of the cells.
 struct TourViews {
-  std::vector<VoxelIndex> unknown;  ///< the unknown cells of all parts, in raster order
+  std::vector<VoxelIndex> unknown;  ///< unknown cells of all parts, in raster order
   std::vector<TourView> views;      ///< each sees some of them
 
-  /// Adds the number of visited cells to `operations`.
+  /// `sites`: nearest first. Adds the number of visited cells to `operations`.
   TourViews(const Situation& situation, const std::vector<FrontierSite>& sites, std::uint64_t& operations);
 };
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
+#include <vantage/view/frontier_survey.hpp>
 
 #include <vantage/view/impl/targets_in_sight.hpp>
 
@@ -26,6 +26,15 @@ inline constexpr std::array<std::array<double, 2>, 8> kRing{{{1.0, 0.0},
                                                              {kDiagonal, -kDiagonal}}};
 // Further away a place no longer belongs to a part.
 inline constexpr double kFurthestRangeM = 10.0;
+// Places around parts stand on a lattice, so that parts beside each other share them.
+inline constexpr double kLatticeM = 0.4;
+// The tour is planned again long before the parts behind the first few are looked at.
+inline constexpr std::size_t kPartsWithPlaces = 8;
+// About so many cells stand for all of the parts.
+inline constexpr std::size_t kMostCells = 500;
+
+// The coordinate of the lattice below or at `at`.
+inline std::int32_t lattice_at(std::int32_t at, std::int32_t step) { return at - (at % step + step) % step; }
 
 inline Eigen::Vector3d middle_of_unknown(const FrontierSite& site, const VoxelFrame& frame) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -38,6 +47,8 @@ inline Eigen::Vector3d middle_of_unknown(const FrontierSite& site, const VoxelFr
 inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::vector<FrontierSite>& sites,
                                          const std::vector<Eigen::Vector3d>& middles) {
   const ReachableSpace& reachable = situation.reachable();
+  const VoxelFrame& frame = situation.map().frame();
+  const std::int32_t step = std::max(1, frame.cells_up_to(kLatticeM));
   const double range_m = std::min(kFurthestRangeM, counted_range_m(situation.map(), situation.sensor()));
   std::vector<VoxelIndex> places{*reachable.start()};
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -46,10 +57,12 @@ inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::
     places.push_back(middle.frontier);
     const double height_m = reachable.position_in(middle.viewpoint).z();
     for (const double share : kRings) {
-      for (const auto& [x, y] : kRing) {
-        const double radius_m = share * range_m;
-        places.push_back(situation.map().frame().cell_of(
-            {middles[i].x() + radius_m * x, middles[i].y() + radius_m * y, height_m}));
+      const double radius_m = share * range_m;
+      for (std::size_t way = 0; way < (i < kPartsWithPlaces ? kRing.size() : 0); ++way) {
+        const auto& [x, y] = kRing[way];
+        const VoxelIndex cell =
+            frame.cell_of({middles[i].x() + radius_m * x, middles[i].y() + radius_m * y, height_m});
+        places.push_back({lattice_at(cell.x, step), lattice_at(cell.y, step), cell.z});
       }
     }
   }
@@ -65,43 +78,40 @@ struct NumberedLine {
   Eigen::Vector3d line;  // from the place, metres, world
 };
 
-// What is in sight, by number in `unknown`, each cell once.
-inline std::vector<NumberedLine> numbered(const std::vector<TargetsInSight::Sighting>& sightings,
-                                          const std::vector<VoxelIndex>& unknown) {
-  std::vector<NumberedLine> lines;
-  lines.reserve(sightings.size());
-  for (const TargetsInSight::Sighting& sighting : sightings) {
-    const auto at = std::lower_bound(unknown.begin(), unknown.end(), sighting.unknown, RasterOrder{});
-    lines.push_back({static_cast<std::uint32_t>(at - unknown.begin()), sighting.line});
-  }
-  const auto before = [](const NumberedLine& a, const NumberedLine& b) { return a.number < b.number; };
-  std::sort(lines.begin(), lines.end(), before);
-  const auto same = [](const NumberedLine& a, const NumberedLine& b) { return a.number == b.number; };
-  lines.erase(std::unique(lines.begin(), lines.end(), same), lines.end());
-  return lines;
-}
-
 VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vector<FrontierSite>& sites,
                                     std::uint64_t& operations) {
+  const VoxelFrame& frame = situation.map().frame();
   const double range_m = counted_range_m(situation.map(), situation.sensor());
   std::vector<Eigen::Vector3d> middles;
+  std::size_t targets = 0;
   for (const FrontierSite& site : sites) {
-    middles.push_back(middle_of_unknown(site, situation.map().frame()));
-    for (const FrontierTarget& target : site.targets) {
-      unknown.push_back(target.unknown);
+    middles.push_back(middle_of_unknown(site, frame));
+    targets += site.targets.size();
+  }
+  const std::size_t stride = targets / kMostCells + 1;
+  for (const FrontierSite& site : sites) {
+    for (std::size_t i = 0; i < site.targets.size(); i += stride) {
+      unknown.push_back(site.targets[i].unknown);
     }
   }
   sort_unique(unknown);
-  std::vector<FrontierTarget> wanted;
-  std::copy_if(situation.survey().targets.begin(), situation.survey().targets.end(), std::back_inserter(wanted),
-               [&](const FrontierTarget& target) {
-                 return std::binary_search(unknown.begin(), unknown.end(), target.unknown, RasterOrder{});
-               });
+  std::vector<Eigen::Vector3d> centres;
+  centres.reserve(unknown.size());
+  for (const VoxelIndex& cell : unknown) {
+    centres.push_back(frame.centre_of(cell));
+  }
   for (const VoxelIndex& place : places_of(situation, sites, middles)) {
     const Eigen::Vector3d position = situation.reachable().position_in(place);
-    TargetsInSight in_sight(situation.surveyed(), wanted, position, range_m, operations);
-    in_sight.leave_out_tried();
-    const std::vector<NumberedLine> lines = numbered(in_sight.all(), unknown);
+    std::vector<NumberedLine> lines;
+    for (std::uint32_t number = 0; number < unknown.size(); ++number) {
+      const Eigen::Vector3d line = centres[number] - position;
+      const double length_m = line.norm();
+      if (length_m >= situation.sensor().min_range_m && length_m <= range_m &&
+          !situation.tried().tried_from(unknown[number], place) &&
+          in_plain_sight(situation.map(), position, unknown[number], operations)) {
+        lines.push_back({number, line});
+      }
+    }
     const auto first = static_cast<std::ptrdiff_t>(views.size());
     for (std::size_t i = 0; i < middles.size() && !lines.empty(); ++i) {
       const Eigen::Vector3d line = middles[i] - position;
