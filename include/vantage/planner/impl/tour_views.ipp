@@ -31,7 +31,7 @@ inline constexpr double kLatticeM = 0.4;
 // The tour is planned again long before the parts behind the first few are looked at.
 inline constexpr std::size_t kPartsWithPlaces = 8;
 // About so many cells stand for all of the parts.
-inline constexpr std::size_t kMostCells = 500;
+inline constexpr std::size_t kMostLookedFor = 500;
 
 // The coordinate of the lattice below or at `at`.
 inline std::int32_t lattice_at(std::int32_t at, std::int32_t step) { return at - (at % step + step) % step; }
@@ -88,7 +88,7 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
     middles.push_back(middle_of_unknown(site, frame));
     targets += site.targets.size();
   }
-  const std::size_t stride = targets / kMostCells + 1;
+  const std::size_t stride = targets / kMostLookedFor + 1;
   for (const FrontierSite& site : sites) {
     for (std::size_t i = 0; i < site.targets.size(); i += stride) {
       unknown.push_back(site.targets[i].unknown);
