@@ -14,19 +14,19 @@
 namespace vantage {
 namespace {
 
-constexpr double kCellM = 0.2;
+constexpr double kSharesCellM = 0.2;
 
 // Cell by cell; each belongs to the place nearest to the centre of its brick.
 std::vector<double> slow_shares(const OccupancyMap& map, const VoxelBox& region, double seen_m,
                                 const std::vector<VoxelIndex>& places) {
-  const VoxelFrame frame{kCellM};
+  const VoxelFrame frame{kSharesCellM};
   std::vector<double> shares(places.size(), 0.0);
   double unknown = 0.0;
   for_each_cell(region, [&](const VoxelIndex& cell) {
     if (map.at(cell) != Occupancy::Unknown) {
       return;
     }
-    const Eigen::Vector3d at_m = VoxelFrame{Brick::kSide * kCellM}.centre_of(Brick::of_cell(cell));
+    const Eigen::Vector3d at_m = VoxelFrame{Brick::kSide * kSharesCellM}.centre_of(Brick::of_cell(cell));
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -50,7 +50,7 @@ TEST(UnknownShares, AreThoseCellByCell) {
   for (int i = 0; i < 30; ++i) {
     const auto side = static_cast<std::int32_t>(30 + engine() % 30);
     const VoxelBox region{{-5, 3, -7}, {side, side + 4, 9}};
-    OccupancyMap map({.resolution_m = kCellM, .region = VoxelFrame{kCellM}.box_of(region)});
+    OccupancyMap map({.resolution_m = kSharesCellM, .region = VoxelFrame{kSharesCellM}.box_of(region)});
     const auto known_to = static_cast<std::int32_t>(engine() % 30);
     for_each_cell({{-5, 3, -7}, {known_to, side, 4}}, [&](const VoxelIndex& cell) {
       if (engine() % 8 != 0) {
@@ -81,7 +81,7 @@ TEST(UnknownShares, AreThoseCellByCell) {
 
 TEST(UnknownShares, AreNoneWhereAllIsKnownOrSeen) {
   const VoxelBox region{{0, 0, 0}, {16, 16, 8}};
-  OccupancyMap map({.resolution_m = kCellM, .region = VoxelFrame{kCellM}.box_of(region)});
+  OccupancyMap map({.resolution_m = kSharesCellM, .region = VoxelFrame{kSharesCellM}.box_of(region)});
   map.set({0, 0, 0}, Occupancy::Free);
   map.set({15, 15, 7}, Occupancy::Free);
   const std::vector<VoxelIndex> place{{3, 3, 3}};
@@ -93,7 +93,7 @@ TEST(UnknownShares, AreNoneWhereAllIsKnownOrSeen) {
 
 // However far apart the known cells are, the number of bricks that are looked at is bounded.
 TEST(UnknownShares, EndInALargeMap) {
-  OccupancyMap map({.resolution_m = kCellM});
+  OccupancyMap map({.resolution_m = kSharesCellM});
   for (const std::int32_t at : {-6'000, 0, 6'000}) {  // 2.4 km apart
     map.set({at, at, at}, Occupancy::Free);
   }

@@ -87,11 +87,8 @@ VANTAGE_INLINE void HullChange::for_each_brick(const VoxelBox& bricks, const Vis
 
 VANTAGE_INLINE std::int64_t HullChange::growth(const VoxelBox& bricks, const Holds& holds, const Visit& visit) {
   growth_ = 0;
-  const VoxelBox overlap = cells_of(bricks);
-  if (!overlap.empty()) {
-    const VoxelIndex last = Brick::of_cell(overlap.hi - VoxelIndex{1, 1, 1});
-    visit_box({Brick::of_cell(overlap.lo), last + VoxelIndex{1, 1, 1}}, {0, common_.size()}, {0, gone_.size()},
-              {0, added_.size()}, holds, visit);
+  if (const VoxelBox overlap = Brick::over(cells_of(bricks)); !overlap.empty()) {
+    visit_box(overlap, {0, common_.size()}, {0, gone_.size()}, {0, added_.size()}, holds, visit);
   }
   return growth_;
 }

@@ -19,11 +19,6 @@ inline constexpr double kFurthestM = 1e3;
 inline constexpr std::int32_t kNearBricks = 13;
 inline constexpr std::size_t kManyBricks = 27U * 27U * 27U;
 
-inline VoxelBox bricks_over(const VoxelBox& cells) {
-  const VoxelIndex last = Brick::of_cell(cells.hi - VoxelIndex{1, 1, 1});
-  return cells.empty() ? VoxelBox{} : VoxelBox{Brick::of_cell(cells.lo), last + VoxelIndex{1, 1, 1}};
-}
-
 inline std::size_t nearest_of(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& to) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -50,9 +45,9 @@ inline std::size_t unknown_in(const OccupancyMap& map, const VoxelIndex& brick) 
 VANTAGE_INLINE std::vector<double> unknown_shares(const OccupancyMap& map, double beyond_m, double seen_m,
                                                   std::span<const VoxelIndex> places) {
   const VoxelBox cells = map.bounds().grown(map.frame().cells_up_to(std::min(beyond_m, kFurthestM)));
-  VoxelBox bricks = bricks_over(map.region() ? box_overlap(cells, *map.region()) : cells);
+  VoxelBox bricks = Brick::over(map.region() ? box_overlap(cells, *map.region()) : cells);
   if (bricks.size() > kManyBricks) {
-    bricks = box_overlap(bricks, bricks_over(box_around(places)).grown(kNearBricks));
+    bricks = box_overlap(bricks, Brick::over(box_around(places)).grown(kNearBricks));
   }
   std::int32_t step = 1;
   while (bricks.size() / static_cast<std::size_t>(step * step * step) > kManyBricks) {

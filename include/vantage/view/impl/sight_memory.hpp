@@ -82,9 +82,9 @@ class SightMemory {
   template <class Member>
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
   // Makes a brick of blocks the last one. It is stored even if unknown, so that a later change is noticed.
-  [[gnu::noinline]] void turn_to(const VoxelIndex& brick);
+  void turn_to(const VoxelIndex& brick);
   // The search, if there is one, looks at a block of the last brick.
-  [[gnu::noinline]] void note(std::size_t block);
+  void note(std::size_t block);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
   [[nodiscard]] bool stands(const Answer& answer) const;
