@@ -52,6 +52,28 @@ class BrickGrid {
   /// The address of a stored brick, in units of bricks.
   [[nodiscard]] const VoxelIndex& address(std::size_t number) const { return bricks_[number].address; }
 
+  /// Writes cells one after the other and caches the last brick. Stores bricks as necessary. A writer must not
+  /// outlive the grid.
+  class Writer {
+   public:
+    /// Writes to `grid`.
+    explicit Writer(BrickGrid& grid) : grid_(&grid) {}
+    /// The value of a cell, to write to.
+    [[nodiscard]] T& operator()(const VoxelIndex& cell) {
+      const VoxelIndex brick = Brick::of_cell(cell);
+      if (brick != brick_ || values_ == nullptr) {
+        brick_ = brick;
+        values_ = &grid_->values(grid_->store(brick));
+      }
+      return (*values_)[Brick::offset_of(cell)];
+    }
+
+   private:
+    BrickGrid* grid_;
+    VoxelIndex brick_;
+    Values* values_ = nullptr;
+  };
+
   /// Reads cells one after the other and caches the last brick, so lookups of neighbours are fast. A reader must not
   /// outlive the grid. Do not use it after a brick was stored.
   class Reader {

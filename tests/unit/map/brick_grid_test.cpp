@@ -14,11 +14,15 @@ TEST(BrickGrid, EqualsAMapWithADefault) {
   std::uniform_int_distribution<std::int32_t> at(-70, 70);
   const auto any = [&] { return VoxelIndex{at(engine), at(engine), at(engine)}; };
   BrickGrid<int> grid(-1);
+  BrickGrid<int>::Writer write(grid);
   std::unordered_map<VoxelIndex, int> expected;
   std::set<BrickDirectory::Number> numbers;
+  VoxelIndex last;
   for (int i = 0; i < 30000; ++i) {
-    const VoxelIndex cell = any();
-    grid[cell] = i;
+    // Every other time beside the last cell, of which the writer holds the brick.
+    last = i % 2 == 0 ? any() : last + VoxelIndex{1, 0, 0};
+    const VoxelIndex cell = last;
+    (i % 4 < 2 ? write(cell) : grid[cell]) = i;
     expected[cell] = i;
     const BrickDirectory::Number number = grid.number_of(Brick::of_cell(cell));
     ASSERT_LT(number, grid.bricks());

@@ -339,8 +339,9 @@ VoidClusters clusters_of(Numbers numbers, const VoxelFrame& frame, const VoidClu
     clusters.push_back(growth.grow(*start, static_cast<std::uint32_t>(clusters.size())));
   }
   BrickGrid<std::uint32_t> of_cells(kNoVoid);
+  BrickGrid<std::uint32_t>::Writer write(of_cells);
   for (const std::size_t position : positions) {
-    of_cells[numbers.cell_at(position)] = numbers[position];
+    write(numbers.cell_at(position)) = numbers[position];
   }
   return {std::move(clusters), std::move(of_cells)};
 }

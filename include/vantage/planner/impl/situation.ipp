@@ -241,7 +241,10 @@ VANTAGE_INLINE bool Situation::remember(const Plan& plan, std::vector<VoxelIndex
   if (tried_.expect(*map_, plan.path, plan.sought, std::move(hoped))) {
     return true;
   }
-  find_targets();
+  std::erase_if(survey_.targets, [&](const FrontierTarget& target) { return tried_.rests(target.viewpoint); });
+  if (survey_.targets.empty()) {
+    find_targets();
+  }
   return false;
 }
 
