@@ -32,7 +32,7 @@ namespace {
 using testing::Building;
 using testing::ChangingWorld;
 
-constexpr std::size_t kMostPlans = 250;
+constexpr std::size_t kMostPlans = 1000;
 constexpr std::size_t kMostPlansStuck = 40;
 constexpr double kBodyCells = 0.7;  // radius, cells
 
