@@ -249,6 +249,7 @@ class DrivenRobot {
       last = plan();
       if (last.outcome != Outcome::Move && last.outcome != Outcome::Explored && !world_.is_static() && waits < 30) {
         ++waits;  // as the contract asks: plan again later
+        asks_ = 0;
         look();
         continue;
       }
@@ -457,6 +458,10 @@ TEST(ExplorationContractCase, BetweenObstaclesThatAreKnownNothingIsToBeDeclaredF
 // The robot stopped beside a goal from which alone it could look through a crack, for another cell each time.
 TEST(ExplorationContractCase, BesideAGoalTheRobotComesNoNearer) {
   EXPECT_TRUE(expect_contract("tour", Host::StopsShort, Scene::numbered(6052)));
+}
+// The robot never moved, and the goal turned a little towards it: that passed for progress.
+TEST(ExplorationContractCase, AGoalThatComesNearerIsNoProgress) {
+  EXPECT_TRUE(expect_contract("tour", Host::Stuck, Scene::numbered(101000)));
 }
 // A cell was in line with two corners of walls as seen from two places, and was given up.
 TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {

@@ -11,8 +11,8 @@ namespace VANTAGE_EXPORT vantage {
 
 /// A map and what a survey found in it. Borrows all of it.
 struct SurveyedMap {
-  const OccupancyMap& map;
-  const RangeSensor& sensor;
+  const OccupancyMap& map;          ///< what was surveyed
+  const RangeSensor& sensor;        ///< the sensor that is to see the targets
   const Platform& platform;         ///< the body that carries the sensor
   const ReachableSpace& reachable;  ///< the cells to which it can bring the sensor
   const FrontierSurvey& survey;     ///< the targets

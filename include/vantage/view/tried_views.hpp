@@ -135,8 +135,9 @@ class TriedViews {
   // A goal that was planned.
   struct Place {
     VoxelIndex cell;
-    double nearest_way = 0.0;  // shortest way_to_go of all plans to it
-    int no_nearer = 0;         // consecutive plans after a change of the map in which it was no shorter
+    double nearest_way = 0.0;             // shortest way_to_go of all plans to it
+    std::optional<Pose> asked_from = {};  // where the robot was at the latest plan; unknown after `recall`
+    int no_nearer = 0;                    // consecutive plans after a change of the map in which it was no shorter
     int failures = 0;
     std::uint64_t rests_until = 0;        // number of a plan
     OccupancyMap::Revision revision = 0;  // of the latest plan to it; 0: the next one is the first

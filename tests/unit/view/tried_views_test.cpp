@@ -288,6 +288,25 @@ TEST(TriedViews, ARobotThatStopsOffTheGoalIsAskedTwice) {
   EXPECT_EQ(asked_for(0.05, false), 10);
 }
 
+// The goal turns towards the robot from plan to plan. That brings the robot no nearer.
+TEST(TriedViews, AGoalThatComesNearerIsNoProgressOfTheRobot) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const Pose robot = at(map, {2, 5, 5});
+  int times = 0;
+  for (; times < 10; ++times) {
+    tried.review(map, robot);
+    Pose goal = robot;
+    goal.translation().x() += 0.15;
+    goal.linear() = Eigen::AngleAxisd(1.0 - 0.05 * times, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    if (!tried.expect(map, {robot, goal}, {{5, 5, 5}})) {
+      break;
+    }
+    map.confirm();
+  }
+  EXPECT_EQ(times, 2);
+}
+
 // From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
 TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
   for (const bool is_free : {false, true}) {

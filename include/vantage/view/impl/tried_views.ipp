@@ -53,6 +53,11 @@ inline double angle_rad(const Pose& a, const Pose& b) {
   return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
 }
 
+// Whether there is more than jitter between two poses.
+inline bool differs(const Pose& a, const Pose& b) {
+  return (a.translation() - b.translation()).norm() > kNearer || angle_rad(a, b) > kNearer;
+}
+
 }  // namespace detail
 
 VANTAGE_INLINE TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
@@ -82,8 +87,10 @@ VANTAGE_INLINE bool TriedViews::expect(const OccupancyMap& map, const std::vecto
   if (place.revision != map.revision()) {  // else this map was already planned in
     const double way = way_to_go(path);
     const bool first = place.revision == 0;
+    const bool moved = !place.asked_from || detail::differs(path.front(), *place.asked_from);
     place.revision = map.revision();
-    if (first || way < place.nearest_way - detail::kNearer) {
+    place.asked_from = path.front();
+    if (first || (moved && way < place.nearest_way - detail::kNearer)) {
       place.nearest_way = way;
       place.no_nearer = 0;
     } else if (++place.no_nearer == detail::kMostAsks) {
