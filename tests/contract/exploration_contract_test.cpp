@@ -265,16 +265,23 @@ class DrivenRobot {
     }
   }
 
+  // A robot that stands at its goal comes no nearer. It may be asked to look from there for other cells.
   void count_asks() {
+    const bool was_there = (asked_.translation() - pose_.translation()).norm() < 0.5 * scene_.cell_m;
+    const bool for_others = std::none_of(last.sought.begin(), last.sought.end(), [&](const VoxelIndex& cell) {
+      return std::find(asked_sought_.begin(), asked_sought_.end(), cell) != asked_sought_.end();
+    });
     const double way_m = length_m(last.path);
     const double turn = turn_rad(pose_, last.goal.pose);
     const VoxelIndex goal = map_.frame().cell_of(last.goal.pose.translation());
     const bool no_nearer = way_m > asked_way_m_ - 0.01 && (way_m > 0.01 || turn > asked_turn_ - 0.01);
-    const bool again = goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && no_nearer;
+    const bool again =
+        goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && no_nearer && !(was_there && for_others);
     asks_ = again ? asks_ + 1 : 1;
     most_asks = std::max(most_asks, asks_);
     asked_for_ = goal;
     asked_ = last.goal.pose;
+    asked_sought_ = last.sought;
     asked_way_m_ = again ? std::min(way_m, asked_way_m_) : way_m;
     asked_turn_ = again ? std::min(turn, asked_turn_) : turn;
   }
@@ -380,6 +387,7 @@ class DrivenRobot {
   Pose asked_ = Pose::Identity();
   double asked_way_m_ = 0.0;
   double asked_turn_ = 0.0;
+  std::vector<VoxelIndex> asked_sought_;
   std::size_t asks_ = 0;
 };
 

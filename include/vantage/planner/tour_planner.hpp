@@ -65,8 +65,6 @@ class TourPlanner final : public FrontierPlanner {
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.
   explicit TourPlanner(const PlannerSetup& setup, const TourOptions& options = {});
 
-  ~TourPlanner() override;
-
   [[nodiscard]] std::string_view name() const override { return "tour"; }
   /// The options of the constructor.
   [[nodiscard]] const TourOptions& options() const { return options_; }
@@ -77,7 +75,7 @@ class TourPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
 
   TourOptions options_;
-  std::unique_ptr<detail::BlockWays> ways_;  // made with the first plan
+  std::shared_ptr<detail::BlockWays> ways_;  // made with the first plan; shared, because the type is incomplete here
 };
 
 }  // namespace vantage

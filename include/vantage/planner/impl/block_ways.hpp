@@ -51,6 +51,8 @@ class BlockWays {
   [[nodiscard]] std::size_t size() const { return pieces_.size() - unused_.size(); }
   /// The piece that holds a cell, or kNone.
   [[nodiscard]] Piece piece_of(const VoxelIndex& cell) const;
+  // How many of these cells each piece holds.
+  [[nodiscard]] std::vector<std::uint32_t> counted_by_piece(std::span<const VoxelIndex> cells) const;
   /// The cells of a piece.
   [[nodiscard]] const BrickPlane& cells_of(Piece piece) const { return pieces_[piece].cells; }
   /// The brick of a piece.

@@ -195,6 +195,17 @@ VANTAGE_INLINE BlockWays::Piece BlockWays::piece_of(const VoxelIndex& cell) cons
   return piece;
 }
 
+VANTAGE_INLINE std::vector<std::uint32_t> BlockWays::counted_by_piece(std::span<const VoxelIndex> cells) const {
+  std::vector<std::uint32_t> counts;
+  for (const VoxelIndex& cell : cells) {
+    if (const Piece piece = piece_of(cell); piece != kNone) {  // may be a new piece
+      counts.resize(std::max<std::size_t>(counts.size(), piece + 1), 0);
+      ++counts[piece];
+    }
+  }
+  return counts;
+}
+
 // From the piece of the cell on, the first link starts at the cell itself. `length_to` a wanted cell differs from the
 // length of its piece by no more than a link. So the nearest are known once the search is two links behind the piece
 // at which it has met enough of them. Pieces wait in buckets by their length (Dial 1969); within a bucket a piece may
@@ -210,17 +221,9 @@ VANTAGE_INLINE std::vector<double> BlockWays::lengths_from(const VoxelIndex& cel
   constexpr std::uint32_t kBucket = 256;
   const double longest_link_m = 3.5 * side_ * frame_.size_m;  // between cells of two blocks that touch
   const auto longest_link = static_cast<std::uint32_t>(std::ceil(longest_link_m / kUnitM));
-  std::vector<Piece> goals;
-  for (const VoxelIndex& goal : wanted) {
-    if (const Piece piece = piece_of(goal); piece != kNone) {
-      goals.push_back(piece);
-    }
-  }
-  std::vector<std::uint32_t> goals_in(pieces_.size(), 0);
-  for (const Piece goal : goals) {
-    ++goals_in[goal];
-  }
-  std::size_t left = wanted.empty() ? kFar : std::min(most, goals.size());
+  std::vector<std::uint32_t> goals_in = counted_by_piece(wanted);
+  const auto goals = std::accumulate(goals_in.begin(), goals_in.end(), std::size_t{0});
+  std::size_t left = wanted.empty() ? kFar : std::min(most, goals);
   std::uint32_t end = kFar;
   std::vector<std::uint32_t> best(pieces_.size(), kFar);
   using Entry = std::pair<std::uint32_t, Piece>;

@@ -213,8 +213,6 @@ VANTAGE_INLINE TourPlanner::TourPlanner(const PlannerSetup& setup, const TourOpt
   detail::tour_settings().validate(options);
 }
 
-VANTAGE_INLINE TourPlanner::~TourPlanner() = default;
-
 VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
   return {.max_speed_m_s = 2.0, .max_acceleration_m_s2 = 3.0, .max_yaw_rate_rad_s = 0.5 * std::numbers::pi};
 }
@@ -222,7 +220,7 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const VoxelFrame& frame = situation().map().frame();
   if (!ways_ || ways_->frame().size_m != frame.size_m) {
-    ways_ = std::make_unique<detail::BlockWays>(frame, detail::side_for(frame.size_m));
+    ways_ = std::make_shared<detail::BlockWays>(frame, detail::side_for(frame.size_m));
   }
   ways_->follow([&space = situation().reachable()](const VoxelIndex& brick) {
     const BrickPlane* const cells = space.find(brick);
