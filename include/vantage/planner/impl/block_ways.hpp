@@ -51,8 +51,6 @@ class BlockWays {
   [[nodiscard]] std::size_t size() const { return pieces_.size() - unused_.size(); }
   /// The piece that holds a cell, or kNone.
   [[nodiscard]] Piece piece_of(const VoxelIndex& cell) const;
-  // How many of these cells each piece holds.
-  [[nodiscard]] std::vector<std::uint32_t> counted_by_piece(std::span<const VoxelIndex> cells) const;
   /// The cells of a piece.
   [[nodiscard]] const BrickPlane& cells_of(Piece piece) const { return pieces_[piece].cells; }
   /// The brick of a piece.
@@ -93,6 +91,8 @@ class BlockWays {
   void add_piece(const VoxelIndex& brick, const BrickPlane& cells) const;
   void make_pieces(const Read& read) const;
   [[nodiscard]] Piece first_in(const VoxelIndex& block) const;
+  // How many of these cells each piece holds.
+  [[nodiscard]] std::vector<std::uint32_t> counted_by_piece(std::span<const VoxelIndex> cells) const;
   template <class Visit>
   void for_each_piece_of(const VoxelIndex& brick, Visit&& visit) const;
   [[nodiscard]] const std::vector<Piece>& beside(Piece piece, std::size_t way) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vantage/geometry/raster_order.hpp>
 
 #include <vantage/map/impl/brick_plane.hpp>
