@@ -42,7 +42,7 @@ class DirectionDraw {
       const auto drawn = std::upper_bound(up_to_.begin(), up_to_.end(), dice_.below(total_));
       const std::vector<VoxelIndex>& frontier = voids_[static_cast<std::size_t>(drawn - up_to_.begin())].frontier;
       const VoxelIndex cell = frontier[dice_.below(frontier.size())];
-      const Eigen::Vector3d line = surveyed_.map.frame().centre_of(cell) - place;
+      Eigen::Vector3d line = surveyed_.map.frame().centre_of(cell) - place;
       const double range_m = line.norm();
       if (range_m >= surveyed_.sensor.min_range_m && range_m <= surveyed_.sensor.max_range_m && range_m > 0.0 &&
           in_plain_sight(surveyed_.map, place, cell, operations)) {
