@@ -9,6 +9,7 @@
 #include <utility>
 #include <vantage/planner/frontier_void_planner.hpp>
 
+#include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/view/impl/ranked_views.hpp>
 
@@ -30,14 +31,6 @@ inline std::string volume(double cells, double cell_m) {
 inline double expected(const std::vector<SightedCell>& seen) {
   const auto add = [](double cells, const SightedCell& one) { return cells + one.chance; };
   return std::round(std::accumulate(seen.begin(), seen.end(), 0.0, add));
-}
-
-inline double length_m(const std::vector<Pose>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length_m += (path[i].translation() - path[i - 1].translation()).norm();
-  }
-  return length_m;
 }
 
 // At least one cell.

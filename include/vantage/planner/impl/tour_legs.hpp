@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/tour_planner.hpp>
 #include <vector>
 
+#include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/planner/impl/block_ways.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
 
@@ -60,8 +60,7 @@ class TourLegs {
       return way;
     }
     const Pose& pose = from == views_.size() ? situation_.current() : views_[from].pose;
-    const double cosine = optical_axis(pose).dot(optical_axis(views_[to].pose));
-    return std::max(way, motion_.turn_time_s(std::acos(std::clamp(cosine, -1.0, 1.0))));
+    return std::max(way, motion_.turn_time_s(angle_rad(pose, views_[to].pose)));
   }
 
  private:

@@ -81,10 +81,6 @@ class SightMemory {
   void follow_places(const ReachableSpace& reachable, const TriedViews& tried);
   template <class Member>
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
-  // Makes a brick of blocks the last one. It is stored even if unknown, so that a later change is noticed.
-  void turn_to(const VoxelIndex& brick);
-  // The search, if there is one, looks at a block of the last brick.
-  void note(std::size_t block);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
   [[nodiscard]] bool stands(const Answer& answer) const;
@@ -113,16 +109,17 @@ class SightMemory {
   VoxelTable<std::uint32_t> numbers_;  // of the answers, by unknown cell
 };
 
-// The innermost step of a search: what happens seldom stands in functions of its own.
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
   const VoxelIndex address = block_of(cell);
   if (const VoxelIndex brick = Brick::of_cell(address); brick != last_brick_) {
-    turn_to(brick);
+    last_brick_ = brick;
+    last_number_ = blocks_.store(brick);  // stored even if unknown, so that a later change is noticed
+    last_blocks_ = &blocks_.values(last_number_);
   }
   const std::size_t offset = Brick::offset_of(address);
   Block& block = (*last_blocks_)[offset];
-  if (std::exchange(block.looked_at, question_) != question_) {
-    note(offset);
+  if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + offset));
   }
   return (block.clear & bit_of(cell)) != 0;
 }

@@ -112,18 +112,6 @@ void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member m
   }
 }
 
-VANTAGE_INLINE void SightMemory::turn_to(const VoxelIndex& brick) {
-  last_brick_ = brick;
-  last_number_ = blocks_.store(brick);
-  last_blocks_ = &blocks_.values(last_number_);
-}
-
-VANTAGE_INLINE void SightMemory::note(std::size_t block) {
-  if (asked_ != nullptr) {
-    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + block));
-  }
-}
-
 VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {
   return answer.may_stand &&
          std::all_of(answer.looked_at.begin(), answer.looked_at.end(),

@@ -8,6 +8,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/tried_views.hpp>
 
+#include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
@@ -49,12 +50,8 @@ inline bool touch(const VoxelIndex& a, const VoxelIndex& b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
 }
 
-inline double angle_rad(const Pose& a, const Pose& b) {
-  return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
-}
-
 // Whether there is more than jitter between two poses.
-inline bool differs(const Pose& a, const Pose& b) {
+inline bool is_more_than_jitter(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm() > kNearer || angle_rad(a, b) > kNearer;
 }
 
@@ -74,10 +71,7 @@ VANTAGE_INLINE double TriedViews::tolerance_m() const { return std::max(options_
 // What is left of a path, as one number that shrinks while a robot follows it: within the tolerance the angle that is
 // left, which is at most pi, and before that pi plus the metres that are left.
 VANTAGE_INLINE double TriedViews::way_to_go(const std::vector<Pose>& path) const {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length_m += (path[i].translation() - path[i - 1].translation()).norm();
-  }
+  const double length_m = detail::length_m(path);
   return length_m > tolerance_m() ? std::numbers::pi + length_m : detail::angle_rad(path.front(), path.back());
 }
 
@@ -87,7 +81,7 @@ VANTAGE_INLINE bool TriedViews::expect(const OccupancyMap& map, const std::vecto
   if (place.revision != map.revision()) {  // else this map was already planned in
     const double way = way_to_go(path);
     const bool first = place.revision == 0;
-    const bool moved = !place.asked_from || detail::differs(path.front(), *place.asked_from);
+    const bool moved = !place.asked_from || detail::is_more_than_jitter(path.front(), *place.asked_from);
     place.revision = map.revision();
     place.asked_from = path.front();
     if (first || (moved && way < place.nearest_way - detail::kNearer)) {
