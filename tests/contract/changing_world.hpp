@@ -135,7 +135,7 @@ struct ChangingWorld {
 }
 
 /// A simulated scan: each ray returns a point just inside the first solid cell, or just behind the first wall of zero
-/// thickness.
+/// thickness. A ray that only cuts a corner of a cell passes: its point would lie in the cell beyond.
 [[nodiscard]] inline Scan scan_of(const ChangingWorld& world, const RangeSensor& sensor, const Pose& pose) {
   Scan scan;
   scan.world_from_sensor = pose;
@@ -148,10 +148,12 @@ struct ChangingWorld {
     for (const VoxelIndex& cell : VoxelRay(world.frame, origin, origin + far_m * ray)) {
       const bool blocked = world.is_solid(cell) || (cell != last && world.parted(last, cell));
       last = cell;
-      if (!blocked) {
+      const double range_m = range_into(world.frame.box_of(cell), origin, ray);
+      const bool cuts_a_corner = world.frame.cell_of(origin + range_m * ray) != cell;
+      if (!blocked || cuts_a_corner) {
         continue;
       }
-      add_ray(scan, sensor, direction, range_into(world.frame.box_of(cell), origin, ray));
+      add_ray(scan, sensor, direction, range_m);
       break;
     }
   }

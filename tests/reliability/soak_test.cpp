@@ -90,17 +90,24 @@ class TirelessRobot {
   std::size_t most_asks = 0;  // longest series of plans for one goal without progress
 
  private:
+  // A robot that stands at its goal comes no nearer. It may be asked to look from there for other cells.
   void count_asks(const Plan& plan) {
+    const bool was_there = (asked_.translation() - pose_.translation()).norm() < 0.5 * map_.resolution_m();
+    const bool for_others = std::none_of(plan.sought.begin(), plan.sought.end(), [&](const VoxelIndex& cell) {
+      return std::find(sought_.begin(), sought_.end(), cell) != sought_.end();
+    });
     double way = turn_rad(pose_, plan.goal.pose);
     for (std::size_t i = 1; i < plan.path.size(); ++i) {
       way += (plan.path[i].translation() - plan.path[i - 1].translation()).norm();
     }
     const bool again = asks_ > 0 && map_.frame().cell_of(plan.goal.pose.translation()) == asked_for_ &&
-                       turn_rad(asked_, plan.goal.pose) < 0.1 && way > asked_way_ - 0.01;
+                       turn_rad(asked_, plan.goal.pose) < 0.1 && way > asked_way_ - 0.01 &&
+                       !(was_there && for_others);
     asks_ = again ? asks_ + 1 : 1;
     most_asks = std::max(most_asks, asks_);
     asked_for_ = map_.frame().cell_of(plan.goal.pose.translation());
     asked_ = plan.goal.pose;
+    sought_ = plan.sought;
     asked_way_ = again ? std::min(way, asked_way_) : way;
   }
   // Goes from pose to pose of the path, and stops before the person.
@@ -137,6 +144,7 @@ class TirelessRobot {
   std::mt19937 engine_{5};
   VoxelIndex asked_for_{};
   Pose asked_ = Pose::Identity();
+  std::vector<VoxelIndex> sought_;
   double asked_way_ = 0.0;
   std::size_t asks_ = 0;
 };
@@ -161,7 +169,7 @@ TEST_P(Soak, MemoryAndTimeStayAsTheyAreAndNoGoalComesAgainAndAgain) {
               GetParam().c_str(), cycles, robot.moves, robot.most_asks, bytes.c_str(), times.c_str());
   EXPECT_GT(robot.moves, cycles / 10);
   EXPECT_LE(robot.blocked, cycles / 100);
-  EXPECT_LE(robot.most_asks, 3U) << "the same goal again and again";
+  EXPECT_LE(robot.most_asks, 2U) << "the same goal again and again";
   // Warm from the fourth tenth on; from there on nothing may pile up.
   std::size_t warm = 0;
   for (std::size_t i = 3; i < 6; ++i) {

@@ -51,8 +51,8 @@ class Situation {
   /// Updates everything for this map and sensor pose (world_from_sensor). Only the map must outlive the plan. Throws
   /// std::invalid_argument unless `current` is finite and rigid up to 1e-3.
   void sync(const OccupancyMap& map, const Pose& current);
-  /// If no target is left: the plan that ends the run, or that turns the sensor on the spot. None if there are
-  /// targets. Leftover and counts are those of the survey.
+  /// If no target is left: the plan that ends the run, or that turns the sensor on the spot. If the robot does not
+  /// move although goals are asked for: Blocked. None if there are targets otherwise. Leftover and counts are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.

@@ -58,7 +58,8 @@ struct TriedViewsOptions {
 ///                                     third failure
 ///
 /// A place rests together with all places within the goal tolerance. Once all that a view sought is known, only the
-/// places that have failed are remembered.
+/// places that have failed are remembered. If three places rest because the robot came no nearer, and it still is
+/// where it was when they were asked for, it does not move at all.
 ///
 /// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first. As text it can
 /// be saved with the map.
@@ -108,6 +109,10 @@ class TriedViews {
   [[nodiscard]] std::vector<VoxelBox> resting() const;
   /// The number of resting places that failed three times, or to which the robot came no nearer.
   [[nodiscard]] std::size_t places_given_up() const;
+  /// Whether a robot at `current` (world_from_sensor) does not move: three places further away than the goal
+  /// tolerance rest because it came no nearer, and it is within half of the tolerance of where it was asked for each
+  /// of them.
+  [[nodiscard]] bool is_stuck(const Pose& current) const;
   /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.
   [[nodiscard]] const std::deque<Pose>& scanned_from() const { return scanned_from_; }
   /// The number of cells with evidence.

@@ -308,6 +308,32 @@ TEST(TriedViews, AGoalThatComesNearerIsNoProgressOfTheRobot) {
 }
 
 // From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
+TEST(TriedViews, ARobotThatComesNoNearerToThreeGoalsIsStuck) {
+  const auto stuck_after = [](int goals, double away_m, double drift_m, double then_moved_m) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    Pose here = at(map, {0, 5, 5});
+    for (int number = 0; number < goals; ++number) {
+      Pose goal = here;
+      goal.translation() += away_m * Eigen::Vector3d(std::cos(2.0 * number), std::sin(2.0 * number), 0.0);
+      for (int ask = 0; ask < 3; ++ask) {
+        map.confirm();
+        tried.review(map, here);
+        EXPECT_EQ(tried.expect(map, {here, goal}, {kHidden}), ask < 2);
+        here.translation().x() += ask < 2 ? 0.0 : drift_m;
+      }
+    }
+    here.translation().x() += then_moved_m;
+    return tried.is_stuck(here);
+  };
+  EXPECT_TRUE(stuck_after(3, 1.0, 0.0, 0.0));
+  EXPECT_FALSE(stuck_after(2, 1.0, 0.0, 0.0)) << "two goals are no evidence";
+  EXPECT_FALSE(stuck_after(3, 0.2, 0.0, 0.0)) << "within the tolerance the robot need not move";
+  EXPECT_TRUE(stuck_after(3, 1.0, 0.02, 0.0)) << "a pose that jitters";
+  EXPECT_FALSE(stuck_after(3, 1.0, 0.1, 0.0)) << "it creeps on";
+  EXPECT_FALSE(stuck_after(3, 1.0, 0.0, 0.2)) << "it was freed";
+}
+
 TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
   for (const bool is_free : {false, true}) {
     OccupancyMap map = free_before_the_hidden();

@@ -99,6 +99,14 @@ VANTAGE_INLINE Plan Situation::open_plan() const {
 }
 
 VANTAGE_INLINE std::optional<Plan> Situation::end() {
+  if (tried_.is_stuck(current_)) {
+    Plan plan = open_plan();
+    plan.reason =
+        "the robot does not move: it is where it was when several goals were asked for, each more than once: free "
+        "it, "
+        "or plan again after a while, which asks for them again";
+    return plan;
+  }
   if (!survey_.targets.empty()) {
     return std::nullopt;
   }

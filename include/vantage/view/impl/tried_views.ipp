@@ -19,6 +19,7 @@ inline constexpr std::size_t kMostPlaces = 256;
 inline constexpr std::size_t kMostScans = 64;
 inline constexpr int kMostFailures = 3;
 inline constexpr int kMostAsks = 2;             // for a goal to which the robot comes no nearer
+inline constexpr int kStuckGoals = 3;           // to none of which the robot comes nearer
 inline constexpr std::uint64_t kFirstRest = 8;  // plans
 inline constexpr double kNearer = 0.01;         // metres or radians; smaller progress is ignored as jitter
 
@@ -273,6 +274,15 @@ VANTAGE_INLINE bool TriedViews::try_resting_again() {
 VANTAGE_INLINE std::size_t TriedViews::places_given_up() const {
   return static_cast<std::size_t>(
       std::count_if(places_.begin(), places_.end(), [&](const Place& place) { return given_up(place); }));
+}
+
+VANTAGE_INLINE bool TriedViews::is_stuck(const Pose& current) const {
+  const auto in_vain_from_here = [&](const Place& place) {
+    return place.rests_until > plans_ && place.no_nearer >= detail::kMostAsks &&
+           place.nearest_way > std::numbers::pi && place.asked_from &&
+           (place.asked_from->translation() - current.translation()).norm() <= 0.5 * tolerance_m();
+  };
+  return std::count_if(places_.begin(), places_.end(), in_vain_from_here) >= detail::kStuckGoals;
 }
 
 VANTAGE_INLINE TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& map, const VoxelIndex& unknown) {
