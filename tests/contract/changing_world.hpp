@@ -29,6 +29,7 @@ struct ChangingWorld {
   VoxelGrid<std::uint8_t> sheets;  // bit a: a wall of zero thickness on the upper face of axis a
   VoxelBox door{};                 // empty: no moving door
   std::optional<VoxelBox> person;
+  VoxelIndex start{3, 3, 3};
   std::size_t clock = 0;
 
   [[nodiscard]] bool is_flat() const { return solid.box().extent().z == 1; }
@@ -92,6 +93,7 @@ struct ChangingWorld {
   world.frame = VoxelFrame{cell_m};
   world.solid = VoxelGrid<std::uint8_t>({{0, 0, 0}, {kX, kY, top}}, 0);
   world.sheets = VoxelGrid<std::uint8_t>(world.solid.box(), 0);
+  world.start.z = flat ? 0 : 3;
   WholeNumbers draw(seed);
   const auto fill = [&](const VoxelBox& box, std::uint8_t value) { fill_cells(world.solid, box, value); };
   const bool thin = building == Building::Sheets;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Properties that every planner must have with its default settings, over buildings with moving objects, imperfect
-// hosts, sensors, cell sizes, 3D and 2D.
-// VANTAGE_CONTRACT_SEEDS: number of worlds per planner and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
+// Properties that every planner must have with its default settings, over buildings with moving objects and windows
+// of real ones, imperfect hosts, sensors, cell sizes, 3D and 2D. VANTAGE_CONTRACT_SEEDS: number of worlds per planner
+// and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,10 +20,13 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
+#include <vantage/sim/world.hpp>
 #include <vector>
 
 #include "contract/changing_world.hpp"
+#include "contract/real_building.hpp"
 #include "contract/slow_audit.hpp"
+#include "support/real_data.hpp"
 #include "support/sanitized.hpp"
 
 namespace vantage {
@@ -33,7 +36,6 @@ using testing::Building;
 using testing::ChangingWorld;
 
 constexpr std::size_t kMostPlans = 1000;
-constexpr double kBodyCells = 0.7;  // radius, cells
 
 enum class Host : std::uint8_t {
   Perfect,
@@ -63,6 +65,8 @@ struct Scene {
   std::size_t sensor_kind = 0;
   double cell_m = 0.2;
   bool flat = false;
+  double body_cells = 0.7;      // radius
+  const World* real = nullptr;  // instead of `building`, a window of it
 
   /// Enumerates combinations of building, sensor, cell size and dimension.
   static Scene numbered(std::uint32_t number) {
@@ -70,7 +74,20 @@ struct Scene {
     return {static_cast<Building>(kind % testing::kBuildings), number, kind / 5 % 3,
             std::array{0.1, 0.2, 0.4}[kind / 15 % 3], kind / 45 == 1};
   }
-  [[nodiscard]] ChangingWorld world() const { return testing::make_changing_world(building, seed, cell_m, flat); }
+  /// The same of windows of a real building.
+  static Scene in_real_building(const World& real, std::uint32_t number) {
+    return {Building::Rooms,
+            number,
+            number % 3,
+            std::array{0.05, 0.1, 0.2, 0.4}[number / 3 % 4],
+            real.plan.has_value(),
+            number % 5 == 4 ? 1.6 : 0.7,
+            &real};
+  }
+  [[nodiscard]] ChangingWorld world() const {
+    return real != nullptr ? testing::window_of(*real, seed, cell_m, body_cells)
+                           : testing::make_changing_world(building, seed, cell_m, flat);
+  }
   [[nodiscard]] RangeSensor sensor() const {
     constexpr double kPi = std::numbers::pi;
     const double tall = flat ? 0.001 : 1.0;
@@ -83,7 +100,7 @@ struct Scene {
     return sensor;
   }
   [[nodiscard]] std::shared_ptr<const Platform> platform() const {
-    const double radius_m = kBodyCells * cell_m;
+    const double radius_m = body_cells * cell_m;
     if (flat) {
       return std::make_shared<GroundRobot>(GroundRobotOptions{.radius_m = radius_m});
     }
@@ -92,9 +109,11 @@ struct Scene {
 };
 
 std::ostream& operator<<(std::ostream& out, const Scene& scene) {
-  return out << "scene " << scene.seed << " (building " << static_cast<int>(scene.building) << ", sensor "
-             << scene.sensor_kind << ", cells of " << scene.cell_m << " m, " << (scene.flat ? "plane" : "space")
-             << ")";
+  return out << "scene " << scene.seed << " ("
+             << (scene.real != nullptr ? scene.real->name
+                                       : "building " + std::to_string(static_cast<int>(scene.building)))
+             << ", sensor " << scene.sensor_kind << ", cells of " << scene.cell_m << " m, body of "
+             << scene.body_cells << " cells, " << (scene.flat ? "plane" : "space") << ")";
 }
 
 double turn_rad(const Pose& a, const Pose& b) {
@@ -144,11 +163,11 @@ class DrivenRobot {
         planner_(make_planner(planner, {sensor_, platform_, 7, 1})),
         on_threads_(make_planner(planner, {sensor_, platform_, 7, 2})) {
     const double cell = scene.cell_m;
-    Eigen::Vector3d at = world_.frame.centre_of({3, 3, scene.flat ? 0 : 3});
+    Eigen::Vector3d at = world_.frame.centre_of(world_.start);
     if (host == Host::OffCentre) {
       at += cell * Eigen::Vector3d(0.31, -0.22, scene.flat ? 0.0 : 0.13);
     } else if (host == Host::InACorner) {
-      at = cell * Eigen::Vector3d::Constant(1.0 + kBodyCells + 1e-3);
+      at = cell * Eigen::Vector3d::Constant(1.0 + scene.body_cells + 1e-3);
       at.z() = scene.flat ? 0.5 * cell : at.z();
     }
     pose_ = pose_looking(at, 0.3);
@@ -178,7 +197,7 @@ class DrivenRobot {
     for_each_cell(world_.solid.box(), [&](const VoxelIndex& cell) {
       truth.set(cell, world_.is_solid(cell) ? Occupancy::Occupied : Occupancy::Free);
     });
-    std::vector<VoxelIndex> places{{3, 3, scene_.flat ? 0 : 3}};
+    std::vector<VoxelIndex> places{world_.start};
     std::set<VoxelIndex> known(places.begin(), places.end());
     for (std::size_t next = 0; next < places.size(); ++next) {
       for (const VoxelIndex& step : kFaceNeighbours) {
@@ -320,7 +339,7 @@ class DrivenRobot {
   }
   // Whether the sphere of the body overlaps a person or a closing door.
   [[nodiscard]] bool meets_a_moving_object(const Pose& pose) const {
-    return !touched(pose, kBodyCells * scene_.cell_m, [&](const VoxelIndex& cell) {
+    return !touched(pose, scene_.body_cells * scene_.cell_m, [&](const VoxelIndex& cell) {
               return world_.solid.value_or(cell, 1) == 0 && world_.is_solid(cell);
             }).empty();
   }
@@ -340,14 +359,14 @@ class DrivenRobot {
   [[nodiscard]] std::vector<VoxelIndex> static_cells_in(const Pose& pose) const {
     // A host that is off by half a degree maps distant surfaces beside their true place.
     const double off_m = host_ == Host::Inexact ? 0.01 + 0.01 * sensor_.max_range_m : 1e-6;
-    return touched(pose, kBodyCells * scene_.cell_m - off_m,
+    return touched(pose, scene_.body_cells * scene_.cell_m - off_m,
                    [&](const VoxelIndex& cell) { return world_.solid.value_or(cell, 1) != 0; });
   }
   template <class Solid>
   [[nodiscard]] std::vector<VoxelIndex> touched(const Pose& pose, double radius_m, Solid&& is_solid) const {
     const VoxelIndex at = world_.frame.cell_of(pose.translation());
     std::vector<VoxelIndex> cells;
-    for_each_cell(VoxelBox{at, at + VoxelIndex{1, 1, 1}}.grown(1), [&](const VoxelIndex& cell) {
+    for_each_cell(VoxelBox{at, at + VoxelIndex{1, 1, 1}}.grown(2), [&](const VoxelIndex& cell) {
       if (is_solid(cell) && !(scene_.flat && cell.z != 0) &&
           world_.frame.box_of(cell).distance_to(pose.translation()) < radius_m) {
         cells.push_back(cell);
@@ -417,7 +436,9 @@ bool expect_contract(const std::string& planner, Host host, const Scene& scene) 
   EXPECT_EQ(run.collisions, 0U);
   EXPECT_EQ(run.disagreements, 0U) << "of one and two threads";
   EXPECT_LE(run.most_asks, 2U) << "the same goal again and again";
-  if (run.last.outcome == Outcome::Explored) {
+  const bool all_is_seen = run.last.outcome == Outcome::Explored ||
+                           run.last.reason.find("there is more to see from free space that is cut off") == 0;
+  if (all_is_seen) {  // of what can be reached
     const std::vector<VoxelIndex> left = run.left();
     EXPECT_EQ(left.size(), 0U) << "still observable: " << left.front().x << " " << left.front().y << " "
                                << left.front().z;
@@ -431,7 +452,11 @@ bool expect_contract(const std::string& planner, Host host, const Scene& scene) 
       bars_look_closed || !ended) {
     return ended;
   }
-  EXPECT_GE(run.coverage(), 0.99);
+  // In a window of a real building, a shaft may be free that a level sensor cannot see before it is in it, and
+  // slivers may be in sight that hide behind a part of a cell; the audit judges there.
+  if (scene.real == nullptr) {
+    EXPECT_GE(run.coverage(), 0.99);
+  }
   if (host != Host::Perfect) {
     const DrivenRobot perfect(planner, Host::Perfect, scene);
     EXPECT_LE(run.plans, 3 * perfect.plans + 5) << "the perfect host takes " << perfect.plans;
@@ -449,6 +474,38 @@ TEST_P(ExplorationContract, Holds) {
   for (std::uint32_t i = 0; i < seeds; ++i) {
     const Scene scene = Scene::numbered(first + i * kHosts + static_cast<std::uint32_t>(host));
     ended += expect_contract(planner, host, scene) ? 1U : 0U;
+  }
+  EXPECT_EQ(ended, seeds);
+}
+
+/// Buildings below VANTAGE_DATA: floor plans, worlds of aerial exploration, houses and offices with furniture.
+const std::vector<World>& real_buildings() {
+  static const std::vector<World> all = [] {
+    std::vector<World> worlds;
+    for (const char* file : {"floorplans/kth/50052748.yaml", "environments/aerial/complex_office.stl",
+                             "floorplans/kth/50052750.yaml", "environments/aws_small_house/small_house_collision.ply",
+                             "floorplans/kth/50015847.yaml", "environments/gazebo/collapsed_house.ply",
+                             "environments/aerial/maze1.obj", "environments/gazebo/osrf_first_office.ply"}) {
+      worlds.push_back(World::from_file(test::real_data(file)));
+      worlds.back().name = file;
+    }
+    return worlds;
+  }();
+  return all;
+}
+
+class ExplorationContractInRealBuildings : public ExplorationContract {};
+
+TEST_P(ExplorationContractInRealBuildings, Holds) {
+  VANTAGE_REAL_DATA(data, "floorplans");
+  const auto& [planner, host] = GetParam();
+  const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
+  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
+  std::size_t ended = 0;
+  for (std::uint32_t i = 0; i < seeds; ++i) {
+    const std::uint32_t number = first + i * kHosts + static_cast<std::uint32_t>(host);
+    const World& real = real_buildings()[number / kHosts % real_buildings().size()];
+    ended += expect_contract(planner, host, Scene::in_real_building(real, number)) ? 1U : 0U;
   }
   EXPECT_EQ(ended, seeds);
 }
@@ -490,13 +547,26 @@ std::vector<Host> hosts() {
   return all;
 }
 
+// A window of a real building has no corner that is known to be free.
+std::vector<Host> hosts_in_real_buildings() {
+  std::vector<Host> all = hosts();
+  std::erase(all, Host::InACorner);
+  return all;
+}
+
+std::string name_of_pair(const ::testing::TestParamInfo<std::tuple<std::string, Host>>& pair) {
+  std::string name = std::get<0>(pair.param) + "_" + name_of(std::get<1>(pair.param));
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, ExplorationContract,
                          ::testing::Combine(::testing::ValuesIn(planners()), ::testing::ValuesIn(hosts())),
-                         [](const ::testing::TestParamInfo<std::tuple<std::string, Host>>& pair) {
-                           std::string name = std::get<0>(pair.param) + "_" + name_of(std::get<1>(pair.param));
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of_pair);
+INSTANTIATE_TEST_SUITE_P(Every, ExplorationContractInRealBuildings,
+                         ::testing::Combine(::testing::ValuesIn(planners()),
+                                            ::testing::ValuesIn(hosts_in_real_buildings())),
+                         name_of_pair);
 
 TEST(ExplorationContractSuite, HoldsEveryPlannerToEveryHostInEveryKindOfWorld) {
   EXPECT_EQ(planners().size(), 6U);
