@@ -117,6 +117,7 @@ TEST(Situation, WhereTheRobotNeverArrivesIsUnreachable) {
 // last one, before it has rested.
 TEST(Situation, NoGoalIsAskedForAThirdTimeByARobotThatNeverMoves) {
   std::size_t asked = 0;
+  std::size_t stuck = 0;  // planners that say so; with fewer than three goals, the places are unreachable
   for (const std::string_view name : planner_names()) {
     OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 6}});
     for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
@@ -131,7 +132,9 @@ TEST(Situation, NoGoalIsAskedForAThirdTimeByARobotThatNeverMoves) {
     for (; plans < 1000; ++plans) {
       const Plan plan = planner->plan(map, in_the_first_room());
       if (plan.outcome != Outcome::Move) {
-        EXPECT_EQ(plan.outcome, Outcome::Unreachable) << name << ": " << plan.reason;
+        const bool is_stuck = plan.outcome == Outcome::Blocked && plan.reason.find("free it") != std::string::npos;
+        EXPECT_TRUE(is_stuck || plan.outcome == Outcome::Unreachable) << name << ": " << plan.reason;
+        stuck += is_stuck ? 1U : 0U;
         break;
       }
       map.confirm();
@@ -156,6 +159,7 @@ TEST(Situation, NoGoalIsAskedForAThirdTimeByARobotThatNeverMoves) {
     EXPECT_LT(waits, 10U) << "a host that waits is asked again";
   }
   EXPECT_GE(asked, 2 * planner_names().size());
+  EXPECT_GT(stuck, 0U);
 }
 
 // A robot between two obstacles that are known: there is nothing to declare free, but there is more to see.
