@@ -52,7 +52,8 @@ class Situation {
   /// std::invalid_argument unless `current` is finite and rigid up to 1e-3.
   void sync(const OccupancyMap& map, const Pose& current);
   /// If no target is left: the plan that ends the run, or that turns the sensor on the spot. If the robot does not
-  /// move although goals are asked for: Blocked. None if there are targets otherwise. Leftover and counts are those of the survey.
+  /// move although goals are asked for: Blocked. None if there are targets otherwise. Leftover and counts are those
+  /// of the survey.
   [[nodiscard]] std::optional<Plan> end();
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
