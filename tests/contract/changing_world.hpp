@@ -150,13 +150,14 @@ struct ChangingWorld {
     for (const VoxelIndex& cell : VoxelRay(world.frame, origin, origin + far_m * ray)) {
       const bool blocked = world.is_solid(cell) || (cell != last && world.parted(last, cell));
       last = cell;
-      const double range_m = range_into(world.frame.box_of(cell), origin, ray);
-      const bool cuts_a_corner = world.frame.cell_of(origin + range_m * ray) != cell;
-      if (!blocked || cuts_a_corner) {
+      if (!blocked) {
         continue;
       }
-      add_ray(scan, sensor, direction, range_m);
-      break;
+      const double range_m = range_into(world.frame.box_of(cell), origin, ray);
+      if (world.frame.cell_of(origin + range_m * ray) == cell) {
+        add_ray(scan, sensor, direction, range_m);
+        break;
+      }
     }
   }
   return scan;

@@ -307,7 +307,6 @@ TEST(TriedViews, AGoalThatComesNearerIsNoProgressOfTheRobot) {
   EXPECT_EQ(times, 2);
 }
 
-// From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
 TEST(TriedViews, ARobotThatComesNoNearerToThreeGoalsIsStuck) {
   const auto stuck_after = [](int goals, double away_m, double drift_m, double then_moved_m) {
     OccupancyMap map = free_before_the_hidden();
@@ -334,6 +333,7 @@ TEST(TriedViews, ARobotThatComesNoNearerToThreeGoalsIsStuck) {
   EXPECT_FALSE(stuck_after(3, 1.0, 0.0, 0.2)) << "it was freed";
 }
 
+// From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
 TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
   for (const bool is_free : {false, true}) {
     OccupancyMap map = free_before_the_hidden();

@@ -102,9 +102,8 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
   if (tried_.is_stuck(current_)) {
     Plan plan = open_plan();
     plan.reason =
-        "the robot does not move: it is where it was when several goals were asked for, each more than once: free "
-        "it, "
-        "or plan again after a while, which asks for them again";
+        "the robot does not move: it is where it was when several goals were asked for, each more than once; "
+        "free it, or plan again after a while, which asks for them again";
     return plan;
   }
   if (!survey_.targets.empty()) {

@@ -276,6 +276,7 @@ VANTAGE_INLINE std::size_t TriedViews::places_given_up() const {
       std::count_if(places_.begin(), places_.end(), [&](const Place& place) { return given_up(place); }));
 }
 
+// By way_to_go, more than pi is further away than the tolerance.
 VANTAGE_INLINE bool TriedViews::is_stuck(const Pose& current) const {
   const auto in_vain_from_here = [&](const Place& place) {
     return place.rests_until > plans_ && place.no_nearer >= detail::kMostAsks &&
