@@ -35,8 +35,8 @@ namespace VANTAGE_EXPORT vantage {
 /// estimated from neighbours.
 ///
 /// Unknown cells that a scan has passed or failed to resolve are treated as free from then on, even if the sensor
-/// does not report missing returns. Each other unknown cell is assumed to be occupied with a probability: that of
-/// known cells in the object's box, or a higher one beside known surface. The random decision for a cell never
+/// does not report missing returns. Each other unknown cell is assumed to be occupied with such a probability that a
+/// ray through a box of unknown cells would meet one surface on average. The random decision for a cell never
 /// changes.
 class UnseenSurface {
  public:
@@ -68,7 +68,7 @@ class UnseenSurface {
  private:
   [[nodiscard]] bool stops(const VoxelIndex& cell) const { return caster_.at(cell) != Occupancy::Free; }
   void pass_rays(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays);
-  void suppose(const OccupancyMap& map);
+  void suppose(const OccupancyMap& map, double chance);
 
   VoxelFrame frame_;
   VoxelGrid<std::uint32_t> looked_;  // bits 0-25: side observed; bit 26: cell treated as free

@@ -31,9 +31,6 @@ inline unsigned axes_of_side(std::uint32_t side) {
 // 4 across a face, 2 across an edge, 1 across a corner.
 inline std::size_t weight_of_side(std::uint32_t side) { return std::size_t{8} >> axes_of_side(side); }
 
-// Probability that an unobserved cell beside known surface is occupied.
-inline constexpr double kChanceBesideSurface = 0.4;
-
 // Calls `visit(side)` for the sides whose normal has a cosine to the direction of the sensor above `least_cosine`.
 template <class Visit>
 void for_each_side_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
@@ -74,16 +71,10 @@ VANTAGE_INLINE UnseenSurface::UnseenSurface(const OccupancyMap& map, const Voxel
 VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor,
                                         const ViewRays& rays) {
   caster_.update();
+  suppose(map, 1.0);
   pass_rays(map, world_from_sensor, rays);
-  // First assume that all unknown cells stop rays, except those treated as free. Then the visible cells are those
-  // that the sensor may have met.
-  CellSet stopping(looked_.box());
-  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
-    if (map.at(cell) == Occupancy::Unknown && (looked_[cell] & detail::kTakenForFree) == 0) {
-      stopping.insert(cell);
-    }
-  });
-  caster_.suppose(stopping);
+  // While every unknown cell stops rays, the visible cells are those that the sensor may have met.
+  suppose(map, 1.0);
   caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
     const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
     std::uint32_t& looked = looked_[cell];
@@ -92,7 +83,9 @@ VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& wor
       looked |= detail::kTakenForFree;
     }
   });
-  suppose(map);
+  // A ray through a box of unknown cells meets one surface on average, whatever the size of the cells.
+  const VoxelIndex extent = looked_.box().extent();
+  suppose(map, 3.0 / (static_cast<double>(extent.x) + extent.y + extent.z));
 }
 
 // Marks unknown cells that a ray has passed: those before known surface, or on a ray that meets none.
@@ -138,27 +131,13 @@ VANTAGE_INLINE void UnseenSurface::pass_rays(const OccupancyMap& map, const Pose
   }
 }
 
-VANTAGE_INLINE void UnseenSurface::suppose(const OccupancyMap& map) {
-  std::size_t known = 0;
-  std::size_t occupied = 0;
-  VoxelGrid<std::uint8_t> beside(looked_.box(), 0);
-  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
-    const Occupancy state = map.at(cell);
-    known += state == Occupancy::Unknown ? 0U : 1U;
-    if (state == Occupancy::Occupied) {
-      ++occupied;
-      for (const VoxelIndex& step : kAllNeighbours) {
-        if (beside.contains(cell + step)) {
-          beside[cell + step] = 1;
-        }
-      }
-    }
-  });
-  const double share = static_cast<double>(occupied) / static_cast<double>(std::max<std::size_t>(known, 1));
-  CellSet stopping(looked_.box());
+// Assumes that an unknown cell is occupied with this probability. The cells around the box are assumed to be free:
+// a map may know the surroundings up to the cells that the box touches, and these would hide the object.
+VANTAGE_INLINE void UnseenSurface::suppose(const OccupancyMap& map, double chance) {
+  CellSet stopping(looked_.box().grown(1));
   for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
     if (map.at(cell) == Occupancy::Unknown && (looked_[cell] & detail::kTakenForFree) == 0 &&
-        detail::draw_of(cell) < (beside[cell] != 0 ? detail::kChanceBesideSurface : share)) {
+        detail::draw_of(cell) < chance) {
       stopping.insert(cell);
     }
   });
