@@ -112,6 +112,29 @@ TEST(UnseenSurface, ExpectsTheBackOfASurfaceThroughWhatIsUnknown) {
   EXPECT_GT(UnseenSurface::weight_of(behind), 2 * UnseenSurface::weight_of(in_front));
 }
 
+// A map that knows the surroundings may leave the cells around the box unknown.
+TEST(UnseenSurface, LooksThroughUnknownCellsAroundTheBox) {
+  for (const bool learns : {false, true}) {
+    OccupancyMap map = wall_map([](const VoxelIndex& cell) { return cell.x > 0; });
+    for_each_cell(kWallBox.grown(1), [&](const VoxelIndex& cell) {
+      if (!kWallBox.contains(cell)) {
+        map.set(cell, Occupancy::Unknown);
+      }
+    });
+    UnseenSurface surface(map, kWallBox);
+    surface.look(map, kInFront, kRays);
+    EXPECT_GT(UnseenSurface::weight_of(surface.expected(kBehind, kRays)), 80 * kFlat);
+    if (learns) {
+      // The map learns of the cells around the box, in bricks whose assumptions are made anew.
+      map.set({9, 0, 0}, Occupancy::Free);
+      map.set({-9, 7, 0}, Occupancy::Free);
+    }
+    surface.look(map, kInFront, kRays);
+    EXPECT_EQ(surface.caster().at({1, 7, 0}), Occupancy::Free) << "a ray passed there";
+    EXPECT_GT(UnseenSurface::weight_of(surface.expected(kBehind, kRays)), 80 * kFlat);
+  }
+}
+
 // Rays that pass the wall and return nothing mark their cells as free.
 TEST(UnseenSurface, TakesForFreeWhatRaysHavePassed) {
   const auto beside = [](const VoxelIndex& cell) { return cell.y > 5; };
