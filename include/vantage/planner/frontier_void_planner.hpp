@@ -81,7 +81,7 @@ struct FrontierVoidOptions {
 
 /// Intermediate results of a plan of FrontierVoidPlanner, for display.
 struct VoidSearch {
-  VoidClusters voids;                        ///< clusters of all void cells
+  VoidClusters voids;                        ///< clusters of all void cells, when a view was last chosen
   std::vector<FrontierVoid> frontier_voids;  ///< voids with an observable frontier
   std::vector<VoxelIndex> frontier;          ///< observable frontier cells
   std::vector<VoxelIndex> places;            ///< reachable cells with a utility above 0
@@ -106,7 +106,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
 
   [[nodiscard]] std::string_view name() const override { return "frontier-void"; }
 
-  /// The intermediate results of the last plan; empty if no observable frontier was left.
+  /// The intermediate results of the last plan; but for the clusters, empty if no observable frontier was left.
   [[nodiscard]] const VoidSearch& search() const { return search_; }
 
  private:
@@ -116,6 +116,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
     std::uint64_t operations = 0;  // cells on its rays
   };
 
+  void clear_search();
   void prepare(Plan& plan) override;
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
   [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays,
@@ -127,7 +128,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   FrontierVoidOptions options_;
   VoidSearch search_;
   Following<VoidTracker> void_cells_;
-  std::optional<UnknownSight> sight_;  // of this plan
+  OccupancyMap::Revision clustered_ = 0;  // of the map of `search_.voids` and `sight_`
+  std::optional<UnknownSight> sight_;     // none: the voids are yet to be clustered
 };
 
 }  // namespace vantage

@@ -47,9 +47,19 @@ VANTAGE_INLINE FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setu
 }
 
 VANTAGE_INLINE void FrontierVoidPlanner::prepare(Plan& plan) {
-  void_cells_.follow(situation().map());
+  const OccupancyMap& map = situation().map();
+  if (void_cells_.follow(map) || clustered_ != map.revision()) {
+    sight_.reset();
+  }
   plan.statistics.void_cells = void_cells_->cell_count();
+  clear_search();
+}
+
+// Clears all but the clusters.
+VANTAGE_INLINE void FrontierVoidPlanner::clear_search() {
+  VoidClusters voids = std::move(search_.voids);
   search_ = {};
+  search_.voids = std::move(voids);
 }
 
 VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
@@ -88,15 +98,18 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(PlanStatis
   const OccupancyMap& map = situation().map();
   const RangeSensor& sensor = situation().sensor();
   const FrontierVoidStrategy& strategy = options_.strategy;
-  search_ = {};
+  clear_search();
   for (const FrontierTarget& target : situation().survey().targets) {
     search_.frontier.push_back(target.frontier);
   }
-  const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells());
-  search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
-  sight_.emplace(
-      map, cells,
-      UnknownSightOptions{strategy.opaque_share, strategy.opaque_beside_surface, sensor.reports_no_return});
+  if (!sight_) {  // else a view in this map was refused, and only the targets have changed
+    const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells());
+    search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
+    clustered_ = map.revision();
+    sight_.emplace(
+        map, cells,
+        UnknownSightOptions{strategy.opaque_share, strategy.opaque_beside_surface, sensor.reports_no_return});
+  }
   search_.frontier_voids = combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), strategy.share);
   const AccumulatedUtility utility =
       accumulate_utility(map, situation().reachable(),
