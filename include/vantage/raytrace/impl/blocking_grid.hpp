@@ -15,10 +15,11 @@ namespace vantage {
 /// Brick), and for every word the distance to the nearest word with a cell that stops a ray. A cell stops a ray
 /// unless it is known free.
 ///
-/// Words are stored in pages of 8 x 8 x 8. Pages exist only where the map has bricks; a dense table finds them. All
-/// unseen space shares one page, which stops every ray.
+/// Words are stored in blocks of 2 x 2 x 2, and blocks in pages of 4 x 4 x 4. Both exist only where the map has
+/// bricks; a dense table finds the pages. All unseen space shares one page and one block, which stop every ray.
 class BlockingGrid {
   struct Page;
+  struct Block;
 
  public:
   class Reader;
@@ -27,7 +28,10 @@ class BlockingGrid {
   static constexpr std::uint8_t kFurthest = 8;
 
   /// Creates an empty grid whose cells have an edge of 2^level finest cells.
-  BlockingGrid(int level, CoarseningPolicy policy) : level_(level), policy_(policy) { unseen_.blocking.fill(~0ULL); }
+  BlockingGrid(int level, CoarseningPolicy policy) : level_(level), policy_(policy) {
+    nothing_.blocking.fill(~std::uint64_t{0});
+    unseen_.blocks.fill(&nothing_);
+  }
   ~BlockingGrid() = default;
   BlockingGrid(BlockingGrid&&) = delete;  // the table points into the grid
   BlockingGrid& operator=(BlockingGrid&&) = delete;
@@ -49,11 +53,11 @@ class BlockingGrid {
   }
   /// The cells of a word that stop rays.
   [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) const {
-    return page_of(word).blocking[offset_in_page(word)];
+    return page_of(word).block_of(word).blocking[offset_in_block(word)];
   }
   /// The occupied cells of a word.
   [[nodiscard]] std::uint64_t occupied(const VoxelIndex& word) const {
-    return page_of(word).occupied[offset_in_page(word)];
+    return page_of(word).block_of(word).occupied[offset_in_block(word)];
   }
   /// Distance d of a word, in words: no word less than d words away, along every axis, stops a ray. 0 if this word
   /// does.
@@ -68,34 +72,40 @@ class BlockingGrid {
   }
   /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const {
-    return table_.size() * sizeof(void*) + pages_.size() * sizeof(Page);
+    return table_.size() * sizeof(void*) + pages_.size() * sizeof(Page) + blocks_.size() * sizeof(Block);
   }
 
  private:
   static constexpr std::int32_t kPageSide = 8;  // words along an edge
-  static constexpr std::size_t kPageWords = 512;
+  static constexpr std::size_t kPageBlocks = 64;
   static constexpr std::size_t kPageRows = 64;  // rows of words along x
 
   using RowBits = std::array<std::uint8_t, kPageRows>;  // a bit for every word of a row
 
+  // The words of a brick, in the order of Brick.
+  struct alignas(64) Block {
+    std::array<std::uint64_t, Brick::kWords> blocking{};
+    std::array<std::uint64_t, Brick::kWords> occupied{};
+  };
   struct Page {
-    std::array<std::uint64_t, kPageWords> blocking{};  // indexed by offset_in_page
-    std::array<std::uint64_t, kPageWords> occupied{};
+    std::array<Block*, kPageBlocks> blocks{};         // never null: unseen blocks point to nothing_
     std::array<std::uint64_t, kPageRows> distance{};  // a byte for every word of a row
     RowBits free_words{};                             // words without a cell that stops rays
     VoxelIndex address;
     bool stale = false;  // distances must be recomputed
 
+    [[nodiscard]] const Block& block_of(const VoxelIndex& word) const { return *blocks[block_in_page(word)]; }
     [[nodiscard]] std::uint8_t distance_of(const VoxelIndex& word) const {
       return static_cast<std::uint8_t>(distance[row_in_page(word)] >> 8U * static_cast<unsigned>(word.x & 7));
     }
   };
 
   static VoxelIndex page_address(const VoxelIndex& word) { return {word.x >> 3, word.y >> 3, word.z >> 3}; }
-  // The eight words of a brick are adjacent, in the order of Brick.
-  static std::size_t offset_in_page(const VoxelIndex& word) {
-    return static_cast<std::size_t>((word.x & 1) | (word.y & 1) << 1 | (word.z & 1) << 2 | (word.x & 6) << 2 |
-                                    (word.y & 6) << 4 | (word.z & 6) << 6);
+  static std::size_t block_in_page(const VoxelIndex& word) {
+    return static_cast<std::size_t>((word.x >> 1 & 3) | (word.y >> 1 & 3) << 2 | (word.z >> 1 & 3) << 4);
+  }
+  static std::size_t offset_in_block(const VoxelIndex& word) {
+    return static_cast<std::size_t>((word.x & 1) | (word.y & 1) << 1 | (word.z & 1) << 2);
   }
   static std::size_t row_in_page(const VoxelIndex& word) {
     return static_cast<std::size_t>((word.y & 7) | (word.z & 7) << 3);
@@ -112,6 +122,7 @@ class BlockingGrid {
 
   void reach(const VoxelBox& pages);
   Page& writable_page(const VoxelIndex& page);
+  Block& writable_block(Page& page, const VoxelIndex& word);
   void set_free(Page& page, const VoxelIndex& word, bool is_free);
   void make_stale(Page& page);
   void take_brick(const VoxelIndex& address, const Brick& brick);
@@ -128,8 +139,10 @@ class BlockingGrid {
   std::size_t plane_ = 0;     // pages per xy plane of the table
   std::vector<Page*> table_;  // covers pages_box_; never null: unseen pages point to unseen_
   std::deque<Page> pages_;
+  std::deque<Block> blocks_;
   std::vector<Page*> stale_;
   Page unseen_;
+  Block nothing_;
 };
 
 /// Reads words of a grid that does not change meanwhile. Caches the last page, so it is fast for neighbouring words.
@@ -140,7 +153,7 @@ class BlockingGrid::Reader {
 
   /// See BlockingGrid::blocking.
   [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) {
-    return page_of(word).blocking[offset_in_page(word)];
+    return page_of(word).block_of(word).blocking[offset_in_block(word)];
   }
   /// See BlockingGrid::distance.
   [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) { return page_of(word).distance_of(word); }

@@ -156,8 +156,9 @@ VANTAGE_INLINE void BlockingGrid::suppose(const CellSet& stopping) {
   for_each_cell(words, [&](const VoxelIndex& word) {
     within.insert_word(word, ~std::uint64_t{0});
     Page& page = writable_page(page_address(word));
-    std::uint64_t& blocking = page.blocking[offset_in_page(word)];
-    blocking = (blocking & ~within.word(word)) | page.occupied[offset_in_page(word)] | stopping.word(word);
+    Block& block = writable_block(page, word);
+    std::uint64_t& blocking = block.blocking[offset_in_block(word)];
+    blocking = (blocking & ~within.word(word)) | block.occupied[offset_in_block(word)] | stopping.word(word);
     set_free(page, word, blocking == 0);
   });
   refresh_distances();
@@ -193,8 +194,16 @@ VANTAGE_INLINE BlockingGrid::Page& BlockingGrid::writable_page(const VoxelIndex&
   Page*& place = table_[place_in_table(page)];
   if (place == &unseen_) {
     place = &pages_.emplace_back();
-    place->blocking.fill(~std::uint64_t{0});
+    place->blocks.fill(&nothing_);
     place->address = page;
+  }
+  return *place;
+}
+
+VANTAGE_INLINE BlockingGrid::Block& BlockingGrid::writable_block(Page& page, const VoxelIndex& word) {
+  Block*& place = page.blocks[block_in_page(word)];
+  if (place == &nothing_) {
+    place = &blocks_.emplace_back(nothing_);
   }
   return *place;
 }
@@ -220,15 +229,14 @@ VANTAGE_INLINE void BlockingGrid::set_free(Page& page, const VoxelIndex& word, b
 VANTAGE_INLINE void BlockingGrid::take_brick(const VoxelIndex& address, const Brick& brick) {
   const VoxelIndex first = words_of_brick(address).lo;
   Page& page = writable_page(page_address(first));
-  std::uint64_t* const blocking = &page.blocking[offset_in_page(first)];
-  std::uint64_t* const occupied = &page.occupied[offset_in_page(first)];
+  Block& block = writable_block(page, first);
   for (std::size_t i = 0; i < Brick::kWords; ++i) {
-    const std::uint64_t was = blocking[i];
-    blocking[i] = ~brick.free(i);
-    occupied[i] = brick.occupied[i];
-    if ((blocking[i] == 0) != (was == 0)) {
+    const std::uint64_t was = block.blocking[i];
+    block.blocking[i] = ~brick.free(i);
+    block.occupied[i] = brick.occupied[i];
+    if ((block.blocking[i] == 0) != (was == 0)) {
       const auto at = static_cast<std::int32_t>(i);
-      set_free(page, first + VoxelIndex{at & 1, at >> 1 & 1, at >> 2}, blocking[i] == 0);
+      set_free(page, first + VoxelIndex{at & 1, at >> 1 & 1, at >> 2}, block.blocking[i] == 0);
     }
   }
 }
@@ -238,10 +246,11 @@ VANTAGE_INLINE void BlockingGrid::take_coarse(const OccupancyMap& map, const Vox
   const auto take = [&](const VoxelIndex& coarse, Occupancy state) {
     const std::uint64_t bit = bit_of(coarse);
     Page& page = writable_page(page_address(word_of(coarse)));
-    const std::size_t at = offset_in_page(word_of(coarse));
-    page.blocking[at] = (page.blocking[at] & ~bit) | (state == Occupancy::Free ? 0 : bit);
-    page.occupied[at] = (page.occupied[at] & ~bit) | (state == Occupancy::Occupied ? bit : 0);
-    set_free(page, word_of(coarse), page.blocking[at] == 0);
+    Block& block = writable_block(page, word_of(coarse));
+    const std::size_t at = offset_in_block(word_of(coarse));
+    block.blocking[at] = (block.blocking[at] & ~bit) | (state == Occupancy::Free ? 0 : bit);
+    block.occupied[at] = (block.occupied[at] & ~bit) | (state == Occupancy::Occupied ? bit : 0);
+    set_free(page, word_of(coarse), block.blocking[at] == 0);
   };
   const VoxelIndex cell = Brick::first_cell(address);
   const VoxelIndex first{cell.x >> level_, cell.y >> level_, cell.z >> level_};

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vantage/geometry/voxel_table.hpp>
-#include <vantage/map/brick_grid.hpp>
+#include <vantage/map/brick.hpp>
+#include <vantage/map/brick_directory.hpp>
 #include <vantage/map/known_map.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/robot/reachable_space.hpp>
@@ -31,8 +34,8 @@ namespace vantage::detail {
 ///     look_around():  no looked-at block changed after the answer was found, and no skipped box
 ///                     holds a reachable cell now?   yes: the stored answer    no: search again (SightTree)
 ///
-/// All blocks are compared if the map is another one. The memory used grows with the known space, not with its
-/// bounding box.
+/// All blocks are compared if the map is another one. Blocks are stored for a brick of the map where one of their
+/// cells is or was clear or reachable, or a search has looked at one. So memory follows what can be passed.
 class SightMemory {
  public:
   /// Updates the clear and the reachable cells; resting places (TriedViews) count as not reachable. `reachable` must
@@ -66,6 +69,11 @@ class SightMemory {
     std::uint32_t changed = 0;    // last survey in which a bit changed
     std::uint32_t looked_at = 0;  // last search that looked at a cell of this block
   };
+  // The blocks of a brick of the map, in the order of its words.
+  struct BrickBlocks {
+    VoxelIndex brick;
+    std::array<Block, Brick::kWords> blocks = {};
+  };
   struct Answer {
     VoxelIndex unknown = {};
     std::optional<VoxelIndex> viewpoint = {};
@@ -81,11 +89,12 @@ class SightMemory {
   void follow_places(const ReachableSpace& reachable, const TriedViews& tried);
   template <class Member>
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
+  // The number of the blocks of a brick, stored if necessary.
+  BrickDirectory::Number store(const VoxelIndex& brick);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
   [[nodiscard]] bool stands(const Answer& answer) const;
-  static VoxelIndex block_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
-  static std::uint64_t bit_of(const VoxelIndex& cell) { return std::uint64_t{1} << (Brick::offset_of(cell) & 63U); }
+  static std::uint64_t bit_of(std::size_t offset) { return std::uint64_t{1} << (offset & 63U); }
 
   static constexpr VoxelIndex kNoBrick{std::numeric_limits<std::int32_t>::max(), 0, 0};
 
@@ -95,13 +104,14 @@ class SightMemory {
   std::optional<SightTree> tree_;
   KnownMap map_;  // of the last follow
   OccupancyMap::Revision followed_ = 0;
-  BrickGrid<Block> blocks_;        // indexed by block address as if it were a cell
+  BrickDirectory directory_;  // index in `bricks_` of each brick with blocks
+  std::deque<BrickBlocks> bricks_;
   BrickTree places_;               // bricks with reachable cells, resting or not
   std::vector<VoxelBox> resting_;  // TriedViews::resting of the last follow
-  // The brick of blocks of the last is_clear since `follow`; no block moves while others are stored.
-  BrickGrid<Block>::Values* last_blocks_ = nullptr;
+  // The brick of the last is_clear since `follow`; no block moves while others are stored.
+  BrickBlocks* last_blocks_ = nullptr;
   VoxelIndex last_brick_ = kNoBrick;
-  std::uint32_t last_number_ = BrickDirectory::kNone;
+  BrickDirectory::Number last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
@@ -110,25 +120,29 @@ class SightMemory {
 };
 
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
-  const VoxelIndex address = block_of(cell);
-  if (const VoxelIndex brick = Brick::of_cell(address); brick != last_brick_) {
+  if (const VoxelIndex brick = Brick::of_cell(cell); brick != last_brick_) {
     last_brick_ = brick;
-    last_number_ = blocks_.store(brick);  // stored even if unknown, so that a later change is noticed
-    last_blocks_ = &blocks_.values(last_number_);
+    last_number_ = store(brick);  // stored even if unknown, so that a later change is noticed
+    last_blocks_ = &bricks_[last_number_];
   }
-  const std::size_t offset = Brick::offset_of(address);
-  Block& block = (*last_blocks_)[offset];
+  const std::size_t offset = Brick::offset_of(cell);
+  const std::size_t word = offset >> 6U;
+  Block& block = last_blocks_->blocks[word];
   if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
-    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kCells + offset));
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kWords + word));
   }
-  return (block.clear & bit_of(cell)) != 0;
+  return (block.clear & bit_of(offset)) != 0;
 }
 
 inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
-  const VoxelIndex address = block_of(cell);
-  const bool near = Brick::of_cell(address) == last_brick_;
-  const Block& block = near ? (*last_blocks_)[Brick::offset_of(address)] : blocks_[address];
-  return (block.reachable & bit_of(cell)) != 0;
+  const VoxelIndex brick = Brick::of_cell(cell);
+  const BrickBlocks* blocks = last_blocks_;
+  if (brick != last_brick_) {
+    const BrickDirectory::Number number = directory_.find(brick);
+    blocks = number == BrickDirectory::kNone ? nullptr : &bricks_[number];
+  }
+  const std::size_t offset = Brick::offset_of(cell);
+  return blocks != nullptr && (blocks->blocks[offset >> 6U].reachable & bit_of(offset)) != 0;
 }
 
 template <class Passes, class Serves>

@@ -49,15 +49,10 @@ VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_
 VANTAGE_INLINE void SightMemory::follow_clear(const OccupancyMap& map) {
   if (!map_.is(map)) {
     followed_ = 0;
-    for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
-      for_each_cell({{0, 0, 0}, {4, 4, 4}},
-                    [&](const VoxelIndex& step) {  // the bricks of the map in a brick of blocks
-                      const VoxelIndex blocks = blocks_.address(number);
-                      const VoxelIndex brick = VoxelIndex{blocks.x * 4, blocks.y * 4, blocks.z * 4} + step;
-                      if (map.find_brick(brick) == nullptr) {
-                        set(brick, {}, &Block::clear);
-                      }
-                    });
+    for (const BrickBlocks& stored : bricks_) {
+      if (map.find_brick(stored.brick) == nullptr) {
+        set(stored.brick, {}, &Block::clear);
+      }
     }
     map_ = KnownMap(map);
   }
@@ -69,8 +64,8 @@ VANTAGE_INLINE void SightMemory::follow_clear(const OccupancyMap& map) {
 
 VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, const TriedViews& tried) {
   if (reachable.started_anew()) {
-    for (std::size_t number = 0; number < blocks_.bricks(); ++number) {
-      for (Block& block : blocks_.values(number)) {
+    for (BrickBlocks& stored : bricks_) {
+      for (Block& block : stored.blocks) {
         block.changed = std::exchange(block.reachable, 0) != 0 ? survey_ : block.changed;
       }
     }
@@ -98,14 +93,24 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
   }
 }
 
-// Sets the eight blocks of one brick of the map.
+VANTAGE_INLINE BrickDirectory::Number SightMemory::store(const VoxelIndex& brick) {
+  BrickDirectory::Number& number = directory_.place(brick);
+  if (number == BrickDirectory::kNone) {
+    number = static_cast<BrickDirectory::Number>(bricks_.size());
+    bricks_.push_back({.brick = brick});
+  }
+  return number;
+}
+
+// Sets the blocks of a brick. Those that are not stored have no cells.
 template <class Member>
 void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member member) {
-  const VoxelIndex first{brick.x * 2, brick.y * 2, brick.z * 2};
-  BrickGrid<Block>::Values& blocks = blocks_.values(blocks_.store(Brick::of_cell(first)));
+  if (cells == BrickPlane{} && directory_.find(brick) == BrickDirectory::kNone) {
+    return;
+  }
+  BrickBlocks& stored = bricks_[store(brick)];
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const auto at = static_cast<std::int32_t>(word);
-    Block& block = blocks[Brick::offset_of(first + VoxelIndex{at & 1, at >> 1 & 1, at >> 2})];
+    Block& block = stored.blocks[word];
     if (std::exchange(block.*member, cells[word]) != cells[word]) {
       block.changed = survey_;
     }
@@ -116,7 +121,7 @@ VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {
   return answer.may_stand &&
          std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
                      [&](std::uint32_t at) {
-                       return blocks_.values(at / Brick::kCells)[at % Brick::kCells].changed <= answer.found;
+                       return bricks_[at / Brick::kWords].blocks[at % Brick::kWords].changed <= answer.found;
                      }) &&
          std::none_of(answer.without_places.begin(), answer.without_places.end(),
                       [&](const VoxelBox& cells) { return places_.touches(cells); });
