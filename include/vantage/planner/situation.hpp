@@ -98,7 +98,9 @@ class Situation {
   [[nodiscard]] bool hardly_moves() const;
   [[nodiscard]] bool stands_beside_unknown() const;
   [[nodiscard]] std::optional<Plan> turn_on_the_spot() const;
+  [[nodiscard]] std::optional<Plan> step_aside() const;
   [[nodiscard]] std::optional<VoxelIndex> place_cut_off() const;
+  [[nodiscard]] std::optional<VoxelIndex> viewpoint_among(std::vector<VoxelIndex> places) const;
 
   PlannerSetup setup_;
   FrontierSurveyOptions options_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/map/brick_set.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vantage/view/target_view.hpp>
 
@@ -125,6 +126,9 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
     if (std::optional<Plan> turn = turn_on_the_spot()) {
       return turn;
     }
+    if (std::optional<Plan> step = step_aside()) {
+      return step;
+    }
     if (hardly_moves() && stands_beside_unknown()) {
       plan.reason =
           "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
@@ -214,6 +218,45 @@ VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() const {
   return std::nullopt;
 }
 
+// Reachable cells are connected across faces. A body may also fit aslant into a neighbouring cell that is not
+// reachable in this sense, for example after somebody carried it. It goes there if more can be seen from the cells
+// around it.
+VANTAGE_INLINE std::optional<Plan> Situation::step_aside() const {
+  const auto is_cut_off = [&](const VoxelIndex& cell) {
+    return reachable().admitted().contains(cell) && !reachable().contains(cell);
+  };
+  const VoxelIndex home = map_->frame().cell_of(current_.translation());
+  for (const VoxelIndex& step : kAllNeighbours) {
+    Pose there = current_;
+    there.translation() = map_->frame().centre_of(home + step);
+    if (!is_cut_off(home + step) || tried_.rests(home + step) ||
+        !setup_.platform->admits_motion(*map_, current_, there)) {
+      continue;
+    }
+    std::vector<VoxelIndex> around{home + step};
+    BrickSet taken;
+    taken.insert(around.front());
+    for (std::size_t next = 0; next < around.size(); ++next) {
+      for (const VoxelIndex& across : kFaceNeighbours) {
+        const VoxelIndex cell = around[next] + across;
+        if (is_cut_off(cell) && !taken.contains(cell)) {
+          taken.insert(cell);
+          around.push_back(cell);
+        }
+      }
+    }
+    if (viewpoint_among(std::move(around))) {
+      Plan plan = open_plan();
+      plan.outcome = Outcome::Move;
+      plan.goal.pose = there;
+      plan.path = {current_, there};
+      plan.reason = "a step into free space from which there is more to see";
+      return plan;
+    }
+  }
+  return std::nullopt;
+}
+
 // A viewpoint of a frontier cell in admitted cells that are not connected to the current place.
 VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
   std::vector<VoxelIndex> beyond;
@@ -227,12 +270,17 @@ VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
       });
     }
   });
-  std::sort(beyond.begin(), beyond.end(), RasterOrder{});
-  if (beyond.empty()) {
+  return viewpoint_among(std::move(beyond));
+}
+
+// The first of these places from which an observable frontier cell is in sight.
+VANTAGE_INLINE std::optional<VoxelIndex> Situation::viewpoint_among(std::vector<VoxelIndex> places) const {
+  if (places.empty()) {
     return std::nullopt;
   }
+  std::sort(places.begin(), places.end(), RasterOrder{});
   FrontierSurveyor surveyor(setup_.platform, setup_.sensor, options_);
-  const FrontierSurvey survey = surveyor.survey_from(beyond, *map_, tried_, frontier_->cells());
+  const FrontierSurvey survey = surveyor.survey_from(places, *map_, tried_, frontier_->cells());
   return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
 }
 
