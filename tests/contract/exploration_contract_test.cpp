@@ -533,12 +533,11 @@ TEST(ExplorationContractCase, AGoalThatComesNearerIsNoProgress) {
 TEST(ExplorationContractCase, ARobotThatDoesNotMoveIsBlocked) {
   EXPECT_TRUE(expect_contract("nearest-frontier", Host::OffCentre, Scene::numbered(100947)));
 }
-// A cell was in line with two corners of walls as seen from two places, and was given up.
 // The robot was carried into cells that a neighbouring space touches across edges alone.
 TEST(ExplorationContractCase, ARobotLeavesAPocketAslant) {
   EXPECT_TRUE(expect_contract("frontier-gain", Host::MovedByHand, Scene::numbered(100445)));
 }
-
+// A cell was in line with two corners of walls as seen from two places, and was given up.
 TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {
   EXPECT_TRUE(expect_contract("frontier-gain", Host::MovedByHand, Scene::numbered(5115)));
 }
