@@ -226,15 +226,15 @@ VANTAGE_INLINE std::optional<Plan> Situation::step_aside() const {
     return reachable().admitted().contains(cell) && !reachable().contains(cell);
   };
   const VoxelIndex home = map_->frame().cell_of(current_.translation());
+  BrickSet taken;  // what is connected to a neighbour is surveyed once
   for (const VoxelIndex& step : kAllNeighbours) {
     Pose there = current_;
     there.translation() = map_->frame().centre_of(home + step);
-    if (!is_cut_off(home + step) || tried_.rests(home + step) ||
+    if (!is_cut_off(home + step) || taken.contains(home + step) || tried_.rests(home + step) ||
         !setup_.platform->admits_motion(*map_, current_, there)) {
       continue;
     }
     std::vector<VoxelIndex> around{home + step};
-    BrickSet taken;
     taken.insert(around.front());
     for (std::size_t next = 0; next < around.size(); ++next) {
       for (const VoxelIndex& across : kFaceNeighbours) {

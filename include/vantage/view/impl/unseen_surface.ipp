@@ -71,7 +71,7 @@ VANTAGE_INLINE UnseenSurface::UnseenSurface(const OccupancyMap& map, const Voxel
 VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor,
                                         const ViewRays& rays) {
   caster_.update();
-  suppose(map, 1.0);
+  suppose(map, 1.0);  // the map may have changed around the box, and then cells there stop rays again
   pass_rays(map, world_from_sensor, rays);
   // While every unknown cell stops rays, the visible cells are those that the sensor may have met.
   suppose(map, 1.0);
