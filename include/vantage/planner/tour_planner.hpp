@@ -12,7 +12,8 @@
 
 namespace vantage::detail {
 class BlockWays;
-}
+class EstimatedMotion;
+}  // namespace vantage::detail
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -53,6 +54,9 @@ struct TourOptions {
 /// parts, and ends at the first place that sees a cell of the first one. It sees much in passing, so the legs behind
 /// the first count half, and only unknown cells that are out of range of all parts count for the price.
 ///
+/// A leg takes the longer of moving and turning. The first leaves from the motion that the robot is in: with a motion
+/// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.
+///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///
@@ -75,7 +79,9 @@ class TourPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
 
   TourOptions options_;
-  std::shared_ptr<detail::BlockWays> ways_;  // made with the first plan; shared, because the type is incomplete here
+  // Shared, because the types are incomplete here.
+  std::shared_ptr<detail::BlockWays> ways_;  // made with the first plan
+  std::shared_ptr<detail::EstimatedMotion> motion_;
 };
 
 }  // namespace vantage

@@ -62,6 +62,35 @@ TEST(Trajectory, TakesTheTimeOfAStraightWay) {
   EXPECT_NEAR(kFlyer.travel_time_s(10.0), 5.0 + 2.0 / 3.0, 1e-12);
 }
 
+// In small steps: towards the end as hard as it can while it can still stop there, else it brakes.
+double travelled_in_steps_s(const MotionModel& motion, double length_m, double speed_m_s) {
+  constexpr double kStepS = 1e-4;
+  const double most = motion.max_acceleration_m_s2 * kStepS;
+  double left_m = length_m;
+  double speed = speed_m_s;
+  double time_s = 0.0;
+  while (std::abs(left_m) > 1e-3 || std::abs(speed) > 1e-2) {
+    const double wanted = std::copysign(
+        std::min(motion.max_speed_m_s, std::sqrt(2.0 * motion.max_acceleration_m_s2 * std::abs(left_m))), left_m);
+    speed += std::clamp(wanted - speed, -most, most);
+    left_m -= kStepS * speed;
+    time_s += kStepS;
+  }
+  return time_s;
+}
+
+TEST(MotionModel, TravelTimeFromAnySpeedIsThatOfSmallSteps) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const double length = i % 10 == 0 ? 0.0 : 4.0 * std::abs(share(random));
+    const double speed = kFlyer.max_speed_m_s * share(random);
+    EXPECT_NEAR(kFlyer.travel_time_s(length, speed), travelled_in_steps_s(kFlyer, length, speed), 0.05)
+        << length << " m from " << speed << " m/s";
+    EXPECT_EQ(kFlyer.travel_time_s(length, 0.0), kFlyer.travel_time_s(length));
+  }
+}
+
 TEST(Trajectory, StaysWithinTheLimitsFromAnyStateOfMotion) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(-1.0, 1.0);

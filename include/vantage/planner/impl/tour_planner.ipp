@@ -13,6 +13,7 @@
 
 #include <vantage/planner/impl/block_ways.hpp>
 #include <vantage/planner/impl/cover_tour.hpp>
+#include <vantage/planner/impl/estimated_motion.hpp>
 #include <vantage/planner/impl/open_tour.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/tour_legs.hpp>
@@ -150,7 +151,7 @@ inline const FrontierTarget& nearest_target(const Situation& situation, const Fr
 // For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over their
 // middles is enough, and ends at the first place that sees a cell of the first part.
 inline ChosenView first_sight(const Situation& situation, const NearestSites& nearest, TourCost cost,
-                              const BlockWays& ways, Plan& plan) {
+                              const Eigen::Vector3d& velocity_m_s, const BlockWays& ways, Plan& plan) {
   const std::vector<FrontierSite>& sites = nearest.sites;
   std::vector<TourView> middles;
   middles.reserve(sites.size());
@@ -158,7 +159,7 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
     middles.push_back({site.middle.viewpoint, Pose::Identity(), {}});
   }
   plan.statistics.views_scored += middles.size();
-  TourLegs legs(situation, cost, ways, nearest.lengths, middles);
+  TourLegs legs(situation, cost, velocity_m_s, ways, nearest.lengths, middles);
   std::vector<std::size_t> all(middles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const FrontierSite& first = sites[ordered(all, situation, middles, legs).front()];
@@ -176,13 +177,13 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
 
 // For a sensor that must be aimed: views are chosen for what they show.
 inline ChosenView first_view(const Situation& situation, const NearestSites& nearest, const TourOptions& options,
-                             const BlockWays& ways, Plan& plan) {
+                             const Eigen::Vector3d& velocity_m_s, const BlockWays& ways, Plan& plan) {
   const TourViews choice(situation, nearest.sites, plan.statistics.ray_operations);
   plan.statistics.views_scored += choice.views.size();
   if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
     return nearest_view(situation, plan.statistics.ray_operations);
   }
-  TourLegs legs(situation, options.cost, ways, nearest.lengths, choice.views);
+  TourLegs legs(situation, options.cost, velocity_m_s, ways, nearest.lengths, choice.views);
   CoverTourProblem problem;
   problem.per_view = legs.of_stop();
   problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
@@ -209,7 +210,9 @@ inline ChosenView first_view(const Situation& situation, const NearestSites& nea
 }  // namespace detail
 
 VANTAGE_INLINE TourPlanner::TourPlanner(const PlannerSetup& setup, const TourOptions& options)
-    : FrontierPlanner(setup, options.survey), options_(options) {
+    : FrontierPlanner(setup, options.survey),
+      options_(options),
+      motion_(std::make_shared<detail::EstimatedMotion>()) {
   detail::tour_settings().validate(options);
 }
 
@@ -227,9 +230,17 @@ VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
     return cells == nullptr ? BrickPlane{} : *cells;
   });
   const detail::NearestSites nearest(situation(), options_, *ways_);
-  return situation().sensor().looks_all_around()
-             ? detail::first_sight(situation(), nearest, options_.cost, *ways_, plan)
-             : detail::first_view(situation(), nearest, options_, *ways_, plan);
+  const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation().current().translation());
+  ChosenView chosen = situation().sensor().looks_all_around()
+                          ? detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, *ways_, plan)
+                          : detail::first_view(situation(), nearest, options_, velocity_m_s, *ways_, plan);
+  if (std::optional<std::vector<Pose>> path = path_to(chosen.view.view.pose, chosen.way)) {
+    chosen.path = std::move(*path);
+    if (const std::optional<MotionModel>& motion = situation().setup().motion) {
+      motion_->follow(chosen.path, *motion);
+    }
+  }
+  return chosen;
 }
 
 }  // namespace vantage

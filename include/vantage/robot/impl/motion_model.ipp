@@ -35,6 +35,16 @@ VANTAGE_INLINE double MotionModel::travel_time_s(double length_m) const {
   return detail::rest_to_rest_s(length_m, max_speed_m_s, max_acceleration_m_s2);
 }
 
+VANTAGE_INLINE double MotionModel::travel_time_s(double length_m, double speed_m_s) const {
+  const double acceleration = max_acceleration_m_s2;
+  const double braked_m = 0.5 * speed_m_s * std::abs(speed_m_s) / acceleration;
+  if (speed_m_s < 0.0 || braked_m > length_m) {  // it stops first, and comes back
+    return std::abs(speed_m_s) / acceleration + travel_time_s(std::abs(length_m - braked_m));
+  }
+  // As if it had started from rest, further back.
+  return travel_time_s(length_m + braked_m) - speed_m_s / acceleration;
+}
+
 VANTAGE_INLINE double MotionModel::turn_time_s(double angle_rad) const {
   return detail::rest_to_rest_s(angle_rad, max_yaw_rate_rad_s,
                                 max_yaw_acceleration_rad_s2.value_or(std::numeric_limits<double>::infinity()));

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vantage/geometry/pose.hpp>
+#include <vantage/robot/motion_model.hpp>
+#include <vantage/robot/trajectory.hpp>
+#include <vector>
+
+namespace vantage::detail {
+
+/// How a robot moves while it follows the latest path that was planned, as its motion model has it: a host tells
+/// where the robot is, but not how fast it goes.
+class EstimatedMotion {
+ public:
+  /// The robot sets off along `path`, at least one pose, in the motion that it was in at the first of them.
+  void follow(const std::vector<Pose>& path, const MotionModel& motion) {
+    std::vector<Eigen::Vector3d> corners;
+    corners.reserve(path.size());
+    for (const Pose& pose : path) {
+      corners.emplace_back(pose.translation());
+    }
+    const auto anywhere = [](const Eigen::Vector3d&, const Eigen::Vector3d&) { return true; };
+    stops_within_m_ = 0.5 * motion.max_speed_m_s * motion.max_speed_m_s / motion.max_acceleration_m_s2;
+    way_ = Trajectory::through({corners.front(), velocity_at(corners.front())}, corners, motion, anywhere)
+               .value_or(Trajectory(corners.back()));
+  }
+
+  /// Its velocity where it comes nearest to a position, metres per second. Zero if it comes no nearer than the
+  /// distance in which it can stop: then it does not follow the path.
+  [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& position_m) const {
+    constexpr double kStepS = 0.05;
+    MotionState nearest;
+    double least_m = stops_within_m_;
+    for (double time_s = 0.0; time_s < way_.duration_s(); time_s += kStepS) {
+      const MotionState state = way_.at(time_s);
+      if (const double off_m = (state.position_m - position_m).norm(); off_m < least_m) {
+        least_m = off_m;
+        nearest = state;
+      }
+    }
+    return nearest.velocity_m_s;
+  }
+
+ private:
+  Trajectory way_{Eigen::Vector3d::Zero()};
+  double stops_within_m_ = 0.0;
+};
+
+}  // namespace vantage::detail
