@@ -17,7 +17,7 @@ using Tour = std::vector<std::size_t>;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Local searches, each from another first site.
 inline constexpr std::size_t kSearches = 4;
-inline constexpr std::ptrdiff_t kMovedTogether = 3;
+inline constexpr std::size_t kMovedTogether = 3;
 // A tour is better if it saves more than rounding.
 inline constexpr double kLeastGain = 1e-9;
 
@@ -77,41 +77,53 @@ inline Tour greedy_tour(const OpenTourProblem& problem, std::size_t first) {
   return left;
 }
 
-// Takes the first change that helps, until none does.
+// What the steps to the positions [from, to) cost.
+inline double cost_between(const OpenTourProblem& problem, const Tour& tour, std::size_t from, std::size_t to) {
+  double sum = 0.0;
+  for (std::size_t position = from; position < std::min(to, tour.size()); ++position) {
+    sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position], position);
+  }
+  return sum;
+}
+
+// Takes the first change that helps, until none does. A change permutes the sites of [from, to), so it changes the
+// steps to these positions and to the one behind.
 inline void improve(const OpenTourProblem& problem, Tour& tour) {
-  double cost = problem.cost(tour);
-  Tour changed;
-  const auto take_if_better = [&] {
-    const double now = problem.cost(changed);
-    if (now >= cost - kLeastGain) {
-      return false;
+  const std::size_t n = tour.size();
+  const auto at = [&](std::size_t position) { return tour.begin() + static_cast<std::ptrdiff_t>(position); };
+  const auto helps = [&](std::size_t from, std::size_t to, auto&& change, auto&& undo) {
+    const double before = cost_between(problem, tour, from, to + 1);
+    change();
+    if (cost_between(problem, tour, from, to + 1) < before - kLeastGain) {
+      return true;
     }
-    cost = now;
-    tour.swap(changed);
-    return true;
+    undo();
+    return false;
+  };
+  const auto reversing = [&](std::size_t from, std::size_t to) {
+    const auto reverse = [&] { std::reverse(at(from), at(to)); };
+    return helps(from, to, reverse, reverse);
+  };
+  const auto exchanging = [&](std::size_t from, std::size_t middle, std::size_t to) {
+    return helps(
+        from, to, [&] { std::rotate(at(from), at(middle), at(to)); },
+        [&] { std::rotate(at(from), at(from + to - middle), at(to)); });
   };
   const auto any_change_helps = [&] {
-    const auto n = static_cast<std::ptrdiff_t>(tour.size());
-    for (std::ptrdiff_t from = 0; from < n; ++from) {
-      for (std::ptrdiff_t to = from + 2; to <= n; ++to) {
-        changed = tour;
-        std::reverse(changed.begin() + from, changed.begin() + to);
-        if (take_if_better()) {
+    for (std::size_t from = 0; from < n; ++from) {
+      for (std::size_t to = from + 2; to <= n; ++to) {
+        if (reversing(from, to)) {
           return true;
         }
       }
-      for (std::ptrdiff_t end = from + 1; end <= std::min<std::ptrdiff_t>(n, from + kMovedTogether); ++end) {
-        for (std::ptrdiff_t to = end + 1; to <= n; ++to) {
-          changed = tour;
-          std::rotate(changed.begin() + from, changed.begin() + end, changed.begin() + to);
-          if (take_if_better()) {
+      for (std::size_t end = from + 1; end <= std::min(n, from + kMovedTogether); ++end) {
+        for (std::size_t to = end + 1; to <= n; ++to) {
+          if (exchanging(from, end, to)) {
             return true;
           }
         }
-        for (std::ptrdiff_t to = 0; to < from; ++to) {
-          changed = tour;
-          std::rotate(changed.begin() + to, changed.begin() + from, changed.begin() + end);
-          if (take_if_better()) {
+        for (std::size_t to = 0; to < from; ++to) {
+          if (exchanging(to, from, end)) {
             return true;
           }
         }
