@@ -26,7 +26,7 @@ using detail::BlockWays;
 using detail::FrontierSite;
 using detail::OpenTourProblem;
 
-// Sites in a plane, with prices and falling weights like those of TourPlanner, or a plain tour.
+// Sites in a plane that show as much, or sites that show different numbers of things and have prices.
 OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) {
   std::uniform_real_distribution<double> place(0.0, 10.0);
   std::vector<std::pair<double, double>> at(n + 1);
@@ -43,11 +43,27 @@ OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) 
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    problem.prices.push_back(place(engine));
-    problem.leg_weights.push_back(plain ? 1.0 : 0.1 * place(engine));
-    problem.price_weights.push_back(plain ? 0.0 : 0.1 * place(engine) - 0.5);
+    problem.shows.push_back(plain ? 1.0 : std::floor(place(engine)) + (i == 0 ? 1.0 : 0.0));
+    if (!plain) {
+      problem.prices.push_back(place(engine));
+    }
   }
   return problem;
+}
+
+// By the lengths after which the sites are reached.
+double cost_of(const OpenTourProblem& problem, const std::vector<std::size_t>& tour) {
+  double length = 0.0;
+  double waited = 0.0;
+  double things = 0.0;
+  std::size_t before = problem.size();
+  for (const std::size_t site : tour) {
+    length += problem.legs[before * problem.size() + site];
+    waited += problem.shows[site] * length;
+    things += problem.shows[site];
+    before = site;
+  }
+  return 0.5 * (length + waited / things) - (problem.prices.empty() ? 0.0 : problem.prices[tour.front()]);
 }
 
 double cost_of_all_orders(const OpenTourProblem& problem) {
@@ -55,7 +71,7 @@ double cost_of_all_orders(const OpenTourProblem& problem) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   double least = std::numeric_limits<double>::infinity();
   do {
-    least = std::min(least, problem.cost(order));
+    least = std::min(least, cost_of(problem, order));
   } while (std::next_permutation(order.begin(), order.end()));
   return least;
 }
@@ -72,12 +88,31 @@ void expect_all_once(const std::vector<std::size_t>& tour, std::size_t n) {
 TEST(OpenTour, CostsAreThoseOfTheDefinition) {
   OpenTourProblem problem;
   problem.legs = {0, 3, 5, 0, 7, 2};  // 0->1: 3, 1->0: 5, start->0: 7, start->1: 2
-  problem.prices = {10, 20};
-  problem.leg_weights = {1.0, 0.5};
-  problem.price_weights = {0.0, 0.1};
-  EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 7 + 0.5 * 3 + 0.1 * 20);
-  EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 2 + 0.5 * 5 + 0.1 * 10);
+  problem.shows = {3, 1};
+  EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 0.5 * (10 + 0.75 * 7 + 0.25 * 10));
+  EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 0.5 * (7 + 0.25 * 2 + 0.75 * 7));
   EXPECT_EQ(detail::open_tour(problem), (std::vector<std::size_t>{1, 0}));
+  problem.prices = {5, 1};
+  EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 0.5 * (10 + 0.75 * 7 + 0.25 * 10) - 5);
+  EXPECT_EQ(detail::open_tour(problem), (std::vector<std::size_t>{0, 1}));
+}
+
+// A scrap beside the robot is left for later if much waits on the other side; one on the way is not.
+TEST(OpenTour, MuchThatIsFarComesBeforeAScrapThatIsADetour) {
+  const auto on_a_line = [](std::vector<double> at, std::vector<double> shows) {  // from 0
+    OpenTourProblem problem;
+    problem.shows = std::move(shows);
+    at.push_back(0.0);
+    for (const double from : at) {
+      for (std::size_t to = 0; to + 1 < at.size(); ++to) {
+        problem.legs.push_back(std::abs(from - at[to]));
+      }
+    }
+    return problem;
+  };
+  EXPECT_EQ(detail::open_tour(on_a_line({-1.0, 1.5}, {1.0, 99.0})), (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(detail::open_tour(on_a_line({-1.0, 1.5}, {50.0, 50.0})), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(detail::open_tour(on_a_line({1.0, 1.5}, {1.0, 99.0})), (std::vector<std::size_t>{0, 1}));
 }
 
 TEST(OpenTour, IsTheBestOfAllOrdersOfAFewSites) {
@@ -88,21 +123,20 @@ TEST(OpenTour, IsTheBestOfAllOrdersOfAFewSites) {
       const OpenTourProblem problem = random_problem(n, engine, seed % 2 == 0);
       const std::vector<std::size_t> tour = detail::open_tour(problem);
       expect_all_once(tour, n);
-      EXPECT_NEAR(problem.cost(tour), cost_of_all_orders(problem), 1e-9);
+      EXPECT_NEAR(cost_of(problem, tour), cost_of_all_orders(problem), 1e-9);
       ++cases;
     }
   }
   EXPECT_EQ(cases, 280U);
 }
 
-// The optimum over more sites than all orders allow, by sets of sites and the last of them.
+// The optimum over more sites than all orders allow, by sets of sites that show as much and the last of them.
 double cost_by_sets(const OpenTourProblem& problem) {
   std::map<std::pair<std::set<std::size_t>, std::size_t>, double> known;
-  std::vector<std::pair<std::set<std::size_t>, std::size_t>> layer;
   for (std::size_t site = 0; site < problem.size(); ++site) {
-    layer.push_back({{site}, site});
-    known[layer.back()] = problem.step(problem.size(), site, 0);
+    known[{{site}, site}] = problem.step(problem.size(), site, 1.0);
   }
+  const auto n = static_cast<double>(problem.size());
   for (std::size_t position = 1; position < problem.size(); ++position) {
     std::map<std::pair<std::set<std::size_t>, std::size_t>, double> next;
     for (const auto& [state, cost] : known) {
@@ -110,7 +144,7 @@ double cost_by_sets(const OpenTourProblem& problem) {
         if (state.first.count(site) == 0) {
           std::set<std::size_t> visited = state.first;
           visited.insert(site);
-          const double reached = cost + problem.step(state.second, site, position);
+          const double reached = cost + problem.step(state.second, site, 1.0 - static_cast<double>(position) / n);
           const auto [place, is_new] = next.try_emplace({std::move(visited), site}, reached);
           place->second = std::min(place->second, reached);
         }

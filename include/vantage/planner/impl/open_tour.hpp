@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numeric>
 #include <vantage/compiler.hpp>
 #include <vector>
 
@@ -9,22 +10,28 @@ namespace vantage::detail {
 
 /// An open tour from a start over n sites, at least one, none twice. It costs
 ///
-///     sum over positions k of   leg_weight[k] * leg(site before, site at k) + price_weight[k] * price(site at k)
+///     (length of the tour + mean length until a thing is shown) / 2 - price of the first site
 ///
-/// With weights of 1 and 0 this is the length of the tour.
+/// where each site shows a number of things. So a site that shows much comes early, and one that shows little where
+/// it is a small detour. The sum of the first two terms is the sum over the legs of
+///
+///     leg * (1 + share of the things that are not shown before it) / 2
 struct OpenTourProblem {
   /// The legs, as rows of n numbers: row i leads from site i to each site, row n from the start.
   std::vector<double> legs;
-  std::vector<double> prices;         ///< by site
-  std::vector<double> leg_weights;    ///< by position in the tour
-  std::vector<double> price_weights;  ///< by position in the tour
+  std::vector<double> shows;   ///< by site: how many things, >= 0, not all 0
+  std::vector<double> prices;  ///< by site; empty: none
 
   /// The number of sites.
-  [[nodiscard]] std::size_t size() const { return prices.size(); }
-  /// What it costs to have `site` at `position` after `before`, which is `size()` for the start.
-  [[nodiscard]] double step(std::size_t before, std::size_t site, std::size_t position) const {
-    return leg_weights[position] * legs[before * size() + site] + price_weights[position] * prices[site];
+  [[nodiscard]] std::size_t size() const { return shows.size(); }
+  /// What it costs to come to `site` from `before`, which is `size()` for the start, with a share of the things not
+  /// shown before.
+  [[nodiscard]] double step(std::size_t before, std::size_t site, double unseen) const {
+    const double price = before == size() && !prices.empty() ? prices[site] : 0.0;
+    return legs[before * size() + site] * (1.0 + unseen) / 2.0 - price;
   }
+  /// What all sites show.
+  [[nodiscard]] double all_shown() const { return std::accumulate(shows.begin(), shows.end(), 0.0); }
   /// The cost of a tour.
   [[nodiscard]] double cost(const std::vector<std::size_t>& tour) const;
 };

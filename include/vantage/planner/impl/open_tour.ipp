@@ -21,28 +21,32 @@ inline constexpr std::size_t kMovedTogether = 3;
 // A tour is better if it saves more than rounding.
 inline constexpr double kLeastGain = 1e-9;
 
-// By sets of visited sites: how many there are says the position of the next one.
+// By sets of visited sites.
 inline Tour exact_tour(const OpenTourProblem& problem) {
   const std::size_t n = problem.size();
   const std::size_t all = (std::size_t{1} << n) - 1;
+  const double things = problem.all_shown();
   struct State {
     double cost = kInfinity;
     std::size_t before = 0;
   };
-  std::vector<State> best((all + 1) * n);  // by visited sites, then by the last of them
+  std::vector<double> shown(all + 1, 0.0);  // by visited sites
+  std::vector<State> best((all + 1) * n);   // by visited sites, then by the last of them
   for (std::size_t visited = 1; visited <= all; ++visited) {
-    const auto position = static_cast<std::size_t>(std::popcount(visited)) - 1;
+    const auto lowest = static_cast<std::size_t>(std::countr_zero(visited));
+    shown[visited] = shown[visited & (visited - 1)] + problem.shows[lowest];
     for (std::size_t last = 0; last < n; ++last) {
       if ((visited >> last & 1U) == 0) {
         continue;
       }
       const std::size_t earlier = visited ^ (std::size_t{1} << last);
+      const double unseen = 1.0 - shown[earlier] / things;
       State& state = best[visited * n + last];
       if (earlier == 0) {
-        state = {problem.step(n, last, 0), n};
+        state = {problem.step(n, last, unseen), n};
       }
       for (std::size_t before = 0; before < n && earlier != 0; ++before) {
-        const double cost = best[earlier * n + before].cost + problem.step(before, last, position);
+        const double cost = best[earlier * n + before].cost + problem.step(before, last, unseen);
         if ((earlier >> before & 1U) != 0 && cost < state.cost) {
           state = {cost, before};
         }
@@ -63,25 +67,30 @@ inline Tour exact_tour(const OpenTourProblem& problem) {
   return tour;
 }
 
-// Starts with `first`, then always the cheapest next step.
+// Starts with `first`, then always the shortest next leg.
 inline Tour greedy_tour(const OpenTourProblem& problem, std::size_t first) {
   Tour left(problem.size());
   std::iota(left.begin(), left.end(), std::size_t{0});
   std::swap(left[0], left[first]);
   for (std::size_t position = 1; position < left.size(); ++position) {
     const auto at = left.begin() + static_cast<std::ptrdiff_t>(position);
-    std::iter_swap(at, std::min_element(at, left.end(), [&](std::size_t a, std::size_t b) {
-                     return problem.step(*(at - 1), a, position) < problem.step(*(at - 1), b, position);
-                   }));
+    const double* const legs = problem.legs.data() + *(at - 1) * problem.size();
+    std::iter_swap(at,
+                   std::min_element(at, left.end(), [&](std::size_t a, std::size_t b) { return legs[a] < legs[b]; }));
   }
   return left;
 }
 
 // What the steps to the positions [from, to) cost.
 inline double cost_between(const OpenTourProblem& problem, const Tour& tour, std::size_t from, std::size_t to) {
+  const double things = problem.all_shown();
+  double unseen = things;
   double sum = 0.0;
-  for (std::size_t position = from; position < std::min(to, tour.size()); ++position) {
-    sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position], position);
+  for (std::size_t position = 0; position < std::min(to, tour.size()); ++position) {
+    if (position >= from) {
+      sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position], unseen / things);
+    }
+    unseen -= problem.shows[tour[position]];
   }
   return sum;
 }
@@ -136,13 +145,7 @@ inline void improve(const OpenTourProblem& problem, Tour& tour) {
 }
 
 VANTAGE_INLINE double OpenTourProblem::cost(const std::vector<std::size_t>& tour) const {
-  double sum = 0.0;
-  std::size_t before = size();
-  for (std::size_t position = 0; position < tour.size(); ++position) {
-    sum += step(before, tour[position], position);
-    before = tour[position];
-  }
-  return sum;
+  return cost_between(*this, tour, 0, tour.size());
 }
 
 VANTAGE_INLINE std::vector<std::size_t> open_tour(const OpenTourProblem& problem) {
@@ -153,7 +156,7 @@ VANTAGE_INLINE std::vector<std::size_t> open_tour(const OpenTourProblem& problem
   Tour firsts(n);
   std::iota(firsts.begin(), firsts.end(), std::size_t{0});
   std::stable_sort(firsts.begin(), firsts.end(),
-                   [&](std::size_t a, std::size_t b) { return problem.step(n, a, 0) < problem.step(n, b, 0); });
+                   [&](std::size_t a, std::size_t b) { return problem.step(n, a, 1.0) < problem.step(n, b, 1.0); });
   Tour best;
   double best_cost = kInfinity;
   for (std::size_t search = 0; search < kSearches; ++search) {

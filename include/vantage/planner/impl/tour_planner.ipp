@@ -27,8 +27,6 @@ namespace detail {
 
 // Views at the front of a tour that are chosen anew for a shorter tour.
 inline constexpr std::size_t kRefined = 3;
-// What the legs behind the first count for a sensor that sees all around: it sees about half of the parts in passing.
-inline constexpr double kLaterLegs = 0.5;
 
 // Blocks of about a metre.
 inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
@@ -79,7 +77,7 @@ inline std::vector<double> prices_of(const std::vector<std::size_t>& chosen, con
   return prices;
 }
 
-// The views in the order of a tour: the whole tour counts, less the price of its first view.
+// The views in the order of a tour.
 inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, const Situation& situation,
                                         const std::vector<TourView>& views, TourLegs& legs) {
   const std::size_t n = chosen.size();
@@ -92,11 +90,13 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
       problem.legs.push_back(legs.between(from < n ? chosen[from] : views.size(), to));
     }
   }
-  problem.prices = prices_of(chosen, situation, views, legs);
-  problem.leg_weights.assign(n, situation.sensor().looks_all_around() ? kLaterLegs : 1.0);
-  problem.leg_weights.front() = 1.0;
-  problem.price_weights.assign(n, 0.0);
-  problem.price_weights.front() = -1.0;
+  for (const std::size_t view : chosen) {
+    problem.shows.push_back(static_cast<double>(views[view].sees.size()));
+  }
+  if (situation.sensor().looks_all_around()) {
+    problem.shows.assign(n, 1.0);
+    problem.prices = prices_of(chosen, situation, views, legs);
+  }
   std::vector<std::size_t> tour;
   tour.reserve(n);
   for (const std::size_t i : detail::open_tour(problem)) {
