@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vantage/compiler.hpp>
@@ -19,19 +20,24 @@ namespace vantage::detail {
 struct OpenTourProblem {
   /// The legs, as rows of n numbers: row i leads from site i to each site, row n from the start.
   std::vector<double> legs;
-  std::vector<double> shows;   ///< by site: how many things, >= 0, not all 0
+  std::vector<double> shows;   ///< by site: how many things, >= 0, not all 0; empty: all is shown by the first
   std::vector<double> prices;  ///< by site; empty: none
 
   /// The number of sites.
-  [[nodiscard]] std::size_t size() const { return shows.size(); }
+  [[nodiscard]] std::size_t size() const { return std::max(shows.size(), prices.size()); }
   /// What it costs to come to `site` from `before`, which is `size()` for the start, with a share of the things not
   /// shown before.
   [[nodiscard]] double step(std::size_t before, std::size_t site, double unseen) const {
     const double price = before == size() && !prices.empty() ? prices[site] : 0.0;
     return legs[before * size() + site] * (1.0 + unseen) / 2.0 - price;
   }
-  /// What all sites show.
-  [[nodiscard]] double all_shown() const { return std::accumulate(shows.begin(), shows.end(), 0.0); }
+  /// How many things a site shows.
+  [[nodiscard]] double shown_by(std::size_t site) const { return shows.empty() ? 1.0 : shows[site]; }
+  /// The share of the things that is not shown once so many are.
+  [[nodiscard]] double unseen_after(double shown) const {
+    const double all = shows.empty() ? 1.0 : std::accumulate(shows.begin(), shows.end(), 0.0);
+    return std::max(0.0, 1.0 - shown / all);
+  }
   /// The cost of a tour.
   [[nodiscard]] double cost(const std::vector<std::size_t>& tour) const;
 };

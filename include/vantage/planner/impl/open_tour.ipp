@@ -25,7 +25,6 @@ inline constexpr double kLeastGain = 1e-9;
 inline Tour exact_tour(const OpenTourProblem& problem) {
   const std::size_t n = problem.size();
   const std::size_t all = (std::size_t{1} << n) - 1;
-  const double things = problem.all_shown();
   struct State {
     double cost = kInfinity;
     std::size_t before = 0;
@@ -34,13 +33,13 @@ inline Tour exact_tour(const OpenTourProblem& problem) {
   std::vector<State> best((all + 1) * n);   // by visited sites, then by the last of them
   for (std::size_t visited = 1; visited <= all; ++visited) {
     const auto lowest = static_cast<std::size_t>(std::countr_zero(visited));
-    shown[visited] = shown[visited & (visited - 1)] + problem.shows[lowest];
+    shown[visited] = shown[visited & (visited - 1)] + problem.shown_by(lowest);
     for (std::size_t last = 0; last < n; ++last) {
       if ((visited >> last & 1U) == 0) {
         continue;
       }
       const std::size_t earlier = visited ^ (std::size_t{1} << last);
-      const double unseen = 1.0 - shown[earlier] / things;
+      const double unseen = problem.unseen_after(shown[earlier]);
       State& state = best[visited * n + last];
       if (earlier == 0) {
         state = {problem.step(n, last, unseen), n};
@@ -83,14 +82,14 @@ inline Tour greedy_tour(const OpenTourProblem& problem, std::size_t first) {
 
 // What the steps to the positions [from, to) cost.
 inline double cost_between(const OpenTourProblem& problem, const Tour& tour, std::size_t from, std::size_t to) {
-  const double things = problem.all_shown();
-  double unseen = things;
+  double shown = 0.0;
   double sum = 0.0;
   for (std::size_t position = 0; position < std::min(to, tour.size()); ++position) {
     if (position >= from) {
-      sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position], unseen / things);
+      sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position],
+                          problem.unseen_after(shown));
     }
-    unseen -= problem.shows[tour[position]];
+    shown += problem.shown_by(tour[position]);
   }
   return sum;
 }

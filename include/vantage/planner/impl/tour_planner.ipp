@@ -59,15 +59,14 @@ struct NearestSites {
 };
 
 // What it would cost to come back to each view from where the unknown is: that is where the robot will be by then.
-// What a sensor that sees all around has in range of a view needs no way.
+// What the sensor, which sees all around, has in range of a view needs no way.
 inline std::vector<double> prices_of(const std::vector<std::size_t>& chosen, const Situation& situation,
                                      const std::vector<TourView>& views, TourLegs& legs) {
   std::vector<VoxelIndex> places(chosen.size());
   std::transform(chosen.begin(), chosen.end(), places.begin(), [&](std::size_t view) { return views[view].place; });
   const OccupancyMap& map = situation.map();
   const double range_m = counted_range_m(map, situation.sensor());
-  const double seen_m = situation.sensor().looks_all_around() ? range_m : 0.0;
-  const std::vector<double> shares = unknown_shares(map, range_m, seen_m, places);
+  const std::vector<double> shares = unknown_shares(map, range_m, range_m, places);
   std::vector<double> prices(chosen.size(), 0.0);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     for (std::size_t from = 0; from < chosen.size(); ++from) {
@@ -90,12 +89,12 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
       problem.legs.push_back(legs.between(from < n ? chosen[from] : views.size(), to));
     }
   }
-  for (const std::size_t view : chosen) {
-    problem.shows.push_back(static_cast<double>(views[view].sees.size()));
-  }
   if (situation.sensor().looks_all_around()) {
-    problem.shows.assign(n, 1.0);
-    problem.prices = prices_of(chosen, situation, views, legs);
+    problem.prices = prices_of(chosen, situation, views, legs);  // it sees about half of the rest in passing
+  } else {
+    for (const std::size_t view : chosen) {
+      problem.shows.push_back(static_cast<double>(views[view].sees.size()));
+    }
   }
   std::vector<std::size_t> tour;
   tour.reserve(n);
