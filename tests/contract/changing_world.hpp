@@ -29,6 +29,7 @@ struct ChangingWorld {
   VoxelGrid<std::uint8_t> sheets;  // bit a: a wall of zero thickness on the upper face of axis a
   VoxelBox door{};                 // empty: no moving door
   std::optional<VoxelBox> person;
+  double inset = 0.0;  // how deep surfaces lie in their cells, cells
   VoxelIndex start{3, 3, 3};
   std::size_t clock = 0;
 
@@ -38,6 +39,18 @@ struct ChangingWorld {
   [[nodiscard]] bool is_solid(const VoxelIndex& cell) const {
     return solid.value_or(cell, 1) != 0 || (door.contains(cell) && door_is_closed()) ||
            (person && person->contains(cell));
+  }
+  /// What fills a solid cell.
+  [[nodiscard]] Box filled(const VoxelIndex& cell) const {
+    Box box = frame.box_of(cell);
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      if (is_solid(cell) && !is_solid(cell + step)) {
+        const Eigen::Vector3d out = inset * frame.size_m * Eigen::Vector3d(step.x, step.y, step.z);
+        box.min -= out.cwiseMin(0.0);
+        box.max -= out.cwiseMax(0.0);
+      }
+    }
+    return box;
   }
   /// Whether a wall separates two face neighbours.
   [[nodiscard]] bool parted(const VoxelIndex& a, const VoxelIndex& b) const {
@@ -136,8 +149,8 @@ struct ChangingWorld {
   return world;
 }
 
-/// A simulated scan: each ray returns a point just inside the first solid cell, or just behind the first wall of zero
-/// thickness. A ray that only cuts a corner of a cell passes: its point would lie in the cell beyond.
+/// A simulated scan: each ray returns a point just inside what fills the first solid cell, or just behind the first
+/// wall of zero thickness. A ray that only cuts a corner of a cell passes: its point would lie in the cell beyond.
 [[nodiscard]] inline Scan scan_of(const ChangingWorld& world, const RangeSensor& sensor, const Pose& pose) {
   Scan scan;
   scan.world_from_sensor = pose;
@@ -153,8 +166,10 @@ struct ChangingWorld {
       if (!blocked) {
         continue;
       }
-      const double range_m = range_into(world.frame.box_of(cell), origin, ray);
-      if (world.frame.cell_of(origin + range_m * ray) == cell) {
+      const Box filled = world.filled(cell);
+      const double range_m = range_into(filled, origin, ray);
+      const Eigen::Vector3d point = origin + range_m * ray;
+      if (world.frame.cell_of(point) == cell && filled.contains(point)) {
         add_ray(scan, sensor, direction, range_m);
         break;
       }

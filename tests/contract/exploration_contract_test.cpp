@@ -67,6 +67,7 @@ struct Scene {
   bool flat = false;
   double body_cells = 0.7;      // radius
   const World* real = nullptr;  // instead of `building`, a window of it
+  double inset = 0.0;           // of surfaces in their cells, cells
 
   /// Enumerates combinations of building, sensor, cell size and dimension.
   static Scene numbered(std::uint32_t number) {
@@ -85,8 +86,17 @@ struct Scene {
             &real};
   }
   [[nodiscard]] ChangingWorld world() const {
-    return real != nullptr ? testing::window_of(*real, seed, cell_m, body_cells)
-                           : testing::make_changing_world(building, seed, cell_m, flat);
+    ChangingWorld made = real != nullptr ? testing::window_of(*real, seed, cell_m, body_cells)
+                                         : testing::make_changing_world(building, seed, cell_m, flat);
+    made.inset = inset;
+    return made;
+  }
+  /// Surfaces on the faces of cells are mapped on both sides of them if poses are off by a hair, and then the body
+  /// does not fit through doorways. So this host meets surfaces that lie in their cells, as most do.
+  [[nodiscard]] Scene met_by(Host host) const {
+    Scene scene = *this;
+    scene.inset = host == Host::Inexact ? 0.25 : 0.0;
+    return scene;
   }
   [[nodiscard]] RangeSensor sensor() const {
     constexpr double kPi = std::numbers::pi;
@@ -368,7 +378,7 @@ class DrivenRobot {
     std::vector<VoxelIndex> cells;
     for_each_cell(VoxelBox{at, at + VoxelIndex{1, 1, 1}}.grown(2), [&](const VoxelIndex& cell) {
       if (is_solid(cell) && !(scene_.flat && cell.z != 0) &&
-          world_.frame.box_of(cell).distance_to(pose.translation()) < radius_m) {
+          world_.filled(cell).distance_to(pose.translation()) < radius_m) {
         cells.push_back(cell);
       }
     });
@@ -422,11 +432,9 @@ bool expect_contract(const std::string& planner, Host host, const Scene& scene) 
                            run.last.reason;
   SCOPED_TRACE(what);
   EXPECT_LT(run.plans, kMostPlans) << "it does not end by itself";
-  // Beside bars one cell apart, a map that is off by 1 cm leaves no cell in which the body fits. A robot that is
-  // carried to another place may see none either, and a person may stand in front of the robot for as long as it
-  // waits. Then the plan says what helps.
-  const bool may_lack_space =
-      host == Host::MovedByHand || (host == Host::Inexact && scene.building == Building::Grille);
+  // A robot that is carried to another place may see no cell in which the body fits, and a person may stand in front
+  // of the robot for as long as it waits. Then the plan says what helps.
+  const bool may_lack_space = host == Host::MovedByHand;
   const bool may_not_move = host == Host::Stuck || !scene.world().is_static();
   if (run.last.outcome == Outcome::Blocked) {
     const auto says = [&](const char* remedy) { return run.last.reason.find(remedy) != std::string::npos; };
@@ -445,11 +453,12 @@ bool expect_contract(const std::string& planner, Host host, const Scene& scene) 
   }
   // With walls between cells, the map decides which cells are free. A robot that is placed behind bars, or that
   // maps walls where none are, may be cut off and report that.
-  const bool may_be_cut_off = host == Host::MovedByHand && run.last.outcome != Outcome::Explored;
-  const bool bars_look_closed = host == Host::Inexact && scene.building == Building::Grille;
+  const bool maps_walls_twice = host == Host::Inexact && scene.inset == 0.0;
+  const bool may_be_cut_off =
+      (host == Host::MovedByHand || maps_walls_twice) && run.last.outcome != Outcome::Explored;
   const bool ended = run.last.outcome != Outcome::Move;
   if (!scene.world().is_static() || scene.building == Building::Sheets || host == Host::Stuck || may_be_cut_off ||
-      bars_look_closed || !ended) {
+      !ended) {
     return ended;
   }
   // In a window of a real building, a shaft may be free that a level sensor cannot see before it is in it, and
@@ -473,7 +482,7 @@ TEST_P(ExplorationContract, Holds) {
   std::size_t ended = 0;
   for (std::uint32_t i = 0; i < seeds; ++i) {
     // The step has no factor in common with the kinds of scenes, so that every host meets all of them.
-    const Scene scene = Scene::numbered(first + i * (kHosts + 1) + static_cast<std::uint32_t>(host));
+    const Scene scene = Scene::numbered(first + i * (kHosts + 1) + static_cast<std::uint32_t>(host)).met_by(host);
     ended += expect_contract(planner, host, scene) ? 1U : 0U;
   }
   EXPECT_EQ(ended, seeds);
@@ -506,7 +515,7 @@ TEST_P(ExplorationContractInRealBuildings, Holds) {
   for (std::uint32_t i = 0; i < seeds; ++i) {
     const std::uint32_t number = first + i * kHosts + static_cast<std::uint32_t>(host);
     const World& real = real_buildings()[number / kHosts % real_buildings().size()];
-    ended += expect_contract(planner, host, Scene::in_real_building(real, number)) ? 1U : 0U;
+    ended += expect_contract(planner, host, Scene::in_real_building(real, number).met_by(host)) ? 1U : 0U;
   }
   EXPECT_EQ(ended, seeds);
 }
@@ -540,6 +549,17 @@ TEST(ExplorationContractCase, ARobotLeavesAPocketAslant) {
 // A cell was in line with two corners of walls as seen from two places, and was given up.
 TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {
   EXPECT_TRUE(expect_contract("frontier-gain", Host::MovedByHand, Scene::numbered(5115)));
+}
+
+// Walls stand on faces of cells, and poses are off by 1 cm: the map has them on both sides, and a doorway is closed.
+// That is said. Where the same walls stand in their cells, the doorway is open.
+TEST(ExplorationContractCase, WallsThatAreMappedTwiceCutOff) {
+  for (const std::string_view planner : planner_names()) {
+    const Scene scene = Scene::numbered(5105);
+    EXPECT_TRUE(expect_contract(std::string(planner), Host::Inexact, scene));
+    EXPECT_EQ(DrivenRobot(std::string(planner), Host::Inexact, scene).last.outcome, Outcome::Unreachable);
+    EXPECT_TRUE(expect_contract(std::string(planner), Host::Inexact, scene.met_by(Host::Inexact)));
+  }
 }
 
 std::vector<std::string> planners() { return {planner_names().begin(), planner_names().end()}; }
