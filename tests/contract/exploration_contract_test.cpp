@@ -293,9 +293,13 @@ class DrivenRobot {
     }
   }
 
-  // A robot that stands at its goal comes no nearer. It may be asked to look from there for other cells.
+  // A robot that stands at its goal, or beside it, comes no nearer. It may be asked to look from there for other
+  // cells: beside it, if it saw all that was sought before.
   void count_asks() {
-    const bool was_there = (asked_.translation() - pose_.translation()).norm() < 0.5 * scene_.cell_m;
+    const bool may_look_again = (asked_.translation() - pose_.translation()).norm() < 0.5 * scene_.cell_m ||
+                                std::none_of(asked_sought_.begin(), asked_sought_.end(), [&](const VoxelIndex& cell) {
+                                  return map_.at(cell) == Occupancy::Unknown;
+                                });
     const bool for_others = std::none_of(last.sought.begin(), last.sought.end(), [&](const VoxelIndex& cell) {
       return std::find(asked_sought_.begin(), asked_sought_.end(), cell) != asked_sought_.end();
     });
@@ -304,7 +308,7 @@ class DrivenRobot {
     const VoxelIndex goal = map_.frame().cell_of(last.goal.pose.translation());
     const bool no_nearer = way_m > asked_way_m_ - 0.01 && (way_m > 0.01 || turn > asked_turn_ - 0.01);
     const bool again =
-        goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && no_nearer && !(was_there && for_others);
+        goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && no_nearer && !(may_look_again && for_others);
     asks_ = again ? asks_ + 1 : 1;
     most_asks = std::max(most_asks, asks_);
     asked_for_ = goal;
