@@ -555,6 +555,10 @@ TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {
   EXPECT_TRUE(expect_contract("frontier-gain", Host::MovedByHand, Scene::numbered(5115)));
 }
 
+// An unknown cell that could only be seen at a corner hid others, and was no target.
+TEST(ExplorationContractCase, ACellSeenAtACornerHidesOthers) {
+  EXPECT_TRUE(expect_contract("frontier-void", Host::StopsShort, Scene::numbered(5090)));
+}
 // Walls stand on faces of cells, and poses are off by 1 cm: the map has them on both sides, and a doorway is closed.
 // That is said. Where the same walls stand in their cells, the doorway is open.
 TEST(ExplorationContractCase, WallsThatAreMappedTwiceCutOff) {

@@ -42,7 +42,8 @@ struct FrontierSurveyOptions {
 /// range of the sensor, and it lies in the field of view in an orientation that the platform can take there. Unknown
 /// cells that are given up (TriedViews) do not count, nor do viewpoints that rest. When no frontier cell is
 /// observable in this way, those are taken whose unknown neighbour is seen in part: the line ends at the centre of
-/// one of its faces.
+/// one of its faces. If there is none either, one is taken where a line to an unknown neighbour passes another
+/// unknown cell beside it, if only at a corner, which then becomes known.
 ///
 /// For a sensor that does not report missing returns, the targets are only those whose unknown cell touches an
 /// occupied cell (26 neighbours), as long as there are any: a ray into open space teaches such a sensor nothing,

@@ -61,22 +61,33 @@ class ViewpointSearch {
   }
   // Tests every reachable cell until `pairs` is used up.
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& pairs) {
-    if (!can_be_seen(unknown)) {
-      return std::nullopt;
-    }
-    if (places_.empty()) {
-      places_ = reachable_.cells();
-    }
-    for (const VoxelIndex& cell : places_) {
-      if (pairs == 0) {
-        return std::nullopt;
+    return can_be_seen(unknown)
+               ? first_place(pairs, [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); })
+               : std::nullopt;
+  }
+  // The same for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
+  // one, that becomes known.
+  template <class IsSought>
+  std::vector<FrontierTarget> try_past(const VoxelIndex& unknown, const IsSought& is_sought, std::size_t& pairs) {
+    VoxelIndex before = unknown;
+    VoxelIndex first = unknown;
+    bool is_before = false;  // whether the next cell is the one before `first`
+    const VoxelBox beside = VoxelBox{unknown, unknown + VoxelIndex{1, 1, 1}}.grown(1);
+    const auto passes_by = [&](const VoxelIndex& cell) {
+      if (passes(cell)) {
+        before = std::exchange(is_before, false) ? cell : before;
+        return true;
       }
-      --pairs;
-      if (memory_.is_reachable(cell) && sees_a_part(cell, unknown)) {
-        return cell;
-      }
-    }
-    return std::nullopt;
+      first = cell;
+      is_before = true;
+      return beside.contains(cell) && is_sought(cell);
+    };
+    const auto place = first_place(pairs, [&](const VoxelIndex& cell) {
+      return open_towards(cell, unknown) && in_range(cell, unknown) &&
+             VoxelRay(frame_, frame_.centre_of(cell), frame_.centre_of(unknown)).all_from_the_end(passes_by) &&
+             in_range(cell, first) && can_face(cell, first);
+    });
+    return place ? std::vector<FrontierTarget>{{before, first, *place}} : std::vector<FrontierTarget>();
   }
   [[nodiscard]] std::uint64_t operations() const { return operations_; }
 
@@ -85,6 +96,22 @@ class ViewpointSearch {
   bool can_be_seen(const VoxelIndex& unknown) const {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return clear(unknown + step); });
+  }
+  template <class Serves>
+  std::optional<VoxelIndex> first_place(std::size_t& pairs, Serves&& serves) {
+    if (places_.empty()) {
+      places_ = reachable_.cells();
+    }
+    for (const VoxelIndex& cell : places_) {
+      if (pairs == 0) {
+        return std::nullopt;
+      }
+      --pairs;
+      if (memory_.is_reachable(cell) && serves(cell)) {
+        return cell;
+      }
+    }
+    return std::nullopt;
   }
   bool clear(const VoxelIndex& cell) const { return memory_.is_clear(cell); }
   bool passes(const VoxelIndex& cell) {
@@ -235,10 +262,11 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
     return survey;
   }
   detail::ViewpointSearch search(map.frame(), *platform_, sensor_, reachable_, tried, *memory_);
+  const auto sought = [&](const VoxelIndex& unknown) { return detail::is_sought(map, unknown, tried); };
   const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
     for (const VoxelIndex& step : kFaceNeighbours) {
       const VoxelIndex unknown = cell + step;
-      if (const auto viewpoint = detail::is_sought(map, unknown, tried) ? find(unknown) : std::nullopt) {
+      if (const auto viewpoint = sought(unknown) ? find(unknown) : std::nullopt) {
         survey.targets.push_back({cell, unknown, *viewpoint});
         return true;
       }
@@ -250,7 +278,6 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
     return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
   });
   if (survey.targets.empty()) {
-    const auto sought = [&](const VoxelIndex& unknown) { return detail::is_sought(map, unknown, tried); };
     std::erase_if(hidden, [&](const VoxelIndex& cell) {
       const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
       if (target) {
@@ -266,6 +293,16 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
     std::size_t pairs = detail::kExhaustivePairs;
     std::erase_if(hidden, [&](const VoxelIndex& cell) {
       return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
+    });
+    for (auto cell = hidden.begin(); cell != hidden.end() && survey.targets.empty(); ++cell) {
+      for (const VoxelIndex& step : kFaceNeighbours) {
+        if (survey.targets.empty() && sought(*cell + step)) {
+          survey.targets = search.try_past(*cell + step, sought, pairs);
+        }
+      }
+    }
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      return !survey.targets.empty() && survey.targets.front().frontier == cell;
     });
     survey.exhausted = pairs > 0;
   }
