@@ -559,6 +559,10 @@ TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {
 TEST(ExplorationContractCase, ACellSeenAtACornerHidesOthers) {
   EXPECT_TRUE(expect_contract("frontier-void", Host::StopsShort, Scene::numbered(5090)));
 }
+// The host gave up half-way three times, each time nearer to the only place from which the rest can be seen.
+TEST(ExplorationContractCase, AFailureThatBroughtTheRobotNearerIsNoReasonToGiveUp) {
+  EXPECT_TRUE(expect_contract("frontier-gain", Host::AbortsAndReports, Scene::numbered(100415)));
+}
 // Walls stand on faces of cells, and poses are off by 1 cm: the map has them on both sides, and a doorway is closed.
 // That is said. Where the same walls stand in their cells, the doorway is open.
 TEST(ExplorationContractCase, WallsThatAreMappedTwiceCutOff) {

@@ -55,7 +55,7 @@ struct TriedViewsOptions {
 ///     asked for --- fails ---> rests 8 plans (then 16, 32, ...) ---> may be asked for again
 ///                                |
 ///                                +--- reported, and no other target is left: allowed again at once, until the
-///                                     third failure
+///                                     third failure; if the robot came nearer, only the latest one counts
 ///
 /// A place rests together with all places within the goal tolerance. Once all that a view sought is known, only the
 /// places that have failed are remembered. If three places rest because the robot came no nearer, and it still is

@@ -387,6 +387,23 @@ TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
   EXPECT_EQ(impatient.places_given_up(), 1U);
 }
 
+TEST(TriedViews, AFailureThatBroughtTheRobotNearerIsNotCountedWithThoseBefore) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const auto fails_at = [&](double way_m) {
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, {2, 5, 5}), way_m), {kHidden}));
+    tried.report(GoalResult::Failed);
+    map.confirm();
+    tried.review(map, at(map, {-8, 5, 5}));
+    return tried.try_resting_again();
+  };
+  tried.review(map, at(map, {-8, 5, 5}));
+  for (double way_m = 9.0; way_m > 1.0; way_m -= 1.0) {
+    EXPECT_TRUE(fails_at(way_m)) << way_m;
+  }
+  EXPECT_FALSE(fails_at(2.0)) << "here it failed before";
+}
+
 TEST(TriedViews, AGoalThatWasReachedAfterAllHasNeverFailed) {
   OccupancyMap map = free_before_the_hidden();
   TriedViews tried(sees_all_around());

@@ -86,6 +86,7 @@ VANTAGE_INLINE bool TriedViews::expect(const OccupancyMap& map, const std::vecto
     place.revision = map.revision();
     place.asked_from = path.front();
     if (first || (moved && way < place.nearest_way - detail::kNearer)) {
+      place.failures = first ? place.failures : std::min(place.failures, 1);
       place.nearest_way = way;
       place.no_nearer = 0;
     } else if (++place.no_nearer == detail::kMostAsks) {
