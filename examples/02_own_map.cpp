@@ -2,47 +2,34 @@
 // How does a host use vantage that maps by itself? Its grid answers what a cell is; MapFollower keeps the map that
 // planners read in step with it.
 #include <algorithm>
-#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/world.hpp>
 #include <vantage/vantage.hpp>
-#include <vector>
 
 // A dense grid: what a ray passes is free, where one has ended is occupied.
-class HostGrid {
- public:
-  HostGrid(const vantage::VoxelBox& box, double cell_m) : box_(box), frame_{cell_m}, cells_(box.size()) {}
+struct HostGrid {
+  vantage::VoxelFrame frame;
+  vantage::VoxelGrid<vantage::Occupancy> cells;  // Unknown at first
 
-  // All that vantage asks of a map.
-  [[nodiscard]] vantage::Occupancy at(const vantage::VoxelIndex& cell) const { return cells_[number_of(cell)]; }
+  vantage::Occupancy at(const vantage::VoxelIndex& cell) const { return cells[cell]; }  // all that vantage asks of it
 
   void mark(const vantage::VoxelIndex& cell, vantage::Occupancy state) {
-    if (box_.contains(cell)) {
-      cells_[number_of(cell)] = std::max(cells_[number_of(cell)], state);
+    if (cells.contains(cell)) {
+      cells[cell] = std::max(cells[cell], state);
     }
   }
   void integrate(const vantage::Scan& scan) {
     for (const Eigen::Vector3f& point : scan.points) {
       const Eigen::Vector3d end = scan.world_from_sensor * point.cast<double>();
-      if (frame_.addressable(end)) {  // not NaN
-        for (const vantage::VoxelIndex& cell : vantage::VoxelRay(frame_, scan.world_from_sensor.translation(), end)) {
-          mark(cell, cell == frame_.cell_of(end) ? vantage::Occupancy::Occupied : vantage::Occupancy::Free);
+      if (frame.addressable(end)) {  // not NaN
+        for (const vantage::VoxelIndex& cell : vantage::VoxelRay(frame, scan.world_from_sensor.translation(), end)) {
+          mark(cell, cell == frame.cell_of(end) ? vantage::Occupancy::Occupied : vantage::Occupancy::Free);
         }
       }
     }
   }
-
- private:
-  [[nodiscard]] std::size_t number_of(const vantage::VoxelIndex& cell) const {
-    const vantage::VoxelIndex at = cell - box_.lo;
-    return static_cast<std::size_t>((at.z * box_.extent().y + at.y) * box_.extent().x + at.x);
-  }
-
-  vantage::VoxelBox box_;
-  vantage::VoxelFrame frame_;
-  std::vector<vantage::Occupancy> cells_;  // Unknown at first
 };
 
 int main() {
@@ -53,20 +40,19 @@ int main() {
 
   vantage::MapFollower follower({.resolution_m = 0.2, .region = world.region});
   const vantage::VoxelFrame frame = follower.map().frame();
-  const vantage::VoxelBox cells = frame.cells_centred_in(world.region);
-  HostGrid grid(cells, frame.size_m);
+  HostGrid grid{frame, vantage::VoxelGrid<vantage::Occupancy>(frame.cells_centred_in(world.region))};
   const auto planner = vantage::make_planner("nearest-frontier", {.sensor = sensor, .platform = robot});
   vantage::Pose pose = vantage::pose_looking({0.9, 0.9, 1.0}, 0.0);  // world_from_sensor
   vantage::for_each_cell(frame.cells_touched_by(robot->body_box(pose)),
                          [&](const vantage::VoxelIndex& cell) { grid.mark(cell, vantage::Occupancy::Free); });
 
-  for (std::size_t views = 1;; ++views) {
+  for (int views = 1;; ++views) {
     grid.integrate(camera.scan(pose));
-    follower.update(grid, cells);  // a host that knows what has changed passes a smaller box
+    follower.update(grid, grid.cells.box());  // a host that knows what has changed passes a smaller box
     const vantage::Plan plan = planner->plan(follower.map(), pose);
     if (plan.outcome != vantage::Outcome::Move) {
       std::cout << to_string(plan.outcome) << " after " << views << " views, "
-                << vantage::frontier_cells(grid, cells).size() << " frontier cells left: " << plan.reason << '\n';
+                << vantage::frontier_cells(grid, grid.cells.box()).size() << " frontier cells left\n";
       return plan.outcome == vantage::Outcome::Explored ? 0 : 1;
     }
     pose = plan.path.back();

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // How does a host map and plan at the same time? One map under one lock: a thread inserts every scan, another plans
-// as soon as there is a scan from where the robot has arrived. A plan takes milliseconds, so the scans can wait for
-// it.
+// as soon as there is a scan from where the robot has arrived. A plan takes milliseconds, so scans can wait for it.
 #include <condition_variable>
-#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 #include <vantage/sim/simulated_sensor.hpp>
 #include <vantage/sim/world.hpp>
@@ -19,16 +18,12 @@ struct Shared {
   vantage::OccupancyMap map;
   vantage::Pose pose;            // where the robot is, from its localisation
   vantage::Pose last_scan = {};  // where the last scan of the map was taken
-  std::size_t scans = 0;
-  bool ended = false;
+  int scans = 0;
 };
 
-void map_until_the_end(Shared& shared, vantage::SimulatedSensor& camera) {
-  for (;;) {
-    std::unique_lock guard(shared.lock);
-    if (shared.ended) {
-      return;
-    }
+void map_scans(const std::stop_token& stop, Shared& shared, vantage::SimulatedSensor& camera) {
+  std::unique_lock guard(shared.lock);
+  while (!stop.stop_requested()) {
     const vantage::Pose from = shared.pose;
     guard.unlock();
     const vantage::Scan scan = camera.scan(from);  // a driver blocks here, without the lock
@@ -50,23 +45,16 @@ int main() {
   Shared shared{.map = vantage::OccupancyMap({.resolution_m = 0.2, .region = world.region}),
                 .pose = vantage::pose_looking({0.9, 0.9, 1.0}, 0.0)};
   shared.map.assume_free(robot->body_box(shared.pose));
-  std::thread mapping(map_until_the_end, std::ref(shared), std::ref(camera));
+  const std::jthread mapping(map_scans, std::ref(shared), std::ref(camera));  // stopped and joined at the end
 
   std::unique_lock guard(shared.lock);
-  vantage::Plan plan;
-  do {
+  for (;;) {
     shared.scanned.wait(guard, [&] { return shared.scans > 0 && shared.last_scan.isApprox(shared.pose); });
-    plan = planner->plan(shared.map, shared.pose);
-    for (const vantage::Pose& next : plan.path) {
-      shared.pose = next;  // a controller moves here, without the lock
-      guard.unlock();
-      std::this_thread::yield();
-      guard.lock();
+    const vantage::Plan plan = planner->plan(shared.map, shared.pose);
+    if (plan.outcome != vantage::Outcome::Move) {
+      std::cout << to_string(plan.outcome) << " after " << shared.scans << " scans: " << plan.reason << '\n';
+      return plan.outcome == vantage::Outcome::Explored ? 0 : 1;
     }
-  } while (plan.outcome == vantage::Outcome::Move);
-  shared.ended = true;
-  guard.unlock();
-  mapping.join();
-  std::cout << to_string(plan.outcome) << " after " << shared.scans << " scans: " << plan.reason << '\n';
-  return plan.outcome == vantage::Outcome::Explored ? 0 : 1;
+    shared.pose = plan.path.back();  // a controller moves there, without the lock
+  }
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // How does a robot go on after a restart? It saves its map and what its planner remembers, and loads both.
-#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -13,9 +12,9 @@
 
 // Explores until the planner ends or the views are spent. Returns the last plan; `pose` is where the robot stands.
 vantage::Plan explore(vantage::ExplorationPlanner& planner, vantage::OccupancyMap& map,
-                      vantage::SimulatedSensor& camera, std::size_t views, vantage::Pose& pose) {
+                      vantage::SimulatedSensor& camera, int views, vantage::Pose& pose) {
   vantage::Plan plan;
-  for (std::size_t view = 0; view < views; ++view) {
+  for (int view = 0; view < views; ++view) {
     map.insert(camera.scan(pose));
     plan = planner.plan(map, pose);
     if (plan.outcome != vantage::Outcome::Move) {

@@ -2,7 +2,7 @@
 // How does an arm search, whose host has a motion planner? The planner chooses the view; the host's planner moves the
 // joints. Here: an interpolation of the joints takes the place of the host's planner.
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,37 +13,29 @@
 #include <vector>
 
 // An arm in all respects but its paths.
-class HostArm final : public vantage::WrappedPlatform {
- public:
-  explicit HostArm(const std::shared_ptr<const vantage::Arm>& arm) : WrappedPlatform(arm), arm_(arm) {}
+struct HostArm final : vantage::WrappedPlatform {
+  std::shared_ptr<const vantage::Arm> arm;
+
+  explicit HostArm(const std::shared_ptr<const vantage::Arm>& own) : WrappedPlatform(own), arm(own) {}
 
   // The motion planner of the host goes here. A view without a path is not chosen.
   std::optional<std::vector<vantage::Pose>> path(const vantage::OccupancyMap& map, const vantage::Pose& from,
                                                  const vantage::Pose& to) const override {
-    constexpr std::size_t kSteps = 20;
-    const auto first = arm_->configuration(from);
-    const auto last = arm_->configuration(to);
-    if (!first || !last || !arm_->admits(map, to) || !arm_->admits_motion(map, from, to)) {
+    const auto first = arm->configuration(from);
+    const auto last = arm->configuration(to);
+    if (!first || !last || !arm->admits(map, to) || !arm->admits_motion(map, from, to)) {
       return std::nullopt;
     }
     std::vector<vantage::Pose> path{from};
-    for (std::size_t step = 1; step < kSteps; ++step) {
-      const double share = static_cast<double>(step) / kSteps;
+    for (const double share : {0.2, 0.4, 0.6, 0.8}) {
       vantage::Joints joints = *first;
       std::transform(first->begin(), first->end(), last->begin(), joints.begin(),
-                     [share](double a, double b) { return a + share * (b - a); });
-      path.push_back(arm_->sensor_pose(joints));
+                     [share](double a, double b) { return std::lerp(a, b, share); });
+      path.push_back(arm->sensor_pose(joints));
     }
     path.push_back(to);
     return path;
   }
-  vantage::VoxelGrid<std::uint8_t> admitted_cells(const vantage::OccupancyMap& map,
-                                                  const vantage::VoxelBox& box) const override {
-    return arm_->admitted_cells(map, box);
-  }
-
- private:
-  std::shared_ptr<const vantage::Arm> arm_;
 };
 
 int main(int, char** arguments) {
@@ -64,6 +56,5 @@ int main(int, char** arguments) {
                                .unknown_box = world.searched,
                                .declared_clear = {beside_the_base}});
   const vantage::RunRecord record = run.run(*planner, arm->sensor_pose(joints));
-  std::cout << to_string(record.outcome) << " after " << record.views.size() << " views and "
-            << record.path_length_m() << " m of the sensor\n";
+  std::cout << "after " << record.views.size() << " views and " << record.path_length_m() << " m of the sensor\n";
 }
