@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -15,8 +14,6 @@
 #include <vantage/evaluation/run_figures.hpp>
 #include <vantage/evaluation/spread.hpp>
 #include <vantage/report/report_html.hpp>
-#include <vantage/vision/line_plot.hpp>
-#include <vantage/vision/picture.hpp>
 
 #include "apps/report_commands.hpp"
 #include "apps/run_files.hpp"
@@ -33,8 +30,7 @@ struct CompareRequest {
 // What the table shows of a run.
 struct ComparedRun {
   RunFigures figures;
-  std::string group = {};  // planner and world
-  std::string name = {};   // the same with the seed
+  std::string group = {};  // planner and world, or the folder
 };
 
 ComparedRun compared(const std::string& file, const std::string& text) {
@@ -44,7 +40,6 @@ ComparedRun compared(const std::string& file, const std::string& text) {
     group << run.figures.planner << " in " << std::filesystem::path(run.figures.world).stem().string() << ", "
           << run.figures.resolution_m << " m";
     run.group = group.str();
-    run.name = run.group + ", seed " + std::to_string(run.figures.seed);
     return run;
   } catch (const std::invalid_argument&) {
     throw std::runtime_error(file + ": is no report.json of a run");
@@ -109,34 +104,6 @@ void print_table(const std::vector<ComparedRun>& runs, std::ostream& out) {
   out << "(median, with quartiles where there are several runs)\n";
 }
 
-Picture overlaid_coverage(const std::vector<ComparedRun>& runs) {
-  LinePlot views{.title = "coverage over views",
-                 .x_label = "views (scans integrated)",
-                 .y_label = "",
-                 .y_range = std::pair(0.0, 100.0),
-                 .value_unit = " %"};
-  LinePlot metres = views;
-  metres.title = "coverage over metres";
-  metres.x_label = "path travelled [m]";
-  const bool objects = std::all_of(runs.begin(), runs.end(),
-                                   [](const ComparedRun& run) { return run.figures.command == "reconstruct"; });
-  views.y_label = objects ? "surface seen [%]" : "observable cells known rightly [%]";
-  metres.y_label = views.y_label;
-  for (const ComparedRun& run : runs) {
-    LineSeries over_views{.name = run.name};
-    LineSeries over_metres{.name = run.name};
-    for (const KnownSoFar& after : run.figures.after_views) {
-      over_views.x.push_back(static_cast<double>(after.view));
-      over_metres.x.push_back(after.path_m);
-      over_views.y.push_back(after.covered ? 100.0 * *after.covered : std::nan(""));
-    }
-    over_metres.y = over_views.y;
-    views.series.push_back(std::move(over_views));
-    metres.series.push_back(std::move(over_metres));
-  }
-  return draw_line_plots(std::vector<LinePlot>{std::move(views), std::move(metres)});
-}
-
 void compare(const CompareRequest& request) {
   check_targets(request.out, "");
   std::vector<ComparedRun> runs;
@@ -147,22 +114,13 @@ void compare(const CompareRequest& request) {
     runs.push_back(compared(file, reported.back().report));
     if (request.by_folder) {
       runs.back().group = std::filesystem::absolute(file).parent_path().filename().string();
-      runs.back().name = runs.back().group;
     }
   }
   const std::filesystem::path folder = request.out;
   make_folder(folder);
   write_report_html(reported, folder / "report.html");
-  std::vector<std::filesystem::path> files{folder / "report.html"};
-  if (std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
-        return std::any_of(run.figures.after_views.begin(), run.figures.after_views.end(),
-                           [](const KnownSoFar& after) { return after.covered.has_value(); });
-      })) {
-    files.push_back(folder / "coverage.png");
-    write_png(overlaid_coverage(runs), files.back());
-  }
   print_table(runs, std::cout);
-  tell_files(std::cout, files);
+  tell_files(std::cout, {folder / "report.html"});
 }
 
 }  // namespace
@@ -173,9 +131,7 @@ void add_compare_command(CLI::App& app) {
   command->add_option("reports", request->reports, "As runs wrote them; a run.record beside one is replayed")
       ->required()
       ->type_name("REPORT.json...");
-  command->add_option("--out", request->out, "Folder for report.html and coverage.png; must be given")
-      ->required()
-      ->type_name("DIR");
+  command->add_option("--out", request->out, "Folder for report.html; must be given")->required()->type_name("DIR");
   command->add_flag("--by-folder", request->by_folder,
                     "Call runs by their folders: where settings differ, not planner, world and seed");
   command->footer(

@@ -6,7 +6,6 @@
 #include <vantage/map/octomap_bridge.hpp>
 #include <vantage/report/report_html.hpp>
 #include <vantage/vision/floor_plan.hpp>
-#include <vantage/vision/line_plot.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>
 #include "apps/run_files.hpp"
@@ -67,29 +66,14 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
 std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
                                                       const std::string& json, const OccupancyMap& map,
                                                       const std::filesystem::path& run_record) {
-  std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
-                                           folder / "known.png"};
+  std::vector<std::filesystem::path> files{folder / "report.json",    folder / "map.ot",
+                                           folder / "floor_plan.png", run_record,
+                                           folder / "report.html",    folder / "frames"};
   detail::write_whole_file(files[0], json);
   save_octomap(map, files[1]);
   FloorPlanContent content = journey(record.run);
   content.title = std::filesystem::path(record.run.world).filename().string() + ": map and frames";
   write_png(draw_floor_plan(map, content), files[2]);
-
-  LineSeries free{.name = "free"};
-  LineSeries occupied{.name = "occupied"};
-  const double cell_m3 = map.resolution_m() * map.resolution_m() * map.resolution_m();
-  for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    for (LineSeries* series : {&free, &occupied}) {
-      series->x.push_back(static_cast<double>(i + 1));
-    }
-    free.y.push_back(cell_m3 * static_cast<double>(record.frames[i].free_cells));
-    occupied.y.push_back(static_cast<double>(record.frames[i].occupied_cells) / 1000.0);
-  }
-  const std::vector<LinePlot> plots{
-      {.title = "free volume", .x_label = "frames", .y_label = "m^3", .series = {free}},
-      {.title = "occupied cells", .x_label = "frames", .y_label = "thousands of cells", .series = {occupied}}};
-  write_png(draw_line_plots(plots), files[3]);
-  files.insert(files.end(), {run_record, folder / "report.html", folder / "frames"});
   write_report_html(std::vector<ReportedRun>{{json, run_record}}, folder / "report.html");
   return files;
 }

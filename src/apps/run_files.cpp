@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "apps/run_files.hpp"
 
-#include <cmath>
 #include <iostream>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vantage/map/octomap_bridge.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
-#include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
-#include <vantage/vision/field_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
-#include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/void_picture.hpp>
 #include <vector>
 
@@ -21,14 +17,6 @@
 
 namespace vantage::apps {
 namespace {
-
-double length_of(const std::vector<Eigen::Vector3d>& way) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    length_m += (way[i] - way[i - 1]).norm();
-  }
-  return length_m;
-}
 
 std::string title_of(const RunRecord& record) {
   return record.planner + " in " + std::filesystem::path(record.world).stem().string();
@@ -43,52 +31,6 @@ Picture floor_plan(const RunRecord& record, const OccupancyMap& map, const Range
   }
   content.show_directions = sensor.horizontal_angle_rad() < 2.0 * std::numbers::pi - 0.1;
   return draw_floor_plan(map, content);
-}
-
-// Plot of the coverage or, for an object, of the seen coverage.
-Picture coverage_plot(const RunRecord& record) {
-  LineSeries over_views;
-  LineSeries over_metres;
-  for (const ViewRecord& view : record.views) {
-    const std::optional<double> coverage = record.seen_coverage ? view.seen_coverage : view.coverage;
-    const double percent = coverage ? 100.0 * *coverage : std::nan("");
-    over_views.x.push_back(static_cast<double>(view.view));
-    over_views.y.push_back(percent);
-    over_metres.x.push_back(view.path_length_m);
-    over_metres.y.push_back(percent);
-  }
-  const auto plot = [&](const char* over, const char* x_label, LineSeries series) {
-    return LinePlot{.title = title_of(record) + ": coverage over " + over,
-                    .x_label = x_label,
-                    .y_label = record.seen_coverage ? "surface seen [%]" : "observable cells known rightly [%]",
-                    .series = {std::move(series)},
-                    .y_range = std::pair(0.0, 100.0),
-                    .value_unit = " %"};
-  };
-  return draw_line_plots(std::vector<LinePlot>{plot("views", "views (scans integrated)", std::move(over_views)),
-                                               plot("metres", "path travelled [m]", std::move(over_metres))});
-}
-
-Picture field_picture(const HarmonicField& field, const OccupancyMap& map, const std::string& title) {
-  std::vector<VoxelIndex> cells;
-  std::vector<double> phi;
-  std::vector<VoxelIndex> frontier;
-  const Potential& potential = field.potential;
-  potential.domain().for_each_cell([&](const VoxelIndex& cell) {
-    cells.push_back(cell);
-    phi.push_back(*potential.at(cell));
-    if (potential.domain().is_sink(cell)) {
-      frontier.push_back(cell);
-    }
-  });
-  FieldContent content;
-  content.title = title;
-  content.cells = cells;
-  content.phi = phi;
-  content.frontier = frontier;
-  content.streamline = field.streamline;
-  content.sensor_m = map.frame().centre_of(potential.source());
-  return draw_field(map, content);
 }
 
 void add_void_pictures(const VoidSearch& search, const OccupancyMap& map, const Pose& sensor,
@@ -116,16 +58,10 @@ void add_void_pictures(const VoidSearch& search, const OccupancyMap& map, const 
 }  // namespace
 
 void PlanPictures::look(const ExplorationPlanner& planner, const OccupancyMap& map, const ViewRecord& view) {
-  const std::string after = " after view " + std::to_string(view.view);
-  const auto* harmonic = dynamic_cast<const HarmonicPlanner*>(&planner);
-  if (harmonic != nullptr && harmonic->field() && length_of(harmonic->field()->streamline) > longest_m_) {
-    longest_m_ = length_of(harmonic->field()->streamline);
-    pictures_["field.png"] = field_picture(*harmonic->field(), map, "harmonic field" + after);
-  }
   const auto* searcher = dynamic_cast<const FrontierVoidPlanner*>(&planner);
   if (searcher != nullptr && searcher->search().frontier_voids.size() > most_voids_) {
     most_voids_ = searcher->search().frontier_voids.size();
-    add_void_pictures(searcher->search(), map, view.pose, after, pictures_);
+    add_void_pictures(searcher->search(), map, view.pose, " after view " + std::to_string(view.view), pictures_);
   }
 }
 
@@ -146,9 +82,8 @@ void make_run_folder(const std::filesystem::path& folder) {
       std::filesystem::remove(file, error);
     }
   };
-  for (const char* name :
-       {"report.json", "report.html", "run.record", "map.ot", "floor_plan.png", "coverage.png", "known.png",
-        "field.png", "voids.png", "void_utility.png", "selection.json", "selection.png"}) {
+  for (const char* name : {"report.json", "report.html", "run.record", "map.ot", "floor_plan.png", "voids.png",
+                           "void_utility.png", "selection.json"}) {
     remove(folder / name);
     remove(folder / (std::string(name) + ".part"));
   }
@@ -169,12 +104,10 @@ std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& 
                                                    const OccupancyMap& map, const RangeSensor& sensor,
                                                    const std::map<std::string, Picture>& pictures,
                                                    const std::optional<std::filesystem::path>& record) {
-  std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png",
-                                           folder / "coverage.png"};
+  std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png"};
   write_report_json(run, files[0]);
   save_octomap(map, files[1]);
   write_png(floor_plan(run, map, sensor), files[2]);
-  write_png(coverage_plot(run), files[3]);
   for (const auto& [name, picture] : pictures) {
     files.push_back(folder / name);
     write_png(picture, files.back());

@@ -16,8 +16,7 @@
 
 namespace vantage::apps {
 
-/// Keeps the most telling pictures of all plans of a run: the field with the longest way downhill, and the most
-/// voids with a frontier.
+/// Keeps the most telling pictures of all plans of a run: those with the most voids that have a frontier.
 class PlanPictures {
  public:
   /// Called right after a planner made a plan for `map` where `view` was taken. Most planners leave no picture.
@@ -26,7 +25,6 @@ class PlanPictures {
   [[nodiscard]] const std::map<std::string, Picture>& pictures() const { return pictures_; }
 
  private:
-  double longest_m_ = 0.0;
   std::size_t most_voids_ = 0;
   std::map<std::string, Picture> pictures_;
 };

@@ -17,7 +17,6 @@
 #include <vantage/evaluation/recorded_views.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/version.hpp>
-#include <vantage/vision/line_plot.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>
 #include "apps/commands.hpp"
@@ -336,31 +335,6 @@ std::string selection_json(const ReplayRequest& request, const Comparison& compa
   return json.dump(1) + "\n";
 }
 
-Picture selection_plot(const Comparison& comparison) {
-  const auto plot = [&](const char* title, const ViewOrderCurve& greedy, auto values) {
-    LinePlot result{.title = title,
-                    .x_label = "views used",
-                    .y_label = "known, of what all views know [%]",
-                    .y_range = std::pair(0.0, 100.0)};
-    const auto add = [&](const ViewOrderCurve& curve) {
-      LineSeries series{.name = curve.name};
-      for (const double value : values(curve)) {
-        series.x.push_back(static_cast<double>(series.x.size() + 1));
-        series.y.push_back(100.0 * value);
-      }
-      result.series.push_back(std::move(series));
-    };
-    for (const Contender& contender : comparison.contenders) {
-      add(contender.curve);
-    }
-    add(greedy);
-    return result;
-  };
-  return draw_line_plots(std::vector<LinePlot>{
-      plot("volume", comparison.greedy_volume, [](const ViewOrderCurve& curve) { return curve.volume; }),
-      plot("surface", comparison.greedy_surface, [](const ViewOrderCurve& curve) { return curve.surface; })});
-}
-
 }  // namespace
 
 int select_views(const ReplayRequest& request, const Recording& recording, ProgressStream& told) {
@@ -375,10 +349,8 @@ int select_views(const ReplayRequest& request, const Recording& recording, Progr
   if (!request.run.out.empty()) {
     const std::filesystem::path folder(request.run.out);
     make_run_folder(folder);
-    const std::vector<std::filesystem::path> files{folder / "selection.json", folder / "selection.png"};
-    detail::write_whole_file(files[0], json);
-    write_png(selection_plot(comparison), files[1]);
-    tell_files(progress, files);
+    detail::write_whole_file(folder / "selection.json", json);
+    tell_files(progress, {folder / "selection.json"});
   }
   give_json(request.run.json, json);
   return kDone;

@@ -96,20 +96,6 @@ void Canvas::line(cv::Point2d from, cv::Point2d to, Colour colour, double thickn
   cv::line(sheet_, fixed(from), fixed(to), scalar(colour), fine(thickness), cv::LINE_AA, kShift);
 }
 
-void Canvas::polyline(std::span<const cv::Point2d> points, Colour colour, double thickness) {
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    line(points[i - 1], points[i], colour, thickness);
-  }
-}
-
-void Canvas::polygon(std::span<const cv::Point2d> points, Colour fill) {
-  std::vector<cv::Point> corners;
-  for (const cv::Point2d& point : points) {
-    corners.push_back(fixed(point));
-  }
-  cv::fillConvexPoly(sheet_, corners, scalar(fill), cv::LINE_AA, kShift);
-}
-
 void Canvas::disc(cv::Point2d centre, double radius, Colour fill) {
   cv::circle(sheet_, fixed(centre), fixed({radius, 0.0}).x, scalar(fill), cv::FILLED, cv::LINE_AA, kShift);
 }
@@ -123,8 +109,9 @@ void Canvas::arrow(cv::Point2d middle, cv::Point2d direction, double length, Col
   const cv::Point2d across(-along.y, along.x);
   const cv::Point2d tip = middle + 0.5 * along;
   line(middle - 0.5 * along, tip - 0.25 * along, colour, thickness);
-  polygon(std::array<cv::Point2d, 3>{tip, tip - 0.45 * along + 0.22 * across, tip - 0.45 * along - 0.22 * across},
-          colour);
+  const std::array<cv::Point, 3> head{fixed(tip), fixed(tip - 0.45 * along + 0.22 * across),
+                                      fixed(tip - 0.45 * along - 0.22 * across)};
+  cv::fillConvexPoly(sheet_, head, scalar(colour), cv::LINE_AA, kShift);
 }
 
 void Canvas::image(const cv::Mat& image, const cv::Rect2d& area) {
@@ -148,17 +135,6 @@ void Canvas::text(cv::Point2d at, const std::string& words, double size, Colour 
                          static_cast<int>(std::lround(at.y * kFine)));
   cv::putText(sheet_, printable(words), origin, kFont, font_scale(size), scalar(colour), stroke(size, bold),
               cv::LINE_AA);
-}
-
-void Canvas::label(cv::Point2d at, const std::string& words, double size, Colour colour, Align align) {
-  const double shift =
-      align == Align::Left ? 0.0 : text_width(words, size, true) * (align == Align::Centre ? 0.5 : 1.0);
-  const cv::Point origin(static_cast<int>(std::lround((at.x - shift) * kFine)),
-                         static_cast<int>(std::lround(at.y * kFine)));
-  const std::string shown = printable(words);
-  cv::putText(sheet_, shown, origin, kFont, font_scale(size), scalar(kPaper), stroke(size, true) + fine(4.0),
-              cv::LINE_AA);
-  cv::putText(sheet_, shown, origin, kFont, font_scale(size), scalar(colour), stroke(size, true), cv::LINE_AA);
 }
 
 Picture Canvas::finish() const {

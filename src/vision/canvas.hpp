@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <span>
 #include <string>
 #include <vantage/vision/picture.hpp>
 
@@ -45,8 +44,6 @@ class Canvas {
   void rectangle(const cv::Rect2d& area, Colour fill);
   void frame(const cv::Rect2d& area, Colour colour, double thickness = 1.0);
   void line(cv::Point2d from, cv::Point2d to, Colour colour, double thickness = 1.0);
-  void polyline(std::span<const cv::Point2d> points, Colour colour, double thickness);
-  void polygon(std::span<const cv::Point2d> points, Colour fill);
   void disc(cv::Point2d centre, double radius, Colour fill);
   /// Draws an arrow of the given length, centred on `middle`, along `direction` (picture axes, any length).
   void arrow(cv::Point2d middle, cv::Point2d direction, double length, Colour colour, double thickness);
@@ -56,8 +53,6 @@ class Canvas {
   void text(cv::Point2d at, const std::string& words, double size, Colour colour, Align align = Align::Left,
             bool bold = false);
   [[nodiscard]] static double text_width(const std::string& words, double size, bool bold = false);
-  /// Draws text with a white outline, for use over a picture.
-  void label(cv::Point2d at, const std::string& words, double size, Colour colour, Align align = Align::Left);
 
   [[nodiscard]] Picture finish() const;
 

@@ -134,13 +134,13 @@ TEST_F(ProgramOutput, TargetsAreTriedBeforeTheRun) {
 
 TEST_F(ProgramOutput, AFolderHoldsOneRun) {
   fs::create_directories(fs::path(out()) / "frames");
-  for (const char* name : {"field.png", "voids.png", "run.record", "report.html", "map.ot.part", "known.png",
+  for (const char* name : {"voids.png", "void_utility.png", "run.record", "report.html", "map.ot.part",
                            "selection.json", "notes.txt", "frames/1.png", "frames/notes.txt"}) {
     std::ofstream(fs::path(out()) / name) << "old";
   }
   EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--quiet --out '" + out() + "'"), 3) << err_;
-  const std::set<std::string> expected{"report.json", "map.ot",      "floor_plan.png", "coverage.png",
-                                       "run.record",  "report.html", "frames",         "notes.txt"};
+  const std::set<std::string> expected{"report.json", "map.ot", "floor_plan.png", "run.record",
+                                       "report.html", "frames", "notes.txt"};
   EXPECT_EQ(files_in(out()), expected);
   EXPECT_EQ(files_in(fs::path(out()) / "frames"), std::set<std::string>{"notes.txt"});
   EXPECT_EQ(nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json")).at("views"), 2);
@@ -187,7 +187,7 @@ TEST_F(ProgramOutput, ASignalEndsARunAfterTheViewAtHand) {
     const nlohmann::json report = nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json"));
     EXPECT_EQ(report.at("outcome"), "interrupted");
     EXPECT_EQ(report.at("reason"), "interrupted after view " + std::to_string(report.at("views").get<int>()));
-    for (const char* name : {"map.ot", "floor_plan.png", "coverage.png", "run.record", "report.html"}) {
+    for (const char* name : {"map.ot", "floor_plan.png", "run.record", "report.html"}) {
       EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
     }
     EXPECT_EQ(shell("vantage report '" + out() + "/run.record' --out '" + (folder_ / "again").string() + "' | grep " +

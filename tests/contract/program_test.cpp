@@ -257,7 +257,7 @@ TEST_F(Program, ExploresAndReports) {
   EXPECT_EQ(report["cycles"][0]["pose"].size(), 7U);
   EXPECT_NE(ran.err.find("view    1"), std::string::npos) << ran.err;
   EXPECT_EQ(nlohmann::json::parse(vantage::test::read_all(fs::path(out()) / "report.json")), report);
-  for (const char* name : {"report.json", "map.ot", "floor_plan.png", "coverage.png"}) {
+  for (const char* name : {"report.json", "map.ot", "floor_plan.png"}) {
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
     EXPECT_NE(ran.err.find(name), std::string::npos) << "the program names what it wrote: " << name;
   }
@@ -373,7 +373,6 @@ TEST_F(Program, RecordsAndCompares) {
   EXPECT_EQ(compared.code, 0) << compared.err;
   EXPECT_NE(compared.out.find("nearest-frontier in table, 0.2 m  2     3 (3-3)"), std::string::npos) << compared.out;
   EXPECT_GT(fs::file_size(fs::path(out()) / "report.html"), 500'000U);
-  EXPECT_TRUE(fs::exists(fs::path(out()) / "coverage.png"));
 
   const Ran named =
       run("compare --by-folder '" + first + "/report.json' '" + second + "/report.json' --out '" + out() + "'");

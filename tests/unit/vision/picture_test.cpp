@@ -2,17 +2,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <stdexcept>
 #include <utility>
-#include <vantage/vision/field_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
-#include <vantage/vision/line_plot.hpp>
 #include <vantage/vision/void_picture.hpp>
 #include <vector>
 
@@ -114,68 +108,6 @@ TEST(Picture, SideBySideAndBackFromAFile) {
   EXPECT_THROW((void)read_picture(file), std::runtime_error);
 }
 
-TEST(FieldPicture, ShowsTheFrontierAndTheStreamline) {
-  const OccupancyMap map = walled_room();
-  std::vector<VoxelIndex> cells;
-  std::vector<double> phi;
-  std::vector<VoxelIndex> frontier;
-  for (std::int32_t x = 1; x < 30; ++x) {
-    for (std::int32_t y = 1; y < 39; ++y) {
-      cells.push_back({x, y, 10});
-      phi.push_back(1.0 - x / 29.0);
-      if (x == 29) {
-        frontier.push_back(cells.back());
-      }
-    }
-  }
-  FieldContent content{.title = "field", .cells = cells, .phi = phi, .frontier = frontier, .streamline = {}};
-  content.sensor_m = {0.2, 2.0, 1.05};
-  const std::vector<Eigen::Vector3d> way{{0.2, 2.0, 1.05}, {2.9, 2.0, 1.05}};
-  content.streamline = way;
-  const Picture picture = draw_field(map, content);
-  EXPECT_GT(count(picture, 226, 38, 45), 38U * 100U);
-  phi.pop_back();
-  content.phi = phi;
-  EXPECT_THROW((void)draw_field(map, content), std::invalid_argument);
-}
-
-TEST(LinePlot, ValuesOfCurvesThatEndAtTheSameHeightAreAllLegible) {
-  // Five equal curves: the labels of their last values must not overlap.
-  const auto legible = [](double height) {
-    LinePlot plot{.series = {}, .y_range = std::pair{0.0, 100.0}};
-    for (int i = 0; i < 5; ++i) {
-      plot.series.push_back({"", {0, 1}, {height, height}});
-    }
-    const Picture picture = draw_line_plots(std::vector<LinePlot>{plot});
-    const auto first = static_cast<std::size_t>(static_cast<double>(picture.width) * (1.0 - 64.0 / 640.0));
-    Picture margin{.width = picture.width - first, .height = picture.height, .rgb = {}};
-    for (std::size_t row = 0; row < picture.height; ++row) {
-      const auto start = picture.rgb.begin() + static_cast<std::ptrdiff_t>(3 * (row * picture.width + first));
-      margin.rgb.insert(margin.rgb.end(), start, start + static_cast<std::ptrdiff_t>(3 * margin.width));
-    }
-    return std::array{count(margin, 35, 84, 173), count(margin, 214, 90, 29), count(margin, 22, 145, 84),
-                      count(margin, 132, 56, 163), count(margin, 190, 150, 20)};
-  };
-  for (const double height : {0.0, 50.0, 100.0}) {
-    const auto pixels = legible(height);
-    const auto [least, most] = std::minmax_element(pixels.begin(), pixels.end());
-    EXPECT_GT(*least, 20U) << height;
-    EXPECT_GT(10 * *least, 9 * *most) << height << ": one hides another";
-  }
-}
-
-TEST(LinePlot, DrawsCurvesAndRefusesMismatch) {
-  LinePlot plot{.title = "t", .x_label = "x", .y_label = "y", .series = {{"a", {0, 1, 2}, {0, 50, 99}}}};
-  plot.series.push_back({"b", {0, 1, 2}, {0, std::numeric_limits<double>::quiet_NaN(), 30}});
-  const Picture picture = draw_line_plots(std::vector<LinePlot>{plot, plot});
-  EXPECT_GT(count(picture, 35, 84, 173), 500U);
-  EXPECT_GT(picture.width, 2 * picture.height);
-  EXPECT_NO_THROW((void)draw_line_plots(std::vector<LinePlot>{LinePlot{}})) << "no data is a plot without curves";
-  plot.series[0].y.pop_back();
-  EXPECT_THROW((void)draw_line_plots(std::vector<LinePlot>{plot}), std::invalid_argument);
-  EXPECT_THROW((void)draw_line_plots({}), std::invalid_argument);
-}
-
 TEST(Png, WritesAFileOrSaysWhyNot) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("vantage_picture_" + std::to_string(::getpid()) + ".png");
@@ -185,7 +117,7 @@ TEST(Png, WritesAFileOrSaysWhyNot) {
   EXPECT_EQ(magic, "\x89PNG");
   std::filesystem::remove(file);
   EXPECT_THROW(write_png(Picture{}, file), std::invalid_argument);
-  EXPECT_THROW(write_png(draw_line_plots(std::vector<LinePlot>{LinePlot{}}), "/nowhere/a.png"), std::runtime_error);
+  EXPECT_THROW(write_png(Picture{1, 1, {0, 0, 0}}, "/nowhere/a.png"), std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
