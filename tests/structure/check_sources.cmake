@@ -3,8 +3,8 @@
 #       -D COMPONENTS=<what is built> -P check_sources.cmake
 # Checks that every file names its licence, every header is guarded and installed, and no file is too long: 300 lines
 # for a header, 400 for a source. Public headers include of impl/ only bodies, and vantage.hpp includes all of core.
-# A test in tests/unit is named after the file that it tests, which lies on its own floor or, where the test needs more
-# than that floor, on a lower one.
+# Every floor has a test in its folder of tests/unit. A test there is named after the file that it tests, which lies on
+# its own floor or, where the test needs more than that floor, on a lower one.
 cmake_minimum_required(VERSION 3.22...3.25)
 
 set(faults)
@@ -60,6 +60,16 @@ foreach(file IN LISTS files)
     if(NOT tested)
       list(APPEND faults "${file}: no file of include/ or src/ is named ${name}")
     endif()
+  endif()
+endforeach()
+
+file(GLOB floors RELATIVE "${ROOT}/include/vantage" "${ROOT}/include/vantage/*/*.hpp")
+list(TRANSFORM floors REPLACE "/.*" "")
+list(REMOVE_DUPLICATES floors)
+foreach(floor IN LISTS floors)
+  file(GLOB tests "${ROOT}/tests/unit/${floor}/*_test.cpp")
+  if(NOT tests)
+    list(APPEND faults "include/vantage/${floor}: no test in tests/unit/${floor}")
   endif()
 endforeach()
 
