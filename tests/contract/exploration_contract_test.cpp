@@ -23,6 +23,7 @@
 #include <vantage/sim/world.hpp>
 #include <vector>
 
+#include "contract/asked_goals.hpp"
 #include "contract/changing_world.hpp"
 #include "contract/real_building.hpp"
 #include "contract/slow_audit.hpp"
@@ -34,6 +35,7 @@ namespace {
 
 using testing::Building;
 using testing::ChangingWorld;
+using testing::length_m;
 
 constexpr std::size_t kMostPlans = 1000;
 
@@ -126,18 +128,6 @@ std::ostream& operator<<(std::ostream& out, const Scene& scene) {
              << scene.body_cells << " cells, " << (scene.flat ? "plane" : "space") << ")";
 }
 
-double turn_rad(const Pose& a, const Pose& b) {
-  return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
-}
-
-double length_m(const std::vector<Pose>& path) {
-  double sum_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    sum_m += (path[i].translation() - path[i - 1].translation()).norm();
-  }
-  return sum_m;
-}
-
 Pose along(const std::vector<Pose>& path, double way_m) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double step_m = (path[i].translation() - path[i - 1].translation()).norm();
@@ -195,8 +185,8 @@ class DrivenRobot {
   Plan last;
   std::size_t collisions = 0;      // poses in which the body overlaps a solid cell that the map does not hold free
   std::set<VoxelIndex> misled_by;  // solid cells that it overlaps and that the map holds free
-  std::size_t most_asks = 0;       // longest series of plans for one goal without progress
-  std::size_t disagreements = 0;   // between plans of one and of two threads
+  testing::AskedGoals asked;
+  std::size_t disagreements = 0;  // between plans of one and of two threads
   std::size_t thrown = 0;
 
   [[nodiscard]] std::vector<VoxelIndex> left() const {
@@ -277,45 +267,20 @@ class DrivenRobot {
       last = plan();
       if (last.outcome != Outcome::Move && last.outcome != Outcome::Explored && !world_.is_static() && waits < 30) {
         ++waits;  // as the contract asks: plan again later
-        asks_ = 0;
+        asked.begin_again();
         look();
         continue;
       }
       if (last.outcome != Outcome::Move) {
         return;
       }
-      count_asks();
+      asked.count(last, pose_, map_);
       for (const VoxelIndex& cell : last.sought) {
         looked_.sought[cell].insert(map_.frame().cell_of(last.goal.pose.translation()));
       }
       go();
       look();
     }
-  }
-
-  // A robot that stands at its goal, or beside it, comes no nearer. It may be asked to look from there for other
-  // cells: beside it, if it saw all that was sought before.
-  void count_asks() {
-    const bool may_look_again = (asked_.translation() - pose_.translation()).norm() < 0.5 * scene_.cell_m ||
-                                std::none_of(asked_sought_.begin(), asked_sought_.end(), [&](const VoxelIndex& cell) {
-                                  return map_.at(cell) == Occupancy::Unknown;
-                                });
-    const bool for_others = std::none_of(last.sought.begin(), last.sought.end(), [&](const VoxelIndex& cell) {
-      return std::find(asked_sought_.begin(), asked_sought_.end(), cell) != asked_sought_.end();
-    });
-    const double way_m = length_m(last.path);
-    const double turn = turn_rad(pose_, last.goal.pose);
-    const VoxelIndex goal = map_.frame().cell_of(last.goal.pose.translation());
-    const bool no_nearer = way_m > asked_way_m_ - 0.01 && (way_m > 0.01 || turn > asked_turn_ - 0.01);
-    const bool again =
-        goal == asked_for_ && turn_rad(asked_, last.goal.pose) < 0.1 && no_nearer && !(may_look_again && for_others);
-    asks_ = again ? asks_ + 1 : 1;
-    most_asks = std::max(most_asks, asks_);
-    asked_for_ = goal;
-    asked_ = last.goal.pose;
-    asked_sought_ = last.sought;
-    asked_way_m_ = again ? std::min(way_m, asked_way_m_) : way_m;
-    asked_turn_ = again ? std::min(turn, asked_turn_) : turn;
   }
 
   void go() {
@@ -415,12 +380,6 @@ class DrivenRobot {
   std::unique_ptr<ExplorationPlanner> on_threads_;
   Pose pose_ = Pose::Identity();
   testing::LookedAt looked_;
-  VoxelIndex asked_for_{};
-  Pose asked_ = Pose::Identity();
-  double asked_way_m_ = 0.0;
-  double asked_turn_ = 0.0;
-  std::vector<VoxelIndex> asked_sought_;
-  std::size_t asks_ = 0;
 };
 
 std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
@@ -447,7 +406,7 @@ bool expect_contract(const std::string& planner, Host host, const Scene& scene) 
   EXPECT_LE(run.misled_by.size(), 3U);
   EXPECT_EQ(run.collisions, 0U);
   EXPECT_EQ(run.disagreements, 0U) << "of one and two threads";
-  EXPECT_LE(run.most_asks, 2U) << "the same goal again and again";
+  EXPECT_LE(run.asked.most(), 2U) << "the same goal again and again";
   const bool all_is_seen = run.last.outcome == Outcome::Explored ||
                            run.last.reason.find("there is more to see from free space that is cut off") == 0;
   if (all_is_seen) {  // of what can be reached

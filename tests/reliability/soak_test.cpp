@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -20,6 +19,7 @@
 #include <vantage/robot/free_flyer.hpp>
 #include <vector>
 
+#include "contract/asked_goals.hpp"
 #include "contract/changing_world.hpp"
 
 namespace vantage {
@@ -35,10 +35,6 @@ constexpr double kBodyCells = 0.7;
 std::size_t bytes_in_use() {
   const struct mallinfo2 info = ::mallinfo2();
   return info.uordblks + info.hblkhd;
-}
-
-double turn_rad(const Pose& a, const Pose& b) {
-  return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
 }
 
 /// What was measured in a tenth of the cycles.
@@ -74,7 +70,7 @@ class TirelessRobot {
       ++window.plans;
       if (plan.outcome == Outcome::Move) {
         ++moves;
-        count_asks(plan);
+        asked.count(plan, pose_, map_);
         follow(plan);
       } else {
         blocked += plan.outcome == Outcome::Blocked ? 1U : 0U;
@@ -87,29 +83,9 @@ class TirelessRobot {
   std::array<Window, kWindows> windows;
   std::size_t moves = 0;
   std::size_t blocked = 0;
-  std::size_t most_asks = 0;  // longest series of plans for one goal without progress
+  testing::AskedGoals asked;
 
  private:
-  // A robot that stands at its goal comes no nearer. It may be asked to look from there for other cells.
-  void count_asks(const Plan& plan) {
-    const bool was_there = (asked_.translation() - pose_.translation()).norm() < 0.5 * map_.resolution_m();
-    const bool for_others = std::none_of(plan.sought.begin(), plan.sought.end(), [&](const VoxelIndex& cell) {
-      return std::find(sought_.begin(), sought_.end(), cell) != sought_.end();
-    });
-    double way = turn_rad(pose_, plan.goal.pose);
-    for (std::size_t i = 1; i < plan.path.size(); ++i) {
-      way += (plan.path[i].translation() - plan.path[i - 1].translation()).norm();
-    }
-    const bool again = asks_ > 0 && map_.frame().cell_of(plan.goal.pose.translation()) == asked_for_ &&
-                       turn_rad(asked_, plan.goal.pose) < 0.1 && way > asked_way_ - 0.01 &&
-                       !(was_there && for_others);
-    asks_ = again ? asks_ + 1 : 1;
-    most_asks = std::max(most_asks, asks_);
-    asked_for_ = map_.frame().cell_of(plan.goal.pose.translation());
-    asked_ = plan.goal.pose;
-    sought_ = plan.sought;
-    asked_way_ = again ? std::min(way, asked_way_) : way;
-  }
   // Goes from pose to pose of the path, and stops before the person.
   void follow(const Plan& plan) {
     for (const Pose& next : plan.path) {
@@ -132,7 +108,7 @@ class TirelessRobot {
         map_.set(cell, Occupancy::Unknown);
       }
     });
-    asks_ = 0;  // what comes now has a reason
+    asked.begin_again();
   }
 
   ChangingWorld world_;
@@ -142,11 +118,6 @@ class TirelessRobot {
   Pose pose_;
   std::unique_ptr<ExplorationPlanner> planner_;
   std::mt19937 engine_{5};
-  VoxelIndex asked_for_{};
-  Pose asked_ = Pose::Identity();
-  std::vector<VoxelIndex> sought_;
-  double asked_way_ = 0.0;
-  std::size_t asks_ = 0;
 };
 
 class Soak : public ::testing::TestWithParam<std::string> {};
@@ -166,10 +137,10 @@ TEST_P(Soak, MemoryAndTimeStayAsTheyAreAndNoGoalComesAgainAndAgain) {
     times += number.data();
   }
   std::printf("%s: %zu cycles, %zu moves, at most %zu plans in a row for one goal\n  MB in use%s\n  ms a plan%s\n",
-              GetParam().c_str(), cycles, robot.moves, robot.most_asks, bytes.c_str(), times.c_str());
+              GetParam().c_str(), cycles, robot.moves, robot.asked.most(), bytes.c_str(), times.c_str());
   EXPECT_GT(robot.moves, cycles / 10);
   EXPECT_LE(robot.blocked, cycles / 100);
-  EXPECT_LE(robot.most_asks, 2U) << "the same goal again and again";
+  EXPECT_LE(robot.asked.most(), 2U) << "the same goal again and again";
   // Warm from the fourth tenth on; from there on nothing may pile up.
   std::size_t warm = 0;
   for (std::size_t i = 3; i < 6; ++i) {
