@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <span>
-#include <vantage/raytrace/impl/sliced_words.hpp>
 #include <vantage/raytrace/impl/slices.hpp>
 
 #if defined(__x86_64__)

@@ -2,7 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <vantage/map/impl/lane_queries.hpp>
+#include <vantage/raytrace/impl/single_walk.hpp>
 #include <vantage/raytrace/impl/slices.hpp>
 
 namespace vantage {
@@ -32,8 +37,77 @@ class TileWalk {
   SliceWalk walk_;
 };
 
-}  // namespace vantage
+inline TileWalk::TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin,
+                          InstructionSet set)
+    : grid_(grid), frame_(frame), set_(set), origin_(origin), slices_(grid, set), walk_(set) {
+  for (std::size_t of = 0; of < beams_.size(); ++of) {
+    beams_[of] = SliceBeam(frame, origin, of / 2, of % 2 == 1);
+  }
+}
 
-#if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/raytrace/impl/tile_walk.ipp>
-#endif
+inline void TileWalk::walk(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, double free_share,
+                           HitSink& hits) {
+  RayExtents extents;
+  measure(block, origin_, frame_.size_m, extents, set_);
+  const RayBlock::PerRay<std::int32_t> classes = classes_of(extents);
+  std::uint64_t singly = 0;  // rays that need an exact walk
+  while (rays != 0) {
+    const std::int32_t chosen = classes[static_cast<std::size_t>(std::countr_zero(rays))];
+    const std::uint64_t of_class = equal_to(classes, chosen, set_) & rays;
+    rays &= ~of_class;
+    constexpr int kFew = 4;
+    singly |= std::popcount(of_class) < kFew
+                  ? of_class
+                  : walk_class(beams_[static_cast<std::size_t>(chosen)], extents, of_class, within, free_share, hits);
+  }
+  for (; singly != 0; singly &= singly - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(singly));
+    const Eigen::Vector3d end(block.end[0][i], block.end[1][i], block.end[2][i]);
+    SingleWalk walk(frame_, origin_, frame_.cell_of(origin_), end, frame_.cell_of(end));
+    if (walk.advance(grid_)) {
+      hits.take(i, walk.cell());
+    }
+  }
+}
+
+// The class of each ray: twice its major axis, plus one if it goes up.
+inline RayBlock::PerRay<std::int32_t> TileWalk::classes_of(const RayExtents& extents) const {
+  RayBlock::PerRay<std::int32_t> classes;
+  compiled_for(set_, [extent_x = extents[0].data(), extent_y = extents[1].data(), extent_z = extents[2].data(),
+                      of = classes.data()] {
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+      const double x = std::abs(extent_x[i]);
+      const double y = std::abs(extent_y[i]);
+      const double z = std::abs(extent_z[i]);
+      const double by_x = extent_x[i] > 0.0 ? 1.0 : 0.0;
+      const double by_y = extent_y[i] > 0.0 ? 3.0 : 2.0;
+      const double by_z = extent_z[i] > 0.0 ? 5.0 : 4.0;
+      const double of_y_or_z = y >= z ? by_y : by_z;
+      const double y_or_z = y >= z ? y : z;
+      const double fastest = x >= y_or_z ? by_x : of_y_or_z;
+      of[i] = static_cast<std::int32_t>(fastest);
+    }
+  });
+  return classes;
+}
+
+// Walks the rays of a class. Returns those that need an exact walk.
+inline std::uint64_t TileWalk::walk_class(SliceBeam beam, const RayExtents& extents, std::uint64_t rays,
+                                          const VoxelBox& within, double free_share, HitSink& hits) {
+  walk_.lines.place(extents, beam.axes, set_);
+  const auto [shortest, longest] = range_of(walk_.lines.length, rays, set_);
+  if (!(shortest > SliceBeam::kRounding)) {
+    return rays;
+  }
+  walk_.shortest = shortest;
+  beam.tighten(walk_.lines, rays, set_);
+  // The last slice in which a ray may meet a cell of interest.
+  slices_.begin(std::min(beam.last_slice_of(within),
+                         static_cast<std::int64_t>(longest + beam.from_entry + SliceBeam::kRounding)));
+  const double free_cells = free_share * shortest - SliceBeam::kRounding;
+  const auto first = free_cells > 0.0 ? static_cast<std::int64_t>(std::max(free_cells + beam.from_entry, 0.0)) : 0;
+  return walk_.follow(slices_, beam, rays, slices_.next_stop(beam, first), hits);
+}
+
+}  // namespace vantage
