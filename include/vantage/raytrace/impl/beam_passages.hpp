@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// The passages of a beam (glossary in view_walk.hpp): the windows along its way in which a cell may stop a ray, in
+/// The passages of a beam (glossary in slices.hpp): the windows along its way in which a cell may stop a ray, in
 /// the order of the walk. They are recorded once for a group of tiles, and then asked for the beam of one tile after
 /// the other.
 class BeamPassages {

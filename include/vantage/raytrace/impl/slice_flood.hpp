@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// Flood (glossary in view_walk.hpp): follows a whole beam through slices as a set of cells, without looking at
+/// Flood (glossary in slices.hpp): follows a whole beam through slices as a set of cells, without looking at
 /// single rays. The set is an upper bound: no ray of the beam meets a cell outside it.
 ///
 /// In one slice, a ray crosses at most one face across each lateral axis, in the direction of its slope. From the
