@@ -49,6 +49,17 @@ inline bool cut_window(const std::uint64_t* from, const Cut& cut, std::uint32_t*
 
 #if defined(__x86_64__)
 
+VANTAGE_TARGET_AVX512 inline bool any_in_rows_avx512(const std::uint64_t* rows, std::int32_t count,
+                                                     std::uint64_t columns) {
+  const __m512i of_interest = _mm512_set1_epi64(static_cast<std::int64_t>(columns));
+  __mmask8 any = 0;
+  for (; count > 0; count -= 8, rows += 8) {
+    const auto some = static_cast<__mmask8>(count < 8 ? (1 << count) - 1 : 255);
+    any |= _mm512_test_epi64_mask(_mm512_maskz_loadu_epi64(some, rows), of_interest);
+  }
+  return any != 0;
+}
+
 VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
   constexpr __mmask8 kEight = 255;
   const __m128i shift = _mm_cvtsi32_si128(static_cast<std::int32_t>(cut.shift));
@@ -169,6 +180,11 @@ VANTAGE_INLINE bool ViewSlices::any_stops(std::int64_t slice, const LateralCells
   }
   const std::uint64_t* const rows = rows_of(layer, column, kAny) + (cells.lo[1] - layer.first_v);
   const std::uint64_t columns = ~std::uint64_t{0} << lo & ~std::uint64_t{0} >> (63 - hi);
+#if defined(__x86_64__)
+  if (set_ == InstructionSet::Avx512) {
+    return detail::any_in_rows_avx512(rows, cells.extent(1), columns);
+  }
+#endif
   return detail::any_in_rows(rows, cells.extent(1), columns);
 }
 
