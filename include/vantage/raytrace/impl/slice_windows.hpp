@@ -103,9 +103,34 @@ inline std::uint64_t swap_index_bits(std::uint64_t word) {
 /// The rows of four slices, four rows per slice.
 using WordRows = std::array<std::uint32_t, 16>;
 
+#if defined(__x86_64__)
+namespace detail {
+VANTAGE_TARGET_AVX512 inline WordRows rows_avx512(std::span<const std::uint64_t> words) {
+  const __m512i from = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28);
+  __m512i rows = _mm512_setzero_si512();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const __m256i low = _mm256_set1_epi32(static_cast<std::int32_t>(words[i]));
+    const __m256i high = _mm256_set1_epi32(static_cast<std::int32_t>(words[i] >> 32U));
+    const __m512i halves = _mm512_maskz_inserti64x4(0xFF, _mm512_castsi256_si512(low), high, 1);
+    const __m512i cells = _mm512_and_si512(_mm512_maskz_srlv_epi32(0xFFFF, halves, from), _mm512_set1_epi32(15));
+    const __m128i columns = _mm_cvtsi32_si128(static_cast<std::int32_t>(4 * i));
+    rows = _mm512_or_si512(rows, _mm512_maskz_sll_epi32(0xFFFF, cells, columns));
+  }
+  WordRows all;
+  _mm512_storeu_si512(all.data(), rows);
+  return all;
+}
+}  // namespace detail
+#endif
+
 /// Converts up to eight adjacent words, ordered by slices (in_slices), to rows of cells. Word i gives the columns 4 i
 /// to 4 i + 3.
 [[nodiscard]] inline WordRows rows_of_words(std::span<const std::uint64_t> words, InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::Avx512) {
+    return detail::rows_avx512(words);
+  }
+#endif
   WordRows all{};
   compiled_for(set, [words, rows = all.data()] {
     for (std::size_t i = 0; i < words.size(); ++i) {
