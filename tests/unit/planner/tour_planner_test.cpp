@@ -43,10 +43,14 @@ OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) 
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    problem.shows.push_back(plain ? 1.0 : std::floor(place(engine)) + (i == 0 ? 1.0 : 0.0));
+    problem.shows.push_back(plain ? 1.0 : place(engine));
     if (!plain) {
       problem.prices.push_back(place(engine));
     }
+  }
+  const double all = std::accumulate(problem.shows.begin(), problem.shows.end(), 0.0);
+  for (double& share : problem.shows) {
+    share /= all;
   }
   return problem;
 }
@@ -55,15 +59,13 @@ OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) 
 double cost_of(const OpenTourProblem& problem, const std::vector<std::size_t>& tour) {
   double length = 0.0;
   double waited = 0.0;
-  double things = 0.0;
   std::size_t before = problem.size();
   for (const std::size_t site : tour) {
     length += problem.legs[before * problem.size() + site];
     waited += problem.shows[site] * length;
-    things += problem.shows[site];
     before = site;
   }
-  return 0.5 * (length + waited / things) - (problem.prices.empty() ? 0.0 : problem.prices[tour.front()]);
+  return 0.5 * (length + waited) - (problem.prices.empty() ? 0.0 : problem.prices[tour.front()]);
 }
 
 double cost_of_all_orders(const OpenTourProblem& problem) {
@@ -88,7 +90,7 @@ void expect_all_once(const std::vector<std::size_t>& tour, std::size_t n) {
 TEST(OpenTour, CostsAreThoseOfTheDefinition) {
   OpenTourProblem problem;
   problem.legs = {0, 3, 5, 0, 7, 2};  // 0->1: 3, 1->0: 5, start->0: 7, start->1: 2
-  problem.shows = {3, 1};
+  problem.shows = {0.75, 0.25};
   EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 0.5 * (10 + 0.75 * 7 + 0.25 * 10));
   EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 0.5 * (7 + 0.25 * 2 + 0.75 * 7));
   EXPECT_EQ(detail::open_tour(problem), (std::vector<std::size_t>{1, 0}));
@@ -111,9 +113,9 @@ TEST(OpenTour, MuchThatIsFarComesBeforeAScrapThatIsADetour) {
     }
     return problem;
   };
-  EXPECT_EQ(detail::open_tour(on_a_line({-1.0, 1.5}, {1.0, 99.0})), (std::vector<std::size_t>{1, 0}));
-  EXPECT_EQ(detail::open_tour(on_a_line({-1.0, 1.5}, {50.0, 50.0})), (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(detail::open_tour(on_a_line({1.0, 1.5}, {1.0, 99.0})), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(detail::open_tour(on_a_line({-1.0, 1.5}, {0.01, 0.99})), (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(detail::open_tour(on_a_line({-1.0, 1.5}, {0.5, 0.5})), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(detail::open_tour(on_a_line({1.0, 1.5}, {0.01, 0.99})), (std::vector<std::size_t>{0, 1}));
 }
 
 TEST(OpenTour, IsTheBestOfAllOrdersOfAFewSites) {

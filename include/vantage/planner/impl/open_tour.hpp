@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <vantage/compiler.hpp>
 #include <vector>
 
@@ -13,14 +12,14 @@ namespace vantage::detail {
 ///
 ///     (length of the tour + mean length until a thing is shown) / 2 - price of the first site
 ///
-/// where each site shows a number of things. So a site that shows much comes early, and one that shows little where
-/// it is a small detour. The sum of the first two terms is the sum over the legs of
+/// where each site shows a share of the things. So a site that shows much comes early, and one that shows little
+/// where it is a small detour. The sum of the first two terms is the sum over the legs of
 ///
 ///     leg * (1 + share of the things that are not shown before it) / 2
 struct OpenTourProblem {
   /// The legs, as rows of n numbers: row i leads from site i to each site, row n from the start.
   std::vector<double> legs;
-  std::vector<double> shows;   ///< by site: how many things, >= 0, not all 0; empty: all is shown by the first
+  std::vector<double> shows;   ///< by site: a share of the things, in sum 1; empty: all are shown by the first
   std::vector<double> prices;  ///< by site; empty: none
 
   /// The number of sites.
@@ -31,12 +30,9 @@ struct OpenTourProblem {
     const double price = before == size() && !prices.empty() ? prices[site] : 0.0;
     return legs[before * size() + site] * (1.0 + unseen) / 2.0 - price;
   }
-  /// How many things a site shows.
-  [[nodiscard]] double shown_by(std::size_t site) const { return shows.empty() ? 1.0 : shows[site]; }
-  /// The share of the things that is not shown once so many are.
-  [[nodiscard]] double unseen_after(double shown) const {
-    const double all = shows.empty() ? 1.0 : std::accumulate(shows.begin(), shows.end(), 0.0);
-    return std::max(0.0, 1.0 - shown / all);
+  /// The share of the things that is not shown after `site` if it was `unseen` before.
+  [[nodiscard]] double unseen_after(std::size_t site, double unseen) const {
+    return shows.empty() ? 0.0 : std::max(0.0, unseen - shows[site]);
   }
   /// The cost of a tour.
   [[nodiscard]] double cost(const std::vector<std::size_t>& tour) const;

@@ -29,23 +29,22 @@ inline Tour exact_tour(const OpenTourProblem& problem) {
     double cost = kInfinity;
     std::size_t before = 0;
   };
-  std::vector<double> shown(all + 1, 0.0);  // by visited sites
-  std::vector<State> best((all + 1) * n);   // by visited sites, then by the last of them
+  std::vector<double> unseen(all + 1, 1.0);  // by visited sites
+  std::vector<State> best((all + 1) * n);    // by visited sites, then by the last of them
   for (std::size_t visited = 1; visited <= all; ++visited) {
     const auto lowest = static_cast<std::size_t>(std::countr_zero(visited));
-    shown[visited] = shown[visited & (visited - 1)] + problem.shown_by(lowest);
+    unseen[visited] = problem.unseen_after(lowest, unseen[visited & (visited - 1)]);
     for (std::size_t last = 0; last < n; ++last) {
       if ((visited >> last & 1U) == 0) {
         continue;
       }
       const std::size_t earlier = visited ^ (std::size_t{1} << last);
-      const double unseen = problem.unseen_after(shown[earlier]);
       State& state = best[visited * n + last];
       if (earlier == 0) {
-        state = {problem.step(n, last, unseen), n};
+        state = {problem.step(n, last, unseen[earlier]), n};
       }
       for (std::size_t before = 0; before < n && earlier != 0; ++before) {
-        const double cost = best[earlier * n + before].cost + problem.step(before, last, unseen);
+        const double cost = best[earlier * n + before].cost + problem.step(before, last, unseen[earlier]);
         if ((earlier >> before & 1U) != 0 && cost < state.cost) {
           state = {cost, before};
         }
@@ -82,14 +81,13 @@ inline Tour greedy_tour(const OpenTourProblem& problem, std::size_t first) {
 
 // What the steps to the positions [from, to) cost.
 inline double cost_between(const OpenTourProblem& problem, const Tour& tour, std::size_t from, std::size_t to) {
-  double shown = 0.0;
+  double unseen = 1.0;
   double sum = 0.0;
   for (std::size_t position = 0; position < std::min(to, tour.size()); ++position) {
     if (position >= from) {
-      sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position],
-                          problem.unseen_after(shown));
+      sum += problem.step(position == 0 ? problem.size() : tour[position - 1], tour[position], unseen);
     }
-    shown += problem.shown_by(tour[position]);
+    unseen = problem.unseen_after(tour[position], unseen);
   }
   return sum;
 }

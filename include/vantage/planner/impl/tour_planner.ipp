@@ -92,8 +92,13 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
   if (situation.sensor().looks_all_around()) {
     problem.prices = prices_of(chosen, situation, views, legs);  // it sees about half of the rest in passing
   } else {
+    double all = 0.0;
     for (const std::size_t view : chosen) {
       problem.shows.push_back(static_cast<double>(views[view].sees.size()));
+      all += problem.shows.back();
+    }
+    for (double& share : problem.shows) {
+      share /= all;
     }
   }
   std::vector<std::size_t> tour;
