@@ -48,11 +48,14 @@ SensorCarrier carrier_of(const ExploreRequest& request) {
   }
   (void)start_in_world(request);  // a faulty start is found before the world is read
   SensorCarrier carrier{.sensor = is_plan(request) ? in_plane(sensor_of(request)) : sensor_of(request)};
+  // A robot that does not stop meets walls that it saw only in passing: a free cell may contain a part of one.
+  const double margin_m = request.max_speed_m_s ? 0.5 * request.resolution_m : 0.0;
   if (!request.band.empty() || is_plan(request)) {
-    carrier.platform = std::make_shared<const GroundRobot>(GroundRobotOptions{.radius_m = request.robot_radius_m});
+    carrier.platform = std::make_shared<const GroundRobot>(
+        GroundRobotOptions{.radius_m = request.robot_radius_m, .margin_m = margin_m});
   } else {
     carrier.platform = std::make_shared<const FreeFlyer>(
-        FreeFlyerOptions{.radius_m = request.robot_radius_m, .yaw_only = request.yaw_only});
+        FreeFlyerOptions{.radius_m = request.robot_radius_m, .margin_m = margin_m, .yaw_only = request.yaw_only});
   }
   return carrier;
 }
