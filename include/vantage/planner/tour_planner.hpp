@@ -45,15 +45,16 @@ struct TourOptions {
 /// 1. Views: from places around the nearest parts, beside the others, and from where the robot is, towards the
 ///    middles of the parts; what each sees of the frontier is found by rays, for an even choice of its unknown cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
-/// 3. Order: of all orders of the chosen views the one with the least mean of two costs, that of the whole tour and the
+/// 3. Order: of all orders of the chosen views the one with the least mean of two costs, that of the whole tour and
+/// the
 ///    mean one until a cell is seen. So a view that shows little waits, unless it is on the way.
 /// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
 ///
 /// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, the tour leads over the middles of the
 /// parts, and ends at the first place that sees a cell of the first one. It sees much in passing, so the legs behind
 /// the first count half. From the cost of the tour the price of its first part is taken: what it would cost to come
-/// back to it later, from where the unknown is. That is the mean way to it from the parts, each weighed by the unknown
-/// cells nearest to it and out of range. So what is far from the rest is done while the robot is near.
+/// back to it later, from where the unknown is. That is the mean way to it from the parts, each weighed by the
+/// unknown cells nearest to it and out of range. So what is far from the rest is done while the robot is near.
 ///
 /// A leg takes the longer of moving and turning. The first leaves from the motion that the robot is in: with a motion
 /// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.

@@ -25,8 +25,8 @@ struct MotionModel {
   void validate() const;
   /// How long a straight way takes from rest to rest, seconds.
   [[nodiscard]] double travel_time_s(double length_m) const;
-  /// The same for a robot that moves already, at most as fast as it can: at `speed_m_s` along the way, or away from its
-  /// end if that is negative.
+  /// The same for a robot that moves already, at most as fast as it can: at `speed_m_s` along the way, or away from
+  /// its end if that is negative.
   [[nodiscard]] double travel_time_s(double length_m, double speed_m_s) const;
   /// How long a turn takes from rest to rest, seconds.
   [[nodiscard]] double turn_time_s(double angle_rad) const;
