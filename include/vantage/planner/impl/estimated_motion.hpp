@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/robot/motion_model.hpp>
 #include <vantage/robot/trajectory.hpp>
@@ -30,11 +31,13 @@ class EstimatedMotion {
   /// Its velocity where it comes nearest to a position, metres per second. Zero if it comes no nearer than the
   /// distance in which it can stop: then it does not follow the path.
   [[nodiscard]] Eigen::Vector3d velocity_at(const Eigen::Vector3d& position_m) const {
-    const double step_s = std::max(0.05, way_.duration_s() / 1000.0);
+    constexpr double kStepS = 0.05;
+    constexpr double kMostSteps = 1000.0;
+    const auto steps = static_cast<int>(std::min(std::ceil(way_.duration_s() / kStepS), kMostSteps));
     MotionState nearest;
     double least_m = stops_within_m_;
-    for (double time_s = 0.0; time_s < way_.duration_s(); time_s += step_s) {
-      const MotionState state = way_.at(time_s);
+    for (int step = 0; step < steps; ++step) {
+      const MotionState state = way_.at(way_.duration_s() * step / steps);
       if (const double off_m = (state.position_m - position_m).norm(); off_m < least_m) {
         least_m = off_m;
         nearest = state;
