@@ -54,12 +54,7 @@ bool TimedRobot::way_is_free(const OccupancyMap& map) const {
 }
 
 bool TimedRobot::follow(const OccupancyMap& map, const std::vector<Pose>& path) {
-  std::vector<Eigen::Vector3d> corners;
-  corners.reserve(path.size());
-  for (const Pose& pose : path) {
-    corners.emplace_back(pose.translation());
-  }
-  std::optional<Trajectory> next = Trajectory::through(trajectory_.at(elapsed_s()), corners, motion_, admits(map));
+  std::optional<Trajectory> next = Trajectory::through(trajectory_.at(elapsed_s()), path, motion_, admits(map));
   if (!next) {
     return false;
   }

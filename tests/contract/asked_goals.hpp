@@ -2,20 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vector>
 
-namespace vantage::testing {
+#include <vantage/geometry/impl/pose_distance.hpp>
 
-[[nodiscard]] inline double length_m(const std::vector<Pose>& path) {
-  double sum_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    sum_m += (path[i].translation() - path[i - 1].translation()).norm();
-  }
-  return sum_m;
-}
+namespace vantage::testing {
 
 /// Counts how often in a row a planner asks for the same goal without progress.
 class AskedGoals {
@@ -32,10 +25,10 @@ class AskedGoals {
     const bool for_others = std::none_of(plan.sought.begin(), plan.sought.end(), [&](const VoxelIndex& cell) {
       return std::find(sought_.begin(), sought_.end(), cell) != sought_.end();
     });
-    const double way_m = length_m(plan.path);
-    const double turn = turn_rad(pose, plan.goal.pose);
+    const double way_m = detail::length_m(plan.path);
+    const double turn = detail::angle_rad(pose, plan.goal.pose);
     const bool same = frame.cell_of(plan.goal.pose.translation()) == frame.cell_of(goal_.translation()) &&
-                      turn_rad(goal_, plan.goal.pose) < 0.1;
+                      detail::angle_rad(goal_, plan.goal.pose) < 0.1;
     const bool no_nearer = way_m > way_m_ - 0.01 && (way_m > 0.01 || turn > turn_rad_ - 0.01);
     const bool again = same && no_nearer && !(may_look_again && for_others);
     in_a_row_ = again ? in_a_row_ + 1 : 1;
@@ -51,10 +44,6 @@ class AskedGoals {
   [[nodiscard]] std::size_t most() const { return most_; }
 
  private:
-  static double turn_rad(const Pose& a, const Pose& b) {
-    return std::acos(std::clamp(optical_axis(a).dot(optical_axis(b)), -1.0, 1.0));
-  }
-
   Pose goal_ = Pose::Identity();
   std::vector<VoxelIndex> sought_;
   double way_m_ = 0.0;

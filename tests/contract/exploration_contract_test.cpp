@@ -33,9 +33,9 @@
 namespace vantage {
 namespace {
 
+using detail::length_m;
 using testing::Building;
 using testing::ChangingWorld;
-using testing::length_m;
 
 constexpr std::size_t kMostPlans = 1000;
 

@@ -46,8 +46,7 @@ struct TourOptions {
 ///    middles of the parts; what each sees of the frontier is found by rays, for an even choice of its unknown cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
 /// 3. Order: of all orders of the chosen views the one with the least mean of two costs, that of the whole tour and
-/// the
-///    mean one until a cell is seen. So a view that shows little waits, unless it is on the way.
+///    the mean one until a cell is seen. So a view that shows little waits, unless it is on the way.
 /// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
 ///
 /// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, the tour leads over the middles of the

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <vantage/compiler.hpp>
+#include <vantage/geometry/pose.hpp>
 #include <vantage/robot/motion_model.hpp>
 #include <vector>
 
@@ -34,6 +35,9 @@ class Trajectory {
   /// admitted; the motions between `corners` are taken as admitted.
   [[nodiscard]] static std::optional<Trajectory> through(const MotionState& start,
                                                          std::span<const Eigen::Vector3d> corners,
+                                                         const MotionModel& motion, const Admits& admits);
+  /// The same by way of the positions of a path. The orientations do not count.
+  [[nodiscard]] static std::optional<Trajectory> through(const MotionState& start, std::span<const Pose> path,
                                                          const MotionModel& motion, const Admits& admits);
 
   /// The same until `time_s`, then straight on to rest.

@@ -17,15 +17,11 @@ class EstimatedMotion {
  public:
   /// The robot sets off along `path`, at least one pose, in the motion that it was in at the first of them.
   void follow(const std::vector<Pose>& path, const MotionModel& motion) {
-    std::vector<Eigen::Vector3d> corners;
-    corners.reserve(path.size());
-    for (const Pose& pose : path) {
-      corners.emplace_back(pose.translation());
-    }
     const auto anywhere = [](const Eigen::Vector3d&, const Eigen::Vector3d&) { return true; };
     stops_within_m_ = 0.5 * motion.max_speed_m_s * motion.max_speed_m_s / motion.max_acceleration_m_s2;
-    way_ = Trajectory::through({corners.front(), velocity_at(corners.front())}, corners, motion, anywhere)
-               .value_or(Trajectory(corners.back()));
+    const Eigen::Vector3d start = path.front().translation();
+    way_ = Trajectory::through({start, velocity_at(start)}, path, motion, anywhere)
+               .value_or(Trajectory(path.back().translation()));
   }
 
   /// Its velocity where it comes nearest to a position, metres per second. Zero if it comes no nearer than the

@@ -238,10 +238,10 @@ VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   ChosenView chosen = situation().sensor().looks_all_around()
                           ? detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, *ways_, plan)
                           : detail::first_view(situation(), nearest, options_, velocity_m_s, *ways_, plan);
-  if (std::optional<std::vector<Pose>> path = path_to(chosen.view.view.pose, chosen.way)) {
-    chosen.path = std::move(*path);
-    if (const std::optional<MotionModel>& motion = situation().setup().motion) {
-      motion_->follow(chosen.path, *motion);
+  if (const std::optional<MotionModel>& motion = situation().setup().motion) {
+    if (std::optional<std::vector<Pose>> path = path_to(chosen.view.view.pose, chosen.way)) {
+      motion_->follow(*path, *motion);
+      chosen.path = std::move(*path);
     }
   }
   return chosen;

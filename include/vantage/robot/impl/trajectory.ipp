@@ -314,6 +314,16 @@ VANTAGE_INLINE std::optional<Trajectory> Trajectory::through(const MotionState& 
   return made;
 }
 
+VANTAGE_INLINE std::optional<Trajectory> Trajectory::through(const MotionState& start, std::span<const Pose> path,
+                                                             const MotionModel& motion, const Admits& admits) {
+  std::vector<Eigen::Vector3d> corners;
+  corners.reserve(path.size());
+  for (const Pose& pose : path) {
+    corners.emplace_back(pose.translation());
+  }
+  return through(start, std::span<const Eigen::Vector3d>(corners), motion, admits);
+}
+
 VANTAGE_INLINE void Trajectory::add(double lasts_s, const MotionState& from, const Eigen::Vector3d& acceleration_m_s2,
                                     bool is_straight) {
   if (lasts_s > 0.0) {

@@ -68,7 +68,7 @@ class ViewpointSearch {
   // The same for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
   // one, that becomes known.
   template <class IsSought>
-  std::vector<FrontierTarget> try_past(const VoxelIndex& unknown, const IsSought& is_sought, std::size_t& pairs) {
+  std::optional<FrontierTarget> try_past(const VoxelIndex& unknown, const IsSought& is_sought, std::size_t& pairs) {
     VoxelIndex before = unknown;
     VoxelIndex first = unknown;
     bool is_before = false;  // whether the next cell is the one before `first`
@@ -87,7 +87,7 @@ class ViewpointSearch {
              VoxelRay(frame_, frame_.centre_of(cell), frame_.centre_of(unknown)).all_from_the_end(passes_by) &&
              in_range(cell, first) && can_face(cell, first);
     });
-    return place ? std::vector<FrontierTarget>{{before, first, *place}} : std::vector<FrontierTarget>();
+    return place ? std::optional(FrontierTarget{before, first, *place}) : std::nullopt;
   }
   [[nodiscard]] std::uint64_t operations() const { return operations_; }
 
@@ -294,16 +294,16 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
     std::erase_if(hidden, [&](const VoxelIndex& cell) {
       return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
     });
-    for (auto cell = hidden.begin(); cell != hidden.end() && survey.targets.empty(); ++cell) {
+    std::optional<FrontierTarget> past;
+    for (auto cell = hidden.begin(); cell != hidden.end() && survey.targets.empty() && !past; ++cell) {
       for (const VoxelIndex& step : kFaceNeighbours) {
-        if (survey.targets.empty() && sought(*cell + step)) {
-          survey.targets = search.try_past(*cell + step, sought, pairs);
-        }
+        past = !past && sought(*cell + step) ? search.try_past(*cell + step, sought, pairs) : past;
       }
     }
-    std::erase_if(hidden, [&](const VoxelIndex& cell) {
-      return !survey.targets.empty() && survey.targets.front().frontier == cell;
-    });
+    if (past) {
+      survey.targets.push_back(*past);
+      std::erase(hidden, past->frontier);
+    }
     survey.exhausted = pairs > 0;
   }
   if (!sensor_.reports_no_return) {
