@@ -51,9 +51,7 @@ struct TourOptions {
 ///
 /// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, the tour leads over the middles of the
 /// parts, and ends at the first place that sees a cell of the first one. It sees much in passing, so the legs behind
-/// the first count half. From the cost of the tour the price of its first part is taken: what it would cost to come
-/// back to it later, from where the unknown is. That is the mean way to it from the parts, each weighed by the
-/// unknown cells nearest to it and out of range. So what is far from the rest is done while the robot is near.
+/// the first count half.
 ///
 /// A leg takes the longer of moving and turning. The first leaves from the motion that the robot is in: with a motion
 /// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.
@@ -62,8 +60,7 @@ struct TourOptions {
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///
 /// Lengths of ways are computed on blocks of cells, so they are off by some per cent, but lead through no wall. The
-/// blocks are kept from plan to plan, except where the reachable space has changed. The idea of the price is that of
-/// Ericson et al. 2025 ("distance advantage"), with unknown cells in place of known ones; that of views for each part
+/// blocks are kept from plan to plan, except where the reachable space has changed. The idea of views for each part
 /// and a tour over them is that of Zhou et al. 2021 (FUEL).
 class TourPlanner final : public FrontierPlanner {
  public:

@@ -26,7 +26,7 @@ using detail::BlockWays;
 using detail::FrontierSite;
 using detail::OpenTourProblem;
 
-// Sites in a plane that show as much, or sites that show different numbers of things and have prices.
+// Sites in a plane that show as much, or sites that show different numbers of things.
 OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) {
   std::uniform_real_distribution<double> place(0.0, 10.0);
   std::vector<std::pair<double, double>> at(n + 1);
@@ -44,9 +44,6 @@ OpenTourProblem random_problem(std::size_t n, std::mt19937& engine, bool plain) 
   }
   for (std::size_t i = 0; i < n; ++i) {
     problem.shows.push_back(plain ? 1.0 : place(engine));
-    if (!plain) {
-      problem.prices.push_back(place(engine));
-    }
   }
   const double all = std::accumulate(problem.shows.begin(), problem.shows.end(), 0.0);
   for (double& share : problem.shows) {
@@ -65,7 +62,7 @@ double cost_of(const OpenTourProblem& problem, const std::vector<std::size_t>& t
     waited += problem.shows[site] * length;
     before = site;
   }
-  return 0.5 * (length + waited) - (problem.prices.empty() ? 0.0 : problem.prices[tour.front()]);
+  return 0.5 * (length + waited);
 }
 
 double cost_of_all_orders(const OpenTourProblem& problem) {
@@ -94,10 +91,9 @@ TEST(OpenTour, CostsAreThoseOfTheDefinition) {
   EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 0.5 * (10 + 0.75 * 7 + 0.25 * 10));
   EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 0.5 * (7 + 0.25 * 2 + 0.75 * 7));
   EXPECT_EQ(detail::open_tour(problem), (std::vector<std::size_t>{1, 0}));
-  problem.shows.clear();  // the first shows all, so that the second leg counts half
-  problem.prices = {5, 1};
-  EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 7 + 0.5 * 3 - 5);
-  EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 2 + 0.5 * 5 - 1);
+  problem.shows = {1, 1};  // any first one shows all, so that the second leg counts half
+  EXPECT_DOUBLE_EQ(problem.cost({0, 1}), 7 + 0.5 * 3);
+  EXPECT_DOUBLE_EQ(problem.cost({1, 0}), 2 + 0.5 * 5);
 }
 
 // A scrap beside the robot is left for later if much waits on the other side; one on the way is not.

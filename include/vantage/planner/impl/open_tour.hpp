@@ -10,29 +10,27 @@ namespace vantage::detail {
 
 /// An open tour from a start over n sites, at least one, none twice. It costs
 ///
-///     (length of the tour + mean length until a thing is shown) / 2 - price of the first site
+///     (length of the tour + mean length until a thing is shown) / 2
 ///
 /// where each site shows a share of the things. So a site that shows much comes early, and one that shows little
-/// where it is a small detour. The sum of the first two terms is the sum over the legs of
+/// where it is a small detour. That is the sum over the legs of
 ///
 ///     leg * (1 + share of the things that are not shown before it) / 2
 struct OpenTourProblem {
   /// The legs, as rows of n numbers: row i leads from site i to each site, row n from the start.
-  std::vector<double> legs;
-  std::vector<double> shows;   ///< by site: a share of the things, in sum 1; empty: all are shown by the first
-  std::vector<double> prices;  ///< by site; empty: none
+  std::vector<double> legs = {};
+  std::vector<double> shows = {};  ///< by site: a share of the things, in sum 1; or 1 each: any first one shows all
 
   /// The number of sites.
-  [[nodiscard]] std::size_t size() const { return std::max(shows.size(), prices.size()); }
+  [[nodiscard]] std::size_t size() const { return shows.size(); }
   /// What it costs to come to `site` from `before`, which is `size()` for the start, with a share of the things not
   /// shown before.
   [[nodiscard]] double step(std::size_t before, std::size_t site, double unseen) const {
-    const double price = before == size() && !prices.empty() ? prices[site] : 0.0;
-    return legs[before * size() + site] * (1.0 + unseen) / 2.0 - price;
+    return legs[before * size() + site] * (1.0 + unseen) / 2.0;
   }
   /// The share of the things that is not shown after `site` if it was `unseen` before.
   [[nodiscard]] double unseen_after(std::size_t site, double unseen) const {
-    return shows.empty() ? 0.0 : std::max(0.0, unseen - shows[site]);
+    return std::max(0.0, unseen - shows[site]);
   }
   /// The cost of a tour.
   [[nodiscard]] double cost(const std::vector<std::size_t>& tour) const;

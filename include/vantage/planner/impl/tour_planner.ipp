@@ -18,7 +18,6 @@
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/tour_legs.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
-#include <vantage/planner/impl/unknown_shares.hpp>
 #include <vantage/view/impl/frontier_sites.hpp>
 #include <vantage/view/impl/targets_in_sight.hpp>
 
@@ -58,24 +57,6 @@ struct NearestSites {
   }
 };
 
-// What it would cost to come back to each view from where the unknown is: that is where the robot will be by then.
-// What the sensor, which sees all around, has in range of a view needs no way.
-inline std::vector<double> prices_of(const std::vector<std::size_t>& chosen, const Situation& situation,
-                                     const std::vector<TourView>& views, TourLegs& legs) {
-  std::vector<VoxelIndex> places(chosen.size());
-  std::transform(chosen.begin(), chosen.end(), places.begin(), [&](std::size_t view) { return views[view].place; });
-  const OccupancyMap& map = situation.map();
-  const double range_m = counted_range_m(map, situation.sensor());
-  const std::vector<double> shares = unknown_shares(map, range_m, range_m, places);
-  std::vector<double> prices(chosen.size(), 0.0);
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    for (std::size_t from = 0; from < chosen.size(); ++from) {
-      prices[i] += shares[from] > 0.0 ? shares[from] * legs.moving(chosen[from], chosen[i]) : 0.0;
-    }
-  }
-  return prices;
-}
-
 // The views in the order of a tour.
 inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, const Situation& situation,
                                         const std::vector<TourView>& views, TourLegs& legs) {
@@ -89,13 +70,12 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
       problem.legs.push_back(legs.between(from < n ? chosen[from] : views.size(), to));
     }
   }
-  if (situation.sensor().looks_all_around()) {
-    problem.prices = prices_of(chosen, situation, views, legs);  // it sees about half of the rest in passing
-  } else {
+  problem.shows.assign(n, 1.0);  // a sensor that looks all around sees about half of the rest in passing
+  if (!situation.sensor().looks_all_around()) {
     double all = 0.0;
-    for (const std::size_t view : chosen) {
-      problem.shows.push_back(static_cast<double>(views[view].sees.size()));
-      all += problem.shows.back();
+    for (std::size_t i = 0; i < n; ++i) {
+      problem.shows[i] = static_cast<double>(views[chosen[i]].sees.size());
+      all += problem.shows[i];
     }
     for (double& share : problem.shows) {
       share /= all;

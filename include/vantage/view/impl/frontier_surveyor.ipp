@@ -42,20 +42,32 @@ class ViewpointSearch {
       return std::nullopt;
     }
     return memory_.look_around(
-        unknown, tried_.tried(unknown), [&](const VoxelIndex& cell) { return passes(cell); },
+        unknown, 0, tried_.tried(unknown), [&](const VoxelIndex& cell) { return passes(cell); },
         [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
   // Searches backwards from a frontier cell for a viewpoint that sees a part of one of its unknown neighbours.
   template <class IsSought>
   std::optional<FrontierTarget> look_back_from(const VoxelIndex& frontier, const IsSought& is_sought) {
+    std::vector<VoxelIndex> steps;
+    std::uint32_t about = 0;
+    bool any_tried = false;
+    for (std::size_t i = 0; i < kFaceNeighbours.size(); ++i) {
+      if (is_sought(frontier + kFaceNeighbours[i])) {
+        steps.push_back(kFaceNeighbours[i]);
+        about |= 1U << i;
+        any_tried = any_tried || tried_.tried(frontier + kFaceNeighbours[i]);
+      }
+    }
+    if (steps.empty()) {
+      return std::nullopt;
+    }
     const auto seen_from = [&](const VoxelIndex& cell) {
-      return std::find_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
-        return is_sought(frontier + step) && sees_a_part(cell, frontier + step);
-      });
+      return std::find_if(steps.begin(), steps.end(),
+                          [&](const VoxelIndex& step) { return sees_a_part(cell, frontier + step); });
     };
     const std::optional<VoxelIndex> viewpoint = memory_.look_around(
-        frontier, true, [&](const VoxelIndex& cell) { return passes(cell); },
-        [&](const VoxelIndex& cell) { return seen_from(cell) != kFaceNeighbours.end(); });
+        frontier, about, any_tried, [&](const VoxelIndex& cell) { return passes(cell); },
+        [&](const VoxelIndex& cell) { return seen_from(cell) != steps.end(); });
     return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
                      : std::nullopt;
   }
@@ -277,15 +289,15 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
   std::erase_if(hidden, [&](const VoxelIndex& cell) {
     return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
   });
-  if (survey.targets.empty()) {
-    std::erase_if(hidden, [&](const VoxelIndex& cell) {
-      const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
-      if (target) {
-        survey.targets.push_back(*target);
-      }
-      return target.has_value();
-    });
-  }
+  std::erase_if(hidden, [&](const VoxelIndex& cell) {
+    const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
+    if (target) {
+      survey.targets.push_back(*target);
+    }
+    return target.has_value();
+  });
+  std::sort(survey.targets.begin(), survey.targets.end(),
+            [](const FrontierTarget& a, const FrontierTarget& b) { return RasterOrder{}(a.frontier, b.frontier); });
   memory_->forget_others();
   if (survey.targets.empty()) {
     // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too

@@ -23,11 +23,11 @@
 
 namespace vantage::detail {
 
-/// Remembers, from survey to survey, the viewpoint that was found for each unknown cell, until a cell that the search
-/// has looked at changes. Its answers are always the same as those of a new memory.
+/// Remembers, from survey to survey, the viewpoint that was found for each cell, until a cell that the search has
+/// looked at changes. Its answers are always the same as those of a new memory.
 ///
 ///     Block  4 x 4 x 4 cells: one bit each for clear and reachable, number of the survey in which one changed
-///     Answer viewpoint of an unknown cell (or none), blocks that its search has looked at,
+///     Answer viewpoint for a cell (or none), blocks that its search has looked at,
 ///            boxes that it has skipped because nothing in them was reachable
 ///
 ///     follow():       blocks written since the last survey are compared with the stored bits -> Block::changed
@@ -40,8 +40,8 @@ class SightMemory {
  public:
   /// Updates the clear and the reachable cells; resting places (TriedViews) count as not reachable. `reachable` must
   /// be the same object in every call, and must have followed `map` once since the last call. Searches use
-  /// `direction_count` rays of length `furthest_m`, metres; if one of these or the cell size changes, all answers are
-  /// dropped.
+  /// `direction_count` rays of length `furthest_m`, metres, level ones if the region of the map is one layer of
+  /// cells; if one of these or the cell size changes, all answers are dropped.
   void follow(const OccupancyMap& map, const ReachableSpace& reachable, const TriedViews& tried, double furthest_m,
               std::size_t direction_count);
 
@@ -51,14 +51,14 @@ class SightMemory {
   /// Whether the platform can bring the sensor to this cell and it does not rest, as of the last `follow`.
   [[nodiscard]] bool is_reachable(const VoxelIndex& cell) const;
 
-  /// Searches along the rays from `unknown`: each continues while `passes(cell)`, and ends at the first reachable
+  /// Searches along the rays from `cell`: each continues while `passes(cell)`, and ends at the first reachable
   /// cell with `serves(cell)`. Returns the result of the first ray in the order of directions, or the stored answer
-  /// if it is still valid. `passes` and `serves` must call `is_clear` for every cell that their result depends on. If
-  /// they depend on anything else, pass `anew` = true: then the search is done, and its result is not kept for later
-  /// surveys.
+  /// if it is still valid. `passes` and `serves` must call `is_clear` for every cell that their result depends on.
+  /// They may depend on `about`, too, an answer to another number is not valid. If they depend on anything else, pass
+  /// `anew` = true: then the search is done, and its result is not kept for later surveys.
   template <class Passes, class Serves>
-  [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
-                                                      const Serves& serves);
+  [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& cell, std::uint32_t about, bool anew,
+                                                      const Passes& passes, const Serves& serves);
   /// Deletes the answers that were not requested since the last `follow`.
   void forget_others();
 
@@ -75,7 +75,8 @@ class SightMemory {
     std::array<Block, Brick::kWords> blocks = {};
   };
   struct Answer {
-    VoxelIndex unknown = {};
+    VoxelIndex cell = {};
+    std::uint32_t about = 0;
     std::optional<VoxelIndex> viewpoint = {};
     bool may_stand = false;                     // may be reused in later surveys
     std::uint32_t found = 0;                    // survey of the search
@@ -92,7 +93,7 @@ class SightMemory {
   // The number of the blocks of a brick, stored if necessary.
   BrickDirectory::Number store(const VoxelIndex& brick);
   // The answer of a cell, a new one if there is none. Valid until the next call.
-  [[nodiscard]] Answer& answer_of(const VoxelIndex& unknown);
+  [[nodiscard]] Answer& answer_of(const VoxelIndex& cell);
   [[nodiscard]] bool stands(const Answer& answer) const;
   static std::uint64_t bit_of(std::size_t offset) { return std::uint64_t{1} << (offset & 63U); }
 
@@ -101,6 +102,7 @@ class SightMemory {
   double cell_size_m_ = 0.0;
   double furthest_m_ = 0.0;
   std::size_t direction_count_ = 0;
+  bool is_level_ = false;
   std::optional<SightTree> tree_;
   KnownMap map_;  // of the last follow
   OccupancyMap::Revision followed_ = 0;
@@ -116,7 +118,7 @@ class SightMemory {
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
   std::vector<Answer> answers_;
-  VoxelTable<std::uint32_t> numbers_;  // of the answers, by unknown cell
+  VoxelTable<std::uint32_t> numbers_;  // of the answers, by cell
 };
 
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
@@ -146,19 +148,19 @@ inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
 }
 
 template <class Passes, class Serves>
-std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& unknown, bool anew, const Passes& passes,
-                                                   const Serves& serves) {
-  Answer& answer = answer_of(unknown);
+std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& cell, std::uint32_t about, bool anew,
+                                                   const Passes& passes, const Serves& serves) {
+  Answer& answer = answer_of(cell);
   const bool asked_before = answer.asked == survey_;  // in this survey, from another frontier cell
   answer.asked = survey_;
-  if (asked_before || (!anew && stands(answer))) {
+  if (answer.about == about && (asked_before || (!anew && stands(answer)))) {
     return answer.viewpoint;
   }
-  answer = {.unknown = unknown, .found = survey_, .asked = survey_};
+  answer = {.cell = cell, .about = about, .found = survey_, .asked = survey_};
   asked_ = &answer;
   ++question_;
   answer.viewpoint = tree_->first(
-      unknown,
+      cell,
       [&](const VoxelBox& cells) {
         const bool may_hold = places_.touches(cells);
         if (!may_hold) {
@@ -166,7 +168,7 @@ std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& unknown, bo
         }
         return may_hold;
       },
-      passes, [&](const VoxelIndex& cell) { return is_reachable(cell) && serves(cell); });
+      passes, [&](const VoxelIndex& place) { return is_reachable(place) && serves(place); });
   asked_ = nullptr;
   answer.may_stand = !anew;
   return answer.viewpoint;

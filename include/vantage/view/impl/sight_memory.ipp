@@ -25,7 +25,10 @@ inline BrickPlane without_resting(BrickPlane cells, const VoxelIndex& brick, con
 
 VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const ReachableSpace& reachable,
                                         const TriedViews& tried, double furthest_m, std::size_t direction_count) {
-  if (cell_size_m_ != map.resolution_m() || furthest_m_ != furthest_m || direction_count_ != direction_count) {
+  const bool is_level = map.region() && map.region()->extent().z == 1;
+  if (cell_size_m_ != map.resolution_m() || furthest_m_ != furthest_m || direction_count_ != direction_count ||
+      is_level_ != is_level) {
+    is_level_ = is_level;
     begin(map, furthest_m, direction_count);
   }
   asked_ = nullptr;
@@ -40,7 +43,8 @@ VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_
   answers_.clear();
   numbers_.clear();
   cell_size_m_ = 0.0;  // starts again if the next lines throw
-  tree_.emplace(map.frame(), spread_directions(direction_count), furthest_m);
+  tree_.emplace(map.frame(), is_level_ ? level_directions(direction_count) : spread_directions(direction_count),
+                furthest_m);
   cell_size_m_ = map.resolution_m();
   furthest_m_ = furthest_m;
   direction_count_ = direction_count;
@@ -127,11 +131,11 @@ VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {
                       [&](const VoxelBox& cells) { return places_.touches(cells); });
 }
 
-VANTAGE_INLINE SightMemory::Answer& SightMemory::answer_of(const VoxelIndex& unknown) {
+VANTAGE_INLINE SightMemory::Answer& SightMemory::answer_of(const VoxelIndex& cell) {
   const auto next = static_cast<std::uint32_t>(answers_.size());
-  const std::uint32_t number = numbers_.place(unknown, next);
+  const std::uint32_t number = numbers_.place(cell, next);
   if (number == next) {
-    answers_.push_back({.unknown = unknown});
+    answers_.push_back({.cell = cell});
   }
   return answers_[number];
 }
@@ -140,7 +144,7 @@ VANTAGE_INLINE void SightMemory::forget_others() {
   if (std::erase_if(answers_, [&](const Answer& answer) { return answer.asked != survey_; }) > 0) {
     numbers_.clear();
     for (const Answer& answer : answers_) {
-      numbers_.place(answer.unknown, static_cast<std::uint32_t>(&answer - answers_.data()));
+      numbers_.place(answer.cell, static_cast<std::uint32_t>(&answer - answers_.data()));
     }
   }
 }
