@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // plan/<planner>/tunnel-folded, plan/<planner>/tunnel-spread: the same tunnel of ten million known cells of 0.1 m,
 // folded into a compact block, and as a staircase over 2 x 2 km. Times a complete plan after the cells in front of a
-// hole in the wall became known. The cost should follow the cells, not their bounding box. `first_ms` is the time of
-// the first plan, `map_mb` the memory of the map, `planner_mb` that of the planner after the last plan.
+// hole in the wall became known. The cost should follow the cells, not their bounding box. `first_ms` is the
+// processor time of the first plan, `map_mb` the memory of the map, `planner_mb` that of the planner after the last
+// plan.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
-#include <chrono>
+#include <ctime>
 #include <memory>
 #include <string>
 #include <vantage/planner/make_planner.hpp>
@@ -74,9 +75,9 @@ void plan_in_tunnel(benchmark::State& state, const std::string& name, Course cou
       make_planner(name, {.sensor = RangeSensor::preset("kinect"),
                           .platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.3})});
   const Pose pose = pose_looking({0.85, 0.85, 0.85}, 0.0);
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   (void)planner->plan(tunnel.map, pose);
-  const std::chrono::duration<double, std::milli> first = std::chrono::steady_clock::now() - start;
+  const double first_ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::size_t next = 0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -86,7 +87,7 @@ void plan_in_tunnel(benchmark::State& state, const std::string& name, Course cou
     benchmark::DoNotOptimize(planner->plan(tunnel.map, pose));
   }
   state.counters["known"] = static_cast<double>(counts.free + counts.occupied);
-  state.counters["first_ms"] = first.count();
+  state.counters["first_ms"] = first_ms;
   state.counters["map_mb"] = static_cast<double>(tunnel.map.memory_bytes()) / 1e6;
   state.counters["planner_mb"] = megabytes_in_use() - before_mb;
 }

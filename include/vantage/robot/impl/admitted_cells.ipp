@@ -15,6 +15,29 @@ namespace detail {
 
 inline constexpr std::int32_t kTileBricks = 8;  // edge of the tiles in which cells are tested, bricks
 
+// Joins boxes that share a whole face.
+inline std::vector<VoxelBox> joined_at_faces(std::vector<VoxelBox> boxes) {
+  for (std::int32_t VoxelIndex::*const axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
+    const auto across = [axis](VoxelBox box) {
+      box.lo.*axis = box.hi.*axis = 0;
+      return std::pair(box.lo, box.hi);
+    };
+    std::sort(boxes.begin(), boxes.end(), [&](const VoxelBox& a, const VoxelBox& b) {
+      return std::pair(across(a), a.lo.*axis) < std::pair(across(b), b.lo.*axis);
+    });
+    std::vector<VoxelBox> joined;
+    for (const VoxelBox& box : boxes) {
+      if (!joined.empty() && across(joined.back()) == across(box) && joined.back().hi.*axis == box.lo.*axis) {
+        joined.back().hi = box.hi;
+      } else {
+        joined.push_back(box);
+      }
+    }
+    boxes = std::move(joined);
+  }
+  return boxes;
+}
+
 // Boxes of bricks whose cells must be tested again, at most one per tile.
 class StaleBoxes {
  public:
@@ -34,17 +57,28 @@ class StaleBoxes {
                     }
                   });
   }
-  // The boxes, or their bounding box if that is at most half as large again.
-  [[nodiscard]] std::vector<VoxelBox> boxes() const {
+  // The boxes around the bricks that `map` stores, joined where they share a face, or their bounding box if that is
+  // at most half as large again.
+  [[nodiscard]] std::vector<VoxelBox> boxes(const OccupancyMap& map) const {
+    std::vector<VoxelBox> stored;
     VoxelBox all;
     double sum = 0.0;
     for (const VoxelBox& box : boxes_) {
-      all = detail::box_around(all, box);
-      sum += static_cast<double>(box.size());
+      VoxelBox inside;
+      for_each_cell(box, [&](const VoxelIndex& brick) {
+        if (!inside.contains(brick) && map.find_brick(brick) != nullptr) {
+          inside = box_around(inside, {brick, brick + VoxelIndex{1, 1, 1}});
+        }
+      });
+      if (!inside.empty()) {
+        stored.push_back(inside);
+        all = box_around(all, inside);
+        sum += static_cast<double>(inside.size());
+      }
     }
     const VoxelIndex extent = all.extent();
     const bool dense = 1.0 * extent.x * extent.y * extent.z <= 1.5 * sum;
-    return dense && !all.empty() ? std::vector<VoxelBox>{all} : boxes_;
+    return dense && !all.empty() ? std::vector<VoxelBox>{all} : joined_at_faces(std::move(stored));
   }
 
  private:
@@ -80,7 +114,7 @@ VANTAGE_INLINE void AdmittedCells::follow(const OccupancyMap& map, const Platfor
       stale.add({address, address + VoxelIndex{1, 1, 1}});
     });
   }
-  for (const VoxelBox& bricks : stale.boxes()) {
+  for (const VoxelBox& bricks : stale.boxes(map)) {
     ask(map, platform, bricks);
   }
   map_ = KnownMap(map);
@@ -100,6 +134,9 @@ VANTAGE_INLINE void AdmittedCells::ask(const OccupancyMap& map, const Platform& 
     for (std::int32_t z = 0; z < Brick::kSide; ++z) {
       for (std::int32_t y = 0; y < Brick::kSide; ++y) {
         const std::uint8_t* const row = &admitted.values()[admitted.offset_of(first + VoxelIndex{0, y, z})];
+        if (std::all_of(row, row + Brick::kSide, [](std::uint8_t cell) { return cell == 0; })) {
+          continue;
+        }
         for (std::int32_t x = 0; x < Brick::kSide; ++x) {
           const std::size_t offset = Brick::offset_of({x, y, z});
           plane[offset >> 6U] |= std::uint64_t{row[x] != 0} << (offset & 63U);

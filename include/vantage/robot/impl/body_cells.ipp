@@ -54,13 +54,20 @@ inline RowsOfBody rows_of_body(const std::vector<VoxelIndex>& touched) {
   return alike;
 }
 
-// The cells from which all cells at these steps along x are clear.
+inline bool is_empty_row(std::span<const std::uint64_t> row) {
+  return std::all_of(row.begin(), row.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+// The cells from which all cells at these steps along x are clear; at least one step.
 inline CellRows clear_along(const CellRows& clear, const std::vector<std::int32_t>& steps) {
   CellRows along(clear.box());
   for (std::int32_t z = clear.box().lo.z; z < clear.box().hi.z; ++z) {
     for (std::int32_t y = clear.box().lo.y; y < clear.box().hi.y; ++y) {
       const std::span<const std::uint64_t> from = clear.row(y, z);
       const std::span<std::uint64_t> into = along.row(y, z);
+      if (is_empty_row(from)) {
+        continue;
+      }
       for (std::size_t word = 0; word < into.size(); ++word) {
         into[word] = ~std::uint64_t{0};
         for (const std::int32_t step : steps) {
@@ -86,15 +93,33 @@ VANTAGE_INLINE VoxelGrid<std::uint8_t> cells_for_body(const OccupancyMap& map, c
     for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
       for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
         const std::span<std::uint64_t> into = fits.row(y, z);
+        if (is_empty_row(into)) {  // most rows where little of the box is known
+          continue;
+        }
         for (const auto& [step_y, step_z] : rows) {
           const std::span<const std::uint64_t> row = along.row(y + step_y, z + step_z);
-          std::transform(into.begin(), into.end(), row.begin(), into.begin(), [](auto a, auto b) { return a & b; });
+          std::uint64_t left = 0;
+          for (std::size_t word = 0; word < into.size(); ++word) {
+            into[word] &= row[word];
+            left |= into[word];
+          }
+          if (left == 0) {
+            break;
+          }
         }
       }
     }
   }
-  auto value = grid.values().begin();
-  for_each_cell(box, [&](const VoxelIndex& cell) { *value++ = fits.contains(cell) ? 1 : 0; });
+  for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
+    for (std::int32_t y = box.lo.y; y < box.hi.y; ++y) {
+      if (!is_empty_row(fits.row(y, z))) {
+        const std::span<std::uint8_t> values(&grid[{box.lo.x, y, z}], static_cast<std::size_t>(box.extent().x));
+        for (std::int32_t x = box.lo.x; x < box.hi.x; ++x) {
+          values[static_cast<std::size_t>(x - box.lo.x)] = fits.contains({x, y, z}) ? 1 : 0;
+        }
+      }
+    }
+  }
   return grid;
 }
 
