@@ -61,6 +61,18 @@ void check_command(const CLI::App& app) {
   }
 }
 
+// `--out "$folder"` with an unset variable must not be taken for no --out.
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_expected_max() > 0) {
+      option->check(CLI::Validator([](const std::string& value) { return value.empty() ? "is empty" : ""; }, ""));
+    }
+  }
+  for (CLI::App* command : app.get_subcommands({})) {
+    refuse_empty_values(*command);
+  }
+}
+
 }  // namespace
 
 void add_commands(CLI::App& app, int& exit_code) {
@@ -79,6 +91,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_evaluate_command(app, exit_code);
   add_map_command(app, exit_code);
   add_list_command(app);
+  refuse_empty_values(app);
   // Set last, because the commands do not inherit it.
   for (CLI::App* command : app.get_subcommands({})) {
     command->group("Commands");
@@ -91,6 +104,9 @@ void add_commands(CLI::App& app, int& exit_code) {
 }
 
 int exit_code_of(RunOutcome outcome, const Interruption& interruption) {
+  if (interruption.asked()) {  // perhaps after the run, while its bound was sought
+    return interruption.exit_code();
+  }
   switch (outcome) {
     case RunOutcome::Explored:
       return kDone;

@@ -2,10 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,11 +13,14 @@
 #include <vantage/evaluation/spread.hpp>
 #include <vantage/report/report_html.hpp>
 
+#include <vantage/map/impl/file_bytes.hpp>
 #include "apps/report_commands.hpp"
 #include "apps/run_files.hpp"
 
 namespace vantage::apps {
 namespace {
+
+constexpr std::size_t kMostReportBytes = std::size_t{1} << 28U;
 
 struct CompareRequest {
   std::vector<std::string> reports;
@@ -44,14 +45,6 @@ ComparedRun compared(const std::string& file, const std::string& text) {
   } catch (const std::invalid_argument&) {
     throw std::runtime_error(file + ": is no report.json of a run");
   }
-}
-
-std::string read_file(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw std::runtime_error(file + ": cannot be read");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 // Median and quartiles of a figure; what a run lacks is left out.
@@ -110,7 +103,8 @@ void compare(const CompareRequest& request) {
   std::vector<ReportedRun> reported;
   for (const std::string& file : request.reports) {
     const std::filesystem::path record = std::filesystem::path(file).parent_path() / "run.record";
-    reported.push_back({read_file(file), std::filesystem::exists(record) ? record : std::filesystem::path()});
+    reported.push_back({detail::file_bytes(file, kMostReportBytes),
+                        std::filesystem::exists(record) ? record : std::filesystem::path()});
     runs.push_back(compared(file, reported.back().report));
     if (request.by_folder) {
       runs.back().group = std::filesystem::absolute(file).parent_path().filename().string();

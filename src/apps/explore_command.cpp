@@ -90,8 +90,12 @@ int explore(const ExploreRequest& request) {
   }
   if (request.bound && !interruption.asked()) {
     printer.working("bound", "seeking the shortest way that sees all ...");
-    record.path_bound = bound_of(run, carrier, record.views.front().pose, request.threads);
-    printer.bound(record);
+    const PathBound bound = bound_of(run, carrier, record.views.front().pose, request.threads,
+                                     [&interruption] { return interruption.asked(); });
+    if (!interruption.asked()) {
+      record.path_bound = bound;
+      printer.bound(record);
+    }
   }
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), carrier.sensor, pictures.pictures(), progress,

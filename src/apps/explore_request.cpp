@@ -278,7 +278,9 @@ Settings settings_of(const ExploreRequest& request) {
     if (equals == std::string::npos || equals == 0) {
       throw std::invalid_argument("--set '" + setting + "' must be key=value");
     }
-    settings[setting.substr(0, equals)] = setting.substr(equals + 1);
+    if (!settings.try_emplace(setting.substr(0, equals), setting.substr(equals + 1)).second) {
+      throw std::invalid_argument("--set '" + setting + "': that setting is given twice");
+    }
   }
   return settings;
 }

@@ -2,13 +2,34 @@
 #include "apps/replay_request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vantage/planner/make_planner.hpp>
 
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage::apps {
+namespace {
+
+// A message on an option of the library names the flag that gives it.
+std::string by_flag(const std::string& message) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> kFlags{{{"intrinsics", "--intrinsics"},
+                                                                       {"max_range_m", "--max-range"},
+                                                                       {"stereo", "--disparities or --window"},
+                                                                       {"up", "--up"}}};
+  for (const auto& [field, flag] : kFlags) {
+    const std::string named = std::string("RecordingOptions::") + field;
+    if (message.starts_with(named)) {
+      return flag + message.substr(named.size());
+    }
+  }
+  return message;
+}
+
+}  // namespace
 
 void check_numbers(const ReplayRequest& request) {
   check_numbers(request.run);
@@ -42,7 +63,11 @@ Recording recording_of(const ReplayRequest& request) {
     }
     options.intrinsics = {n[0], n[1], n[2], n[3]};
   }
-  return Recording::open(request.format, request.dataset, options);
+  try {
+    return Recording::open(request.format, request.dataset, options);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(by_flag(error.what()));
+  }
 }
 
 OccupancyMapOptions map_options_of(const ReplayRequest& request) {

@@ -89,6 +89,13 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
   options.map.keep_grazed_cells = !request.wear;
   options.map.max_bytes = max_bytes_of(request.memory_limit_mb);
   options.band = band_of(request);
+  if (options.band) {
+    try {
+      (void)HeightBand(options.map, *options.band);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("--band '" + request.band + "': " + error.what());
+    }
+  }
   options.start_clearance_m = start_clearance_m(*carrier.platform, carrier.sensor);
   options.look_around = request.look_around;
   options.max_views = request.max_views;
@@ -111,9 +118,10 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
   return *start;
 }
 
-PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start, int threads) {
+PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start, int threads,
+                   const std::function<bool()>& stop) {
   const WatchmanRoute route =
-      watchman_route(run.truth(), *carrier.platform, carrier.sensor, start, {.threads = threads});
+      watchman_route(run.truth(), *carrier.platform, carrier.sensor, start, {.threads = threads, .stop = stop});
   return {route.length_m, route.sees_all};
 }
 

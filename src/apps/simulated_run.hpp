@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
@@ -38,9 +39,9 @@ struct ExploredWorld {
 /// The start that was asked for, or else the one drawn from the seed.
 [[nodiscard]] Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request);
 
-/// A lower bound on the path from this start.
+/// A lower bound on the path from this start. `stop` gives up, see WatchmanOptions.
 [[nodiscard]] PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start,
-                                 int threads);
+                                 int threads, const std::function<bool()>& stop = {});
 
 /// Writes into the record of a run what was asked for.
 void tell_request(RunRecord& record, const ExploreRequest& request);

@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -19,6 +17,7 @@
 #include <vantage/arm/kinematic_chain.hpp>
 #include <vector>
 
+#include <vantage/map/impl/file_bytes.hpp>
 #include "arm/chain_parts.hpp"
 #include "arm/xml_extent.hpp"
 
@@ -51,6 +50,7 @@ class ParserMessages final : public console_bridge::OutputHandler {
   std::string first_;
 };
 
+constexpr std::size_t kMostBytes = std::size_t{1} << 24U;
 constexpr double kMostM = 1000.0;  // largest length or slide
 constexpr double kLeastM = 1e-6;   // smallest size of a shape
 constexpr double kMostTurnRad = 1000.0;
@@ -117,7 +117,6 @@ class UrdfReader {
 
   // The parser recurses into nested elements and into chains of links. These limits protect its stack.
   void check_text(std::string_view text) const {
-    constexpr std::size_t kMostBytes = std::size_t{1} << 24U;
     constexpr std::size_t kMostLinks = 1000;
     constexpr std::size_t kDeepest = 100;
     if (text.size() > kMostBytes) {
@@ -280,12 +279,7 @@ KinematicChain KinematicChain::from_urdf_text(const std::string& text, std::stri
 
 KinematicChain KinematicChain::from_urdf(const std::filesystem::path& path, std::string_view base_link,
                                          std::string_view sensor_link) {
-  std::ifstream file(path);
-  if (!file) {
-    throw std::runtime_error(path.string() + ": cannot be opened");
-  }
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  return from_urdf_text(text, base_link, sensor_link, path.string());
+  return from_urdf_text(detail::file_bytes(path, kMostBytes), base_link, sensor_link, path.string());
 }
 
 }  // namespace vantage

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -10,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <vantage/report/sensor_file.hpp>
+
+#include <vantage/map/impl/file_bytes.hpp>
 
 namespace vantage {
 namespace {
@@ -167,12 +168,10 @@ std::string without_tag(const std::string& message) {
 }  // namespace
 
 RangeSensor load_sensor(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw std::runtime_error(file.string() + ": cannot be read");
-  }
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
+  const std::string text = detail::file_bytes(file, kMostBytes);
   try {
-    return sensor_of(json::parse(in));
+    return sensor_of(json::parse(text));
   } catch (const json::exception& error) {
     throw std::runtime_error(file.string() + ": not JSON: " + without_tag(error.what()));
   } catch (const std::exception& error) {

@@ -24,6 +24,7 @@ class Watchman {
   Watchman(const Truth& truth, const Platform& platform, const RangeSensor& sensor, const Pose& start,
            const WatchmanOptions& options)
       : threads_(static_cast<std::size_t>(options.threads)),
+        stop_(options.stop),
         space_(ReachableSpace(truth.map(), platform, start)),
         sight_(truth.cells(), truth.map().frame(), sensor, platform.can_tilt()) {
     if (space_.size() == 0) {
@@ -44,6 +45,9 @@ class Watchman {
       }
       add_set(*witness, route.witnesses.size());
       route.witnesses.push_back(*witness);
+      if (stopped()) {
+        break;
+      }
       visit = shortest_visit(space_, member_, route.witnesses.size());
       unseen = unseen_from(visit);
     }
@@ -57,11 +61,16 @@ class Watchman {
   }
 
  private:
+  [[nodiscard]] bool stopped() const { return stop_ && stop_(); }
+
   // The observable cells that the sensor sees from no place of the route. Centres are tested first along the whole
   // route, because that suffices for most cells.
   std::vector<std::size_t> unseen_from(const Visit& visit) const {
     std::vector<std::uint8_t> seen(cells_.size(), 0);
     detail::share_work(cells_.size(), threads_, [&](std::size_t i) {
+      if (stopped()) {
+        return;
+      }
       const auto from_one = [&](auto&& sees) {
         return std::any_of(visit.cells.begin(), visit.cells.end(),
                            [&](std::uint32_t from) { return sees(space_.cells()[from]); });
@@ -93,7 +102,7 @@ class Watchman {
     const auto candidate = [&](std::size_t i) { return cells_[unseen[i * unseen.size() / tried]]; };
     detail::share_work(tried, threads_, [&](std::size_t i) {
       const auto from = std::find_if(nearest_first.begin(), nearest_first.end(), [&](std::uint32_t place) {
-        return sight_.sees_part(space_.cells()[place], candidate(i));
+        return !stopped() && sight_.sees_part(space_.cells()[place], candidate(i));
       });
       detour[i] = from == nearest_first.end() ? -1.0F : distance[*from];
     });
@@ -106,12 +115,13 @@ class Watchman {
 
   void add_set(const VoxelIndex& witness, std::size_t set) {
     detail::share_work(space_.size(), threads_, [&](std::size_t place) {
-      const bool sees = sight_.sees_part(space_.cells()[place], witness);
+      const bool sees = !stopped() && sight_.sees_part(space_.cells()[place], witness);
       member_[place] = static_cast<std::uint16_t>(member_[place] | (sees ? 1U << set : 0U));
     });
   }
 
   std::size_t threads_;
+  std::function<bool()> stop_;
   NumberedCells space_;
   Sight sight_;
   std::vector<VoxelIndex> cells_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Data of the Amazon Picking Challenge (Zeng et al. 2017): a RealSense on an arm; all numbers are in one text file.
-#include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include <vantage/map/impl/file_bytes.hpp>
 #include "vision/pose_text.hpp"
 #include "vision/recording_reader.hpp"
 
@@ -20,10 +21,7 @@ using Blocks = std::map<std::string, std::vector<double>, std::less<>>;
 
 // Reads blocks of "# title" and the numbers below it.
 Blocks blocks_in(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) {
-    throw std::runtime_error(file.string() + ": cannot be opened");
-  }
+  std::istringstream in(detail::file_bytes(file, detail::kMostTextBytes));
   Blocks blocks;
   std::string title;
   std::string text;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
@@ -13,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <vantage/map/impl/file_bytes.hpp>
 
 namespace vantage::detail {
 namespace {
@@ -26,11 +26,9 @@ constexpr std::array<unsigned char, 8> kPngStart{0x89, 'P', 'N', 'G', '\r', '\n'
 }
 
 Bytes bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    refuse(file, "cannot be opened");
-  }
-  Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+  const std::string text = detail::file_bytes(file, kMostBytes);
+  Bytes bytes(text.begin(), text.end());
   if (bytes.empty()) {
     refuse(file, "is empty");
   }

@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
+
+#include <vantage/map/impl/file_bytes.hpp>
 
 namespace vantage::detail {
 
@@ -31,10 +33,7 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
 }
 
 std::vector<TextLine> lines_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw std::runtime_error(file.string() + ": cannot be opened");
-  }
+  std::istringstream in(file_bytes(file, kMostTextBytes));
   std::vector<TextLine> lines;
   std::string text;
   for (std::size_t number = 1; std::getline(in, text); ++number) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace vantage::detail {
+
+/// Most bytes of a text file of a recording.
+inline constexpr std::size_t kMostTextBytes = std::size_t{1} << 30U;
 
 /// Parses numbers separated by blanks, tabs, commas or line ends. nullopt if the text contains anything else. "nan"
 /// and "inf" count as numbers.

@@ -41,6 +41,11 @@ std::string unpacked_text(const std::filesystem::path& file) {
   int count = 0;
   while ((count = gzread(in, buffer.data(), static_cast<unsigned>(buffer.size()))) > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(count));
+    if (text.size() > detail::kMostTextBytes) {
+      gzclose(in);
+      throw std::runtime_error(file.string() + ": holds more than " + std::to_string(detail::kMostTextBytes) +
+                               " bytes, which no range scan does");
+    }
   }
   const bool whole = gzclose(in) == Z_OK && count == 0;
   if (!whole) {

@@ -113,6 +113,10 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--resolution two", "--resolution: 'two' is not a number");
   expect_refused(table + "--size 8,8", "WorldOptions::length_m is 8, must be 0: table has a size of its own");
   expect_refused(table + "--band 0.2,1.4,2.5", "--band '0.2,1.4,2.5' must hold LOW <= SENSOR <= HIGH");
+  expect_refused(table + "--band 900,901", "--band '900,901': HeightBandOptions::min_height_m is 900, must be below");
+  expect_refused(table + "--set patience=3 --set patience=4", "--set 'patience=4': that setting is given twice");
+  expect_refused(table + "--out ''", "--out: is empty");
+  expect_refused(table + "--json ''", "--json: is empty");
   expect_refused(table + "--robot-radius -1", "--robot-radius");
   expect_refused(table + "--max-views 0", "--max-views");
   expect_refused(table + "--max-views -3", "--max-views: '-3' is not a whole number");
@@ -135,6 +139,7 @@ TEST_F(Program, RefusesNamesThatDoNotExist) {
   expect_refused("--world room", "room");
   expect_refused("--world rooms --planner harmonious", "harmonious");
   expect_refused("--world rooms --sensor kinekt", "kinekt");
+  expect_refused("--world rooms --sensor /dev/zero", "/dev/zero: ");
   expect_refused(std::string(kTable) + "--set gain=3", "gain");
   expect_refused(std::string(kTable) + "--set =3", "=3");
   expect_refused("--world rooms --planner harmonic --set tolerance=small", "tolerance");

@@ -203,15 +203,17 @@ TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused(on_data() + "--planner ,", "there is no planner ''");
   expect_refused(on_data() + "--intrinsics 1,2,3", "--intrinsics has 3 numbers");
   for (const char* format : {"apc", "kitti-stereo", "stanford"}) {
-    expect_refused("--dataset '" + data().string() + "' --intrinsics 1,2,3,4 --format " + format, "intrinsics");
+    expect_refused("--dataset '" + data().string() + "' --intrinsics 1,2,3,4 --format " + format,
+                   "--intrinsics: the files");
   }
   expect_refused(on_data() + "--every 0", "--every is 0");
   expect_refused(on_data() + "--object-box 0,0,0,1,1,1", "--object-box says what counts for --select");
   expect_refused(on_data() + "--select --memory-limit 5", "--memory-limit does not go with --select");
   expect_refused(on_data() + "--select --object-box 0,0,0,1,1", "--object-box has 5 numbers");
   expect_refused(on_data() + "--max-range -1", "--max-range is -1");
-  expect_refused(on_data() + "--up north", "RecordingOptions::up is 'north'");
-  expect_refused(on_data() + "--disparities 64", "has no pairs to match");
+  expect_refused(on_data() + "--up north", "--up is 'north'");
+  expect_refused(on_data() + "--disparities 64",
+                 "--disparities or --window: a recording '7scenes' has no pairs to match");
   expect_refused("--dataset '" + data().string() + "' --format 7scenes --resolution 0", "--resolution is 0");
   for (const auto& entry : fs::directory_iterator(data())) {
     if (entry.path().extension() == ".png") {

@@ -95,6 +95,8 @@ TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
 }
 
 TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {
+  expect_refused("--world crates-open --arm /tmp", "/tmp: cannot be opened");
+  expect_refused("--world crates-open --arm /dev/zero", "/dev/zero: holds more than");
   expect_refused("--world crates-open --arm /nowhere/arm.urdf", "/nowhere/arm.urdf: cannot be opened");
   expect_refused("--world crates-open --links base_link", "--links 'base_link' must be BASE,SENSOR");
   expect_refused("--world crates-open --links base_link,hand", "has no link 'hand'");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vantage/compiler.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
@@ -16,6 +17,8 @@ struct WatchmanOptions {
   /// reachable cell.
   std::size_t max_witnesses = 8;
   int threads = 1;  ///< for lines of sight, > 0
+  /// Asked again and again, by any thread: true gives up, and the route is the one so far.
+  std::function<bool()> stop = {};
 };
 
 /// The optimal route with full knowledge of the world, or a lower bound on it.

@@ -4,13 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vantage/robot/capability_map.hpp>
 
+#include <vantage/map/impl/file_bytes.hpp>
 #include <vantage/map/impl/whole_file.hpp>
 
 // File format: a title line, twelve 64-bit numbers (options, box of cells, number of words, checksum of all other
@@ -87,11 +86,8 @@ VANTAGE_INLINE void CapabilityMap::save(const std::filesystem::path& path) const
 
 VANTAGE_INLINE CapabilityMap CapabilityMap::load(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) { throw std::runtime_error(path.string() + ": " + what); };
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    refuse("cannot be opened");
-  }
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  constexpr std::size_t kMostBytes = std::size_t{1} << 32U;
+  const std::string text = detail::file_bytes(path, kMostBytes);
   if (!text.starts_with(detail::kTitle)) {
     refuse("is no capability map");
   }
