@@ -92,11 +92,15 @@ std::vector<double> radii_of(const ReconstructRequest& request) {
 // Reads rows of x y z, metres.
 std::vector<Eigen::Vector3d> points_in(const std::string& path) {
   std::ifstream file(path);
-  std::vector<Eigen::Vector3d> points;
-  for (Eigen::Vector3d p; file >> p.x() >> p.y() >> p.z();) {
-    points.push_back(p);
+  std::vector<double> numbers;
+  for (double number = 0.0; file >> number;) {
+    numbers.push_back(number);
   }
-  if (points.empty() || !file.eof()) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  }
+  if (points.empty() || !file.eof() || numbers.size() % 3 != 0) {
     throw std::runtime_error(path + ": is not a list of points, x y z in every line");
   }
   return points;
@@ -138,6 +142,9 @@ int reconstruct(const ReconstructRequest& request) {
   const std::vector<double> radii_m = radii_of(request);
   detail::require_option(request.gap_m >= 0.0 && request.gap_m <= 1000.0, "--gap", request.gap_m,
                          "in [0, 1000] metres");
+  if (shared.planner != "next-best-view" && !shared.settings.empty()) {
+    throw std::invalid_argument("--set: --planner " + shared.planner + " has no settings");
+  }
   const RangeSensor sensor = sensor_of(shared);
   const TriangleMesh object = placed_object(request);
   if (shared.scale.value_or(1.0) == 1.0) {
@@ -147,6 +154,11 @@ int reconstruct(const ReconstructRequest& request) {
       .name = request.object, .table = request.table, .radii_m = radii_m, .resolution_m = shared.resolution_m};
   if (!request.object_box.empty()) {
     placing.object_box = box_of("--object-box", request.object_box);
+    const Box bounds = object.bounds();
+    if ((placing.object_box->min.array() > bounds.max.array()).any() ||
+        (placing.object_box->max.array() < bounds.min.array()).any()) {
+      throw std::invalid_argument("--object-box " + request.object_box + " holds nothing of the object");
+    }
   }
   const ObjectScene scene = object_scene(object, sensor, placing);
   check_cell_count(scene.world.region, shared.resolution_m);

@@ -28,9 +28,10 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
   const Box bounds = world.mesh.bounds();
   if (!(region.min.array() < bounds.max.array()).all() || !(region.max.array() > bounds.min.array()).all()) {
     std::ostringstream message;
-    message << "--region " << request.region << " holds nothing of the world, which spans " << bounds.min.x() << ','
-            << bounds.min.y() << ',' << bounds.min.z() << ',' << bounds.max.x() << ',' << bounds.max.y() << ','
-            << bounds.max.z();
+    message << (request.region.empty() ? "--world " + request.world + " spans no space: "
+                                       : "--region " + request.region + " holds nothing of the world, which spans ")
+            << bounds.min.x() << ',' << bounds.min.y() << ',' << bounds.min.z() << ',' << bounds.max.x() << ','
+            << bounds.max.y() << ',' << bounds.max.z();
     throw std::invalid_argument(message.str());
   }
   check_cell_count(region, request.resolution_m);

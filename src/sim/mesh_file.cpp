@@ -45,6 +45,9 @@ void check_part(const std::filesystem::path& path, const aiMesh* part) {
   }
   for (unsigned int i = 0; i < part->mNumFaces; ++i) {
     const aiFace& face = part->mFaces[i];
+    if (face.mNumIndices == 0) {  // Assimp ends the process if it triangulates a part with such faces alone
+      refuse(path, "a face has no corner");
+    }
     if (face.mNumIndices > kMostCorners) {
       refuse(path, "a face has " + std::to_string(face.mNumIndices) + " corners, must be at most " +
                        std::to_string(kMostCorners));

@@ -132,7 +132,7 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--pose-noise 0.01,-1", "--pose-noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 22);
+  EXPECT_EQ(refused_, 26);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {
@@ -145,7 +145,7 @@ TEST_F(Program, RefusesNamesThatDoNotExist) {
   expect_refused("--world rooms --planner harmonic --set tolerance=small", "tolerance");
   expect_refused(std::string(kTable) + "--fast", "--fast");
   expect_refused("--planner harmonic", "--world");
-  EXPECT_EQ(refused_, 8);
+  EXPECT_EQ(refused_, 9);
 }
 
 TEST_F(Program, RefusesRegionsAndStarts) {
@@ -523,6 +523,8 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--place 0,0,0,0,0,0,0,1", "scale");
   refused(object + "--place 1,0,0,0,0,0,0,0", "quaternion");
   refused(object + "--object-box 0,0,0,1,-1,1", "--object-box");
+  refused(object + "--object-box 90,90,90,91,91,91", "--object-box 90,90,90,91,91,91 holds nothing of the object");
+  refused(object + "--planner oracle-greedy --set gain=3", "--set: --planner oracle-greedy has no settings");
   refused(object + "--method best", "'best', must be one of default, uniform, hierarchical");
   refused(object + "--candidates 0", "--candidates");
   refused(object + "--radius 0", "--radius");
@@ -532,7 +534,7 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--reference '" + file("points.txt", "1 2 three\n") + "'", "points.txt");
   refused(object + "--start 99,0,0", "start");
   refused(object + "--set gain=3", "gain");
-  EXPECT_EQ(refused_, 15);
+  EXPECT_EQ(refused_, 17);
 }
 
 }  // namespace

@@ -135,6 +135,15 @@ TEST_P(PlyFile, NamesWhatIsWrongWithCountsAndIndices) {
   says(small_ply(kind, 4, "5\nproperty float x"), "no property 'x', or two");
 }
 
+TEST_P(PlyFile, AFaceWithoutACornerIsAnError) {
+  PlyText body(GetParam());
+  for (int corner = 0; corner < 3; ++corner) {
+    body.put(1.0F * static_cast<float>(corner)).put(0.0F).put(0.0F).put(std::uint8_t{7}).end();
+  }
+  EXPECT_EQ(complaint(ply_header(GetParam(), "3", "1") + body.put(std::uint8_t{0}).end().bytes()),
+            "a face has no corner");
+}
+
 // A file truncated anywhere in header or body is rejected.
 TEST_P(PlyFile, CutAnywhereIsAnError) {
   const std::string whole = small_ply(GetParam());
