@@ -59,12 +59,14 @@ nlohmann::json map_summary(const std::filesystem::path& file, std::size_t max_by
 int run_map_command(const std::filesystem::path& file, const std::string& json, std::ostream& out,
                     std::size_t max_bytes) {
   const nlohmann::json summary = map_summary(file, max_bytes);
+  // a file name may be no UTF-8
+  const std::string text = summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (json == "-") {
-    out << summary.dump(2) << '\n';
+    out << text;
     return 0;
   }
   if (!json.empty()) {
-    detail::write_whole_file(json, summary.dump(2) + "\n");
+    detail::write_whole_file(json, text);
   }
   print(summary, out);
   return 0;

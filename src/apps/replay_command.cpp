@@ -100,7 +100,11 @@ int replay(const ReplayRequest& request) {
            << " m, range " << recording.camera().trusted_range_m() << " m\n"
            << doubt_about_up(request, recording);
   if (request.select) {
-    return select_views(request, recording, told);
+    try {
+      return select_views(request, recording, told);
+    } catch (const std::invalid_argument& error) {  // what is in the recording, e.g. a pose far from all others
+      throw std::invalid_argument("--dataset " + request.dataset + ": " + error.what());
+    }
   }
 
   // The record and its page show the plans of the first planner.

@@ -156,7 +156,7 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
   }
   if (record.frames.empty()) {
     const SkippedFrame& last = record.skipped.back();
-    throw std::runtime_error("no frame of the recording can be used; the last, " + last.name + ": " + last.reason);
+    throw std::runtime_error("--dataset: no frame can be used; the last, " + last.name + ": " + last.reason);
   }
   conclude(record, stopped);
   detail::tell_refused(record.run, map);
@@ -190,8 +190,9 @@ std::string replay_json(const ReplayRecord& record, const Recording& recording, 
                  {"frames", std::move(frames)}};
   const std::string report = report_json(record.run);
   const std::size_t end = report.find_last_of('}');
-  return report.substr(0, report.find_last_not_of(" \n", end - 1) + 1) + ",\n  \"replay\": " + replay.dump() +
-         "\n}\n";
+  return report.substr(0, report.find_last_not_of(" \n", end - 1) + 1) +
+         ",\n  \"replay\": " + replay.dump(-1, ' ', false, Json::error_handler_t::replace) +
+         "\n}\n";  // names may be no UTF-8
 }
 
 }  // namespace vantage::apps

@@ -332,7 +332,7 @@ std::string selection_json(const ReplayRequest& request, const Comparison& compa
                                 {"greedy_volume", json_of(comparison.greedy_volume)},
                                 {"greedy_surface", json_of(comparison.greedy_surface)},
                                 {"greedy_void", json_of(comparison.greedy_void)}}}};
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, SelectionJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

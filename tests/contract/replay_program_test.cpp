@@ -100,6 +100,12 @@ TEST_F(ReplayProgram, LeavesOutFramesWhosePoseCannotBe) {
   }
 }
 
+TEST_F(ReplayProgram, NamesOfFramesMayBeAnyBytes) {
+  fs::rename(data() / "frame-000001.pose.txt", data() / "frame-\xBB.pose.txt");
+  EXPECT_EQ(run(on_data() + "--planner nearest-frontier --json -"), 0) << err_;
+  EXPECT_EQ(run(on_data() + "--planner nearest-frontier --select --json -"), 0) << err_;
+}
+
 TEST_F(ReplayProgram, LeavesARecordThatTellsTheSame) {
   const fs::path out = folder_ / "out";
   ASSERT_EQ(

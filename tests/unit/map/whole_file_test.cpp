@@ -94,6 +94,15 @@ TEST(WholeFile, ALinkStaysOne) {
   detail::write_whole_file(folder / "link", "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
   EXPECT_EQ(test::read_all(folder / "target"), "new");
+  std::filesystem::create_symlink("later", folder / "next");
+  std::filesystem::create_symlink("next", folder / "first");
+  detail::write_whole_file(folder / "first", "whole");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+  EXPECT_EQ(test::read_all(folder / "later"), "whole") << "a link to a file that is not there yet";
+  std::filesystem::create_symlink("nowhere/file", folder / "dangling");
+  EXPECT_NE(write_error([&] { detail::write_whole_file(folder / "dangling", "x"); }), "");
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_NE(write_error([&] { detail::write_whole_file(folder / "circle", "x"); }), "");
 }
 
 }  // namespace

@@ -21,12 +21,16 @@ struct WritePlace {
   std::filesystem::path renamed;  // final name; empty if the file is written in place
 };
 
-// Follows a symbolic link, so that the link itself is kept.
+// Follows symbolic links, so that they are kept, also to a file that is not there yet.
 inline WritePlace write_place_of(const std::filesystem::path& path) {
+  constexpr int kMostLinks = 40;  // as many as the system follows
   std::error_code none;
-  const bool is_link = std::filesystem::is_symlink(path, none);
-  const std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(path, none) : path;
-  if (std::filesystem::exists(target, none) && !std::filesystem::is_regular_file(target, none)) {
+  std::filesystem::path target = path;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(target, none); ++links) {
+    target = target.parent_path() / std::filesystem::read_symlink(target, none);
+  }
+  if (std::filesystem::is_symlink(target, none) ||
+      (std::filesystem::exists(target, none) && !std::filesystem::is_regular_file(target, none))) {
     return {target, {}};
   }
   return {std::filesystem::path(target) += ".part", target};
