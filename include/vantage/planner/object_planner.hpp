@@ -20,7 +20,7 @@ struct ObjectPlannerOptions {
   ObjectViewOptions candidates;  ///< where to look from
   /// Minimum weight of the sides of the surface that a view is expected to observe first, as a share of the weight
   /// observed so far, in [0, 1).
-  double min_new_share = 0.002;
+  double min_new_share = 0.001;
   /// What a view costs beside the way to it, in radii of the first sphere, > 0. The view of most weight for its
   /// cost is taken: a small price saves path, a large one saves views.
   double view_price = 4.0;

@@ -31,6 +31,21 @@ inline unsigned axes_of_side(std::uint32_t side) {
 // 4 across a face, 2 across an edge, 1 across a corner.
 inline std::size_t weight_of_side(std::uint32_t side) { return std::size_t{8} >> axes_of_side(side); }
 
+// By side: the sides at most 55 degrees apart from it, as a set of bits.
+inline constexpr std::array<std::uint32_t, kCellSides> kSimilarSides = [] {
+  std::array<std::uint32_t, kCellSides> similar{};
+  for (std::uint32_t a = 0; a < kCellSides; ++a) {
+    for (std::uint32_t b = 0; b < kCellSides; ++b) {
+      const VoxelIndex& m = kAllNeighbours[a];
+      const VoxelIndex& n = kAllNeighbours[b];
+      const int dot = m.x * n.x + m.y * n.y + m.z * n.z;
+      const int squares = (m.x * m.x + m.y * m.y + m.z * m.z) * (n.x * n.x + n.y * n.y + n.z * n.z);
+      similar[a] |= dot > 0 && 3 * dot * dot >= squares ? 1U << b : 0U;
+    }
+  }
+  return similar;
+}();
+
 // Calls `visit(side)` for the sides whose normal has a cosine to the direction of the sensor above `least_cosine`.
 template <class Visit>
 void for_each_side_towards(const Eigen::Vector3d& back, double least_cosine, const Visit& visit) {
@@ -66,7 +81,7 @@ inline const VoxelBox& with_numbered_sides(const VoxelBox& object) {
 }  // namespace detail
 
 VANTAGE_INLINE UnseenSurface::UnseenSurface(const OccupancyMap& map, const VoxelBox& object)
-    : frame_(map.frame()), looked_(detail::with_numbered_sides(object), 0), caster_(map) {}
+    : frame_(map.frame()), looked_(detail::with_numbered_sides(object), 0), unseen_(object, 0), caster_(map) {}
 
 VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& world_from_sensor,
                                         const ViewRays& rays) {
@@ -86,6 +101,7 @@ VANTAGE_INLINE void UnseenSurface::look(const OccupancyMap& map, const Pose& wor
   // A ray through a box of unknown cells meets one surface on average, whatever the size of the cells.
   const VoxelIndex extent = looked_.box().extent();
   suppose(map, 3.0 / (static_cast<double>(extent.x) + extent.y + extent.z));
+  find_unseen();
 }
 
 // Marks unknown cells that a ray has passed: those before known surface, or on a ray that meets none.
@@ -144,13 +160,60 @@ VANTAGE_INLINE void UnseenSurface::suppose(const OccupancyMap& map, double chanc
   caster_.suppose(stopping);
 }
 
+VANTAGE_INLINE void UnseenSurface::find_unseen() {
+  VoxelGrid<std::uint32_t> open(looked_.box(), 0);
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    for (std::uint32_t side = 0; side < detail::kCellSides && stops(cell); ++side) {
+      open[cell] |= (looked_[cell] >> side & 1U) == 0 && open_towards(cell, side) ? 1U << side : 0U;
+    }
+  });
+  for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
+    unseen_[cell] = caster_.at(cell) == Occupancy::Occupied ? in_patches(cell, open) : open[cell];
+  });
+}
+
+VANTAGE_INLINE std::uint32_t UnseenSurface::in_patches(const VoxelIndex& cell,
+                                                       const VoxelGrid<std::uint32_t>& open) const {
+  if (open[cell] == 0) {
+    return 0;
+  }
+  std::array<unsigned, detail::kCellSides> alike{};  // by side: occupied neighbours with a similar one
+  unsigned occupied = 0;
+  for (const VoxelIndex& step : kAllNeighbours) {
+    const VoxelIndex beside = cell + step;
+    if (!open.contains(beside) || caster_.at(beside) != Occupancy::Occupied) {
+      continue;
+    }
+    ++occupied;
+    for (std::uint32_t side = 0; side < detail::kCellSides && open[beside] != 0; ++side) {
+      alike[side] += (open[beside] & detail::kSimilarSides[side]) != 0 ? 1U : 0U;
+    }
+  }
+  std::uint32_t sides = 0;
+  for (std::uint32_t side = 0; side < detail::kCellSides; ++side) {
+    sides |= alike[side] >= std::min(2U, (occupied + 1U) / 2U) ? 1U << side : 0U;
+  }
+  return open[cell] & sides;
+}
+
+VANTAGE_INLINE bool UnseenSurface::open_towards(const VoxelIndex& cell, std::uint32_t side) const {
+  const VoxelIndex& step = kAllNeighbours[side];
+  for (int part = 1; part < 8; ++part) {
+    const VoxelIndex beside{(part & 1) != 0 ? step.x : 0, (part & 2) != 0 ? step.y : 0, (part & 4) != 0 ? step.z : 0};
+    if (beside != VoxelIndex{0, 0, 0} && stops(cell + beside)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 VANTAGE_INLINE std::vector<UnseenSurface::Side> UnseenSurface::expected(const Pose& world_from_sensor,
                                                                         const ViewRays& rays) const {
   std::vector<Side> sides;
   caster_.visible_cells(world_from_sensor, rays, looked_.box()).for_each([&](const VoxelIndex& cell) {
     const Eigen::Vector3d back = world_from_sensor.translation() - frame_.centre_of(cell);
     detail::for_each_side_towards(back, detail::kExpectedCosine, [&](std::uint32_t side) {
-      if ((looked_[cell] >> side & 1U) == 0 && !stops(cell + kAllNeighbours[side])) {
+      if ((unseen_[cell] >> side & 1U) != 0) {
         sides.push_back(static_cast<Side>(looked_.offset_of(cell) * detail::kCellSides + side));
       }
     });
@@ -174,7 +237,7 @@ VANTAGE_INLINE std::vector<CellSide> UnseenSurface::left() const {
       return;
     }
     for (std::uint32_t side = 0; side < detail::kCellSides; ++side) {
-      if ((looked_[cell] >> side & 1U) == 0 && !stops(cell + kAllNeighbours[side])) {
+      if ((unseen_[cell] >> side & 1U) != 0) {
         sides.push_back({cell, kAllNeighbours[side]});
       }
     }
@@ -189,7 +252,7 @@ VANTAGE_INLINE std::size_t UnseenSurface::looked_at() const {
       return;
     }
     for (std::uint32_t side = 0; side < detail::kCellSides; ++side) {
-      const bool observed = (looked_[cell] >> side & 1U) != 0 && !stops(cell + kAllNeighbours[side]);
+      const bool observed = (looked_[cell] >> side & 1U) != 0 && open_towards(cell, side);
       weight += observed ? detail::weight_of_side(side) : 0U;
     }
   });
