@@ -37,6 +37,7 @@ struct ReconstructRequest {
   std::uint64_t candidates = 320;
   std::string radii;
   std::uint64_t aimed = 320;
+  std::optional<double> max_path_m;
   ExploreRequest run;  // options that the commands share
 
   ReconstructRequest() {
@@ -140,6 +141,8 @@ int reconstruct(const ReconstructRequest& request) {
                          request.candidates, "in [1, 1000000]");
   detail::require_option(request.aimed <= kMostCandidates, "--aimed", request.aimed, "at most 1000000");
   const std::vector<double> radii_m = radii_of(request);
+  detail::require_option(request.max_path_m.value_or(1.0) > 0.0, "--max-path", request.max_path_m.value_or(1.0),
+                         "> 0");
   detail::require_option(request.gap_m >= 0.0 && request.gap_m <= 1000.0, "--gap", request.gap_m,
                          "in [0, 1000] metres");
   if (shared.planner != "next-best-view" && !shared.settings.empty()) {
@@ -167,6 +170,7 @@ int reconstruct(const ReconstructRequest& request) {
 
   ExplorationRunOptions options = object_run_options(shared, scene, object);
   options.body_radius_m = shared.robot_radius_m;
+  options.max_path_m = request.max_path_m;
   options.threads = shared.threads;
   options.stop = [&interruption] { return interruption.asked(); };
   if (request.reference.empty()) {
@@ -265,6 +269,12 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
   add_view_options(*command, *request);
   add_setting_option(*command, request->run, "A setting of the planner next-best-view; a wrong key lists them");
   add_run_options(*command, request->run);
+  command
+      ->add_option("--max-path", request->max_path_m,
+                   "The run ends before the path gets longer than this, metres; no limit unless given")
+      ->type_name("M")
+      ->check(a_number())
+      ->group("Run");
   add_output_options(*command, request->run);
   command->footer(
       "Examples:\n"

@@ -14,6 +14,7 @@
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/view/candidate_views.hpp>
 
+#include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 #include "report/full_map.hpp"
 #include "sim/run_progress.hpp"
@@ -30,6 +31,8 @@ double milliseconds_since(Clock::time_point start) {
 
 ExplorationRunOptions checked(ExplorationRunOptions options, const World& world) {
   detail::require_option(options.max_views > 0, "ExplorationRunOptions::max_views", options.max_views, "> 0");
+  detail::require_option(options.max_path_m.value_or(1.0) > 0.0, "ExplorationRunOptions::max_path_m",
+                         options.max_path_m.value_or(1.0), "> 0");
   detail::require_option(std::isfinite(options.scan_spacing_m) && options.scan_spacing_m >= 0.0,
                          "ExplorationRunOptions::scan_spacing_m", options.scan_spacing_m, ">= 0");
   detail::require_length(options.body_radius_m.value_or(0.0), "ExplorationRunOptions::body_radius_m");
@@ -336,6 +339,13 @@ bool ExplorationRun::goes_on(Progress& progress, ExplorationPlanner& planner, co
   if (record.views.size() >= options_.max_views) {
     record.outcome = RunOutcome::Budget;
     record.reason = "the budget of " + std::to_string(options_.max_views) + " views is spent";
+    return false;
+  }
+  if (options_.max_path_m && progress.path_length_m + detail::length_m(next.path) > *options_.max_path_m) {
+    char reason[96];
+    std::snprintf(reason, sizeof reason, "the next view is out of the budget of %g m of path", *options_.max_path_m);
+    record.outcome = RunOutcome::Budget;
+    record.reason = reason;
     return false;
   }
   return true;

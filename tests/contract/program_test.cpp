@@ -502,6 +502,14 @@ TEST_F(Program, ReconstructsAnObjectOnTheTable) {
   EXPECT_EQ(same["surface_coverage"], report["surface_coverage"]);
   const Ran spent = run("reconstruct " + object + "--resolution 0.04 --max-views 1 --candidates 30");
   EXPECT_EQ(spent.code, 3) << spent.err;
+  const double most_m = report["path_length_m"].get<double>() - 0.001;
+  const Ran shorter = run("reconstruct " + object + "--table --candidates 80 --resolution 0.04 --json - --max-path " +
+                          std::to_string(most_m));
+  EXPECT_EQ(shorter.code, 3) << shorter.err;
+  const nlohmann::json part = nlohmann::json::parse(shorter.out);
+  EXPECT_EQ(part["outcome"], "budget");
+  EXPECT_EQ(part["views"], report["views"].get<int>() - 1);
+  EXPECT_LE(part["path_length_m"], most_m);
   for (const std::string peer : {"evenly-spaced", "random-views", "furthest-view", "oracle-greedy"}) {
     const Ran compared =
         run("reconstruct " + object + "--table --planner " + peer + " --resolution 0.04 --max-views 4 --json -");
@@ -530,11 +538,12 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--radius 0", "--radius");
   refused(object + "--resolution 1e-6", "--resolution");
   refused(object + "--gap -1", "--gap");
+  refused(object + "--max-path 0", "--max-path");
   refused(object + "--up x", "--up");
   refused(object + "--reference '" + file("points.txt", "1 2 three\n") + "'", "points.txt");
   refused(object + "--start 99,0,0", "start");
   refused(object + "--set gain=3", "gain");
-  EXPECT_EQ(refused_, 17);
+  EXPECT_EQ(refused_, 18);
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ struct ExplorationRunOptions {
   /// How the map draws the rays of a scan.
   RayPolicy ray_policy = RayPolicy::EveryReturn;
   std::size_t max_views = 500;  ///< budget of scans, > 0
+  /// Budget of path, metres, > 0: the robot does not set out on a way that would make its path longer. None: no
+  /// limit.
+  std::optional<double> max_path_m = std::nullopt;
   double scan_spacing_m = 0.5;  ///< path between two scans on the way, metres, >= 0; 0: scans at goals only
   /// Limits of a timed run, in which the robot moves, turns, scans and plans in time; then `scan_spacing_m` has no
   /// effect. None: the robot is at each pose of its path at once.
