@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -27,6 +29,7 @@
 #include "apps/help_format.hpp"
 #include "apps/object_run.hpp"
 #include "apps/report_commands.hpp"
+#include "apps/run_printer.hpp"
 #include "apps/shared_options.hpp"
 
 namespace vantage::apps {
@@ -155,6 +158,18 @@ double at_view(const TrialJson& list, std::size_t view) {
   return list.empty() ? 0.0 : list.at(std::min(view, list.size()) - 1).get<double>();
 }
 
+// The first view after which 95 % of what can be seen was seen.
+constexpr std::size_t kNever = 99;
+std::size_t view_of_enough(const TrialJson& result) {
+  const TrialJson& seen = result.at("seen");
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i].get<double>() >= 0.95 * result.at("observable").get<double>()) {
+      return i + 1;
+    }
+  }
+  return kNever;
+}
+
 void print_row(const std::string& object, const std::string& planner, const std::vector<const TrialJson*>& results) {
   constexpr std::size_t kShown = 10;
   std::printf("| %s | %s |", object.c_str(), planner.c_str());
@@ -170,22 +185,17 @@ void print_row(const std::string& object, const std::string& planner, const std:
     std::printf(" %.0f",
                 100.0 * quantile(over([&](const TrialJson& r) { return at_view(r.at("seen"), view); }), 0.5));
   }
-  const auto enough = over([](const TrialJson& r) {
-    const double wanted = 0.95 * r.at("observable").get<double>();
-    const TrialJson& seen = r.at("seen");
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (seen[i].get<double>() >= wanted) {
-        return static_cast<double>(i + 1);
-      }
-    }
-    return 99.0;
-  });
+  const auto enough = over([](const TrialJson& r) { return static_cast<double>(view_of_enough(r)); });
   const auto views = over([](const TrialJson& r) { return static_cast<double>(r.at("seen").size()); });
   const auto last = over([](const TrialJson& r) { return 100.0 * r.at("seen").back().get<double>(); });
-  std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.0f | %.1f | %.1f | %.0f | %.1f |\n",
+  const auto path_to_enough = over([](const TrialJson& r) {
+    const std::size_t view = view_of_enough(r);
+    return view == kNever ? 99.0 : at_view(r.at("path_m"), view);
+  });
+  std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.1f | %.0f | %.1f | %.1f | %.0f | %.1f |\n",
               quantile(over([](const TrialJson& r) { return 100.0 * r.at("observable").get<double>(); }), 0.5),
-              quantile(enough, 0.5), quantile(enough, 0.25), quantile(enough, 0.75), quantile(last, 0.5),
-              quantile(views, 0.5),
+              quantile(enough, 0.5), quantile(enough, 0.25), quantile(enough, 0.75), quantile(path_to_enough, 0.5),
+              quantile(last, 0.5), quantile(views, 0.5),
               quantile(over([](const TrialJson& r) { return at_view(r.at("path_m"), 5); }), 0.5),
               quantile(over([](const TrialJson& r) { return r.at("path_m").back().get<double>(); }), 0.5),
               quantile(over([](const TrialJson& r) { return r.at("turned_deg").get<double>(); }), 0.5),
@@ -197,9 +207,10 @@ using ObjectRows = std::map<std::pair<std::string, std::string>, std::vector<Tri
 
 void print_table(const EvaluateRequest& request, const ObjectRows& rows) {
   std::printf(
-      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | seen at "
+      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | path to it, "
+      "m | seen at "
       "the end | views | path after 5, m | path | turned, deg | s "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& object : request.objects) {
     for (const std::string& planner : request.planners) {
       std::vector<const TrialJson*> results;
@@ -210,6 +221,32 @@ void print_table(const EvaluateRequest& request, const ObjectRows& rows) {
     }
   }
 }
+
+// Tells on stderr how far the table has come: a bar on a terminal, otherwise a line per run.
+class ObjectProgress {
+ public:
+  explicit ObjectProgress(std::size_t all) : all_(all), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  // Before the run number `at`. Those left take as long as those made, on average; runs found in a file take no time.
+  void tell(std::size_t at, const std::string& what) const {
+    std::string text = terminal_ ? "\r" + drawn_bar(static_cast<double>(at) / static_cast<double>(all_)) : "";
+    text += std::to_string(at + 1) + " of " + std::to_string(all_);
+    if (made_ > 0) {
+      const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - began_;
+      text += ", about " +
+              rounded_time(so_far.count() / static_cast<double>(made_) * static_cast<double>(all_ - at)) + " left";
+    }
+    std::cerr << text << "  " << what << (terminal_ ? "\x1b[K" : "\n") << std::flush;
+  }
+  void made() { ++made_; }
+  void finish() const { std::cerr << (terminal_ ? "\r\x1b[K" : "") << std::flush; }
+
+ private:
+  std::size_t all_;
+  std::size_t made_ = 0;
+  bool terminal_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
 
 void evaluate_objects(EvaluateRequest& request) {
   if (request.quick) {
@@ -233,6 +270,7 @@ void evaluate_objects(EvaluateRequest& request) {
   const std::size_t all = request.objects.size() * request.sensors.size() * request.resolutions_m.size() *
                           request.starts * request.planners.size();
   std::size_t count = 0;
+  ObjectProgress progress(all);
   for (const std::string& object : request.objects) {
     for (const std::string& sensor : request.sensors) {
       for (const double resolution_m : request.resolutions_m) {
@@ -240,11 +278,12 @@ void evaluate_objects(EvaluateRequest& request) {
           std::size_t taken = 0;  // views taken by the planner under test
           for (const std::string& planner : request.planners) {
             const Trial trial{object, planner, sensor, resolution_m, start};
-            std::fprintf(stderr, "\r%zu of %zu  %s\x1b[K", ++count, all, trial.key().c_str());
+            progress.tell(count++, trial.key());
             auto found = done.find(trial.key());
             if (found == done.end()) {
               const std::size_t spread = planner == "evenly-spaced" ? taken : 0;
               found = done.emplace(trial.key(), result_of(trial, request.run, spread)).first;
+              progress.made();
               if (!request.results.empty()) {
                 out << found->second.dump() << '\n' << std::flush;
                 require_written(out, request.results);
@@ -259,7 +298,7 @@ void evaluate_objects(EvaluateRequest& request) {
       }
     }
   }
-  std::fprintf(stderr, "\r\x1b[K");
+  progress.finish();
   print_table(request, rows);
 }
 
