@@ -32,9 +32,9 @@ namespace VANTAGE_EXPORT vantage {
 ///                  seen   seen   not seen
 ///
 /// A step of the grid shows sides that are no normals. So a side counts only if it is open: no cell that the adjacent
-/// cell touches beside it stops rays. And a side of an occupied cell is looked for only as part of a patch: at least
-/// three of its occupied neighbours, or half of them if there are few, have a side that was not observed either, at
-/// most 55 degrees apart. That is the least surface of 2 x 2 cells, or of two cells of a wire.
+/// cell touches beside it stops rays. And a side of an occupied cell is looked for only in a row: at least two of its
+/// occupied neighbours, or half of them if there are few, have an open side that was not observed either, at most 55
+/// degrees apart.
 ///
 /// Directions across a face weigh 4, across an edge 2, across a corner 1: the binomial kernel of a normal that is
 /// estimated from neighbours.
@@ -57,7 +57,7 @@ class UnseenSurface {
   void look(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays);
   /// The sides that a view would be the first to observe, ascending. Errors as RayCaster::visible_cells.
   [[nodiscard]] std::vector<Side> expected(const Pose& world_from_sensor, const ViewRays& rays) const;
-  /// All sides of the surface to look for: open ones that were not observed yet, in patches.
+  /// All sides of the surface to look for: open ones that were not observed yet, in rows.
   [[nodiscard]] std::vector<CellSide> left() const;
   /// The weight of all observed open sides of occupied cells.
   [[nodiscard]] std::size_t looked_at() const;
@@ -76,8 +76,8 @@ class UnseenSurface {
   [[nodiscard]] bool open_towards(const VoxelIndex& cell, std::uint32_t side) const;
   // Finds the sides to look for.
   void find_unseen();
-  // Those of the open sides of an occupied cell that belong to a patch; `open`: by cell.
-  [[nodiscard]] std::uint32_t in_patches(const VoxelIndex& cell, const VoxelGrid<std::uint32_t>& open) const;
+  // Those of the open sides of an occupied cell that are in a row; `open`: by cell.
+  [[nodiscard]] std::uint32_t in_rows(const VoxelIndex& cell, const VoxelGrid<std::uint32_t>& open) const;
   void pass_rays(const OccupancyMap& map, const Pose& world_from_sensor, const ViewRays& rays);
   void suppose(const OccupancyMap& map, double chance);
 

@@ -168,12 +168,12 @@ VANTAGE_INLINE void UnseenSurface::find_unseen() {
     }
   });
   for_each_cell(looked_.box(), [&](const VoxelIndex& cell) {
-    unseen_[cell] = caster_.at(cell) == Occupancy::Occupied ? in_patches(cell, open) : open[cell];
+    unseen_[cell] = caster_.at(cell) == Occupancy::Occupied ? in_rows(cell, open) : open[cell];
   });
 }
 
-VANTAGE_INLINE std::uint32_t UnseenSurface::in_patches(const VoxelIndex& cell,
-                                                       const VoxelGrid<std::uint32_t>& open) const {
+VANTAGE_INLINE std::uint32_t UnseenSurface::in_rows(const VoxelIndex& cell,
+                                                    const VoxelGrid<std::uint32_t>& open) const {
   if (open[cell] == 0) {
     return 0;
   }
