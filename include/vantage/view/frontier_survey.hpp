@@ -40,10 +40,11 @@ struct FrontierSurveyOptions {
 /// A frontier cell is observable if a viewpoint for one of its unknown face neighbours exists: a reachable cell such
 /// that the line between both centres passes only clear cells (free and not contested), its length is within the
 /// range of the sensor, and it lies in the field of view in an orientation that the platform can take there. Unknown
-/// cells that are given up (TriedViews) do not count, nor do viewpoints that rest. A frontier cell without such a
-/// viewpoint is observable, too, if an unknown neighbour is seen in part: the line ends at the centre of one of its
-/// faces. If no frontier cell is observable, one is taken where a line to an unknown neighbour passes another unknown
-/// cell beside it, if only at a corner, which then becomes known.
+/// cells that are given up (TriedViews) do not count, nor do viewpoints that rest. For a sensor that looks all
+/// around, a frontier cell without such a viewpoint is observable, too, if an unknown neighbour is seen in part: the
+/// line ends at the centre of one of its faces. For another sensor, these are taken only when no others are left. If
+/// there are none either, one is taken where a line to an unknown neighbour passes another unknown cell beside it, if
+/// only at a corner, which then becomes known.
 ///
 /// For a sensor that does not report missing returns, the targets are only those whose unknown cell touches an
 /// occupied cell (26 neighbours), as long as there are any: a ray into open space teaches such a sensor nothing,

@@ -89,21 +89,16 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
     targets += site.targets.size();
   }
   const std::size_t stride = targets / kMostLookedFor + 1;
-  std::vector<FrontierTarget> wanted;
   for (const FrontierSite& site : sites) {
     for (std::size_t i = 0; i < site.targets.size(); i += stride) {
-      wanted.push_back(site.targets[i]);
+      unknown.push_back(site.targets[i].unknown);
     }
   }
-  std::stable_sort(wanted.begin(), wanted.end(), [](const FrontierTarget& a, const FrontierTarget& b) {
-    return RasterOrder{}(a.unknown, b.unknown);
-  });
-  const auto same = [](const FrontierTarget& a, const FrontierTarget& b) { return a.unknown == b.unknown; };
-  wanted.erase(std::unique(wanted.begin(), wanted.end(), same), wanted.end());
+  sort_unique(unknown);
   std::vector<Eigen::Vector3d> centres;
-  for (const FrontierTarget& target : wanted) {
-    unknown.push_back(target.unknown);
-    centres.push_back(frame.centre_of(target.unknown));
+  centres.reserve(unknown.size());
+  for (const VoxelIndex& cell : unknown) {
+    centres.push_back(frame.centre_of(cell));
   }
   for (const VoxelIndex& place : places_of(situation, sites, middles)) {
     const Eigen::Vector3d position = situation.reachable().position_in(place);
@@ -113,8 +108,7 @@ VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vecto
       const double length_m = line.norm();
       if (length_m >= situation.sensor().min_range_m && length_m <= range_m &&
           !situation.tried().tried_from(unknown[number], place) &&
-          (wanted[number].viewpoint == place ||
-           in_plain_sight(situation.map(), position, unknown[number], operations))) {
+          in_plain_sight(situation.map(), position, unknown[number], operations)) {
         lines.push_back({number, line});
       }
     }

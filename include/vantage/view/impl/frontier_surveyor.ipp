@@ -289,13 +289,16 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
   std::erase_if(hidden, [&](const VoxelIndex& cell) {
     return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
   });
-  std::erase_if(hidden, [&](const VoxelIndex& cell) {
-    const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
-    if (target) {
-      survey.targets.push_back(*target);
-    }
-    return target.has_value();
-  });
+  // A sensor that looks all around sees parts of cells in passing; a camera would have to be aimed at each.
+  if (sensor_.looks_all_around() || survey.targets.empty()) {
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
+      if (target) {
+        survey.targets.push_back(*target);
+      }
+      return target.has_value();
+    });
+  }
   std::sort(survey.targets.begin(), survey.targets.end(),
             [](const FrontierTarget& a, const FrontierTarget& b) { return RasterOrder{}(a.frontier, b.frontier); });
   memory_->forget_others();
