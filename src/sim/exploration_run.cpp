@@ -326,27 +326,24 @@ bool ExplorationRun::goes_on(Progress& progress, ExplorationPlanner& planner, co
     on_view(record.views.back(), known());
   }
   const Plan& next = progress.plan;
-  if (!planned || (next.outcome == Outcome::Move && stopped())) {
-    record.outcome = RunOutcome::Interrupted;
-    record.reason = "interrupted after view " + std::to_string(record.views.size());
+  const auto end_as = [&](RunOutcome outcome, std::string reason) {
+    record.outcome = outcome;
+    record.reason = std::move(reason);
     return false;
+  };
+  if (!planned || (next.outcome == Outcome::Move && stopped())) {
+    return end_as(RunOutcome::Interrupted, "interrupted after view " + std::to_string(record.views.size()));
   }
   if (next.outcome != Outcome::Move || next.path.empty()) {
-    record.outcome = run_outcome_of(next.outcome);
-    record.reason = next.reason;
-    return false;
+    return end_as(run_outcome_of(next.outcome), next.reason);
   }
   if (record.views.size() >= options_.max_views) {
-    record.outcome = RunOutcome::Budget;
-    record.reason = "the budget of " + std::to_string(options_.max_views) + " views is spent";
-    return false;
+    return end_as(RunOutcome::Budget, "the budget of " + std::to_string(options_.max_views) + " views is spent");
   }
   if (options_.max_path_m && progress.path_length_m + detail::length_m(next.path) > *options_.max_path_m) {
     char reason[96];
     std::snprintf(reason, sizeof reason, "the next view is out of the budget of %g m of path", *options_.max_path_m);
-    record.outcome = RunOutcome::Budget;
-    record.reason = reason;
-    return false;
+    return end_as(RunOutcome::Budget, reason);
   }
   return true;
 }

@@ -214,6 +214,33 @@ inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, c
   });
 }
 
+// Moves the cells of which a viewpoint sees an unknown neighbour, if only in part, from `hidden` to the targets.
+template <class IsSought>
+void take_those_seen_in_part(ViewpointSearch& search, const IsSought& is_sought, std::vector<VoxelIndex>& hidden,
+                             std::vector<FrontierTarget>& targets) {
+  std::erase_if(hidden, [&](const VoxelIndex& cell) {
+    const std::optional<FrontierTarget> target = search.look_back_from(cell, is_sought);
+    if (target) {
+      targets.push_back(*target);
+    }
+    return target.has_value();
+  });
+}
+
+// The first target found along lines past other unknown cells.
+template <class IsSought>
+std::optional<FrontierTarget> one_seen_past_another(ViewpointSearch& search, const IsSought& is_sought,
+                                                    const std::vector<VoxelIndex>& hidden, std::size_t& pairs) {
+  for (const VoxelIndex& cell : hidden) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      if (const auto past = is_sought(cell + step) ? search.try_past(cell + step, is_sought, pairs) : std::nullopt) {
+        return past;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.
 inline std::vector<FrontierTarget> surfaces_first(const OccupancyMap& map, std::vector<FrontierTarget> targets) {
   const auto beside_surface = [&](const FrontierTarget& target) {
@@ -291,13 +318,7 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
   });
   // A sensor that looks all around sees parts of cells in passing; a camera would have to be aimed at each.
   if (sensor_.looks_all_around() || survey.targets.empty()) {
-    std::erase_if(hidden, [&](const VoxelIndex& cell) {
-      const std::optional<FrontierTarget> target = search.look_back_from(cell, sought);
-      if (target) {
-        survey.targets.push_back(*target);
-      }
-      return target.has_value();
-    });
+    detail::take_those_seen_in_part(search, sought, hidden, survey.targets);
   }
   std::sort(survey.targets.begin(), survey.targets.end(),
             [](const FrontierTarget& a, const FrontierTarget& b) { return RasterOrder{}(a.frontier, b.frontier); });
@@ -309,12 +330,8 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
     std::erase_if(hidden, [&](const VoxelIndex& cell) {
       return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
     });
-    std::optional<FrontierTarget> past;
-    for (auto cell = hidden.begin(); cell != hidden.end() && survey.targets.empty() && !past; ++cell) {
-      for (const VoxelIndex& step : kFaceNeighbours) {
-        past = !past && sought(*cell + step) ? search.try_past(*cell + step, sought, pairs) : past;
-      }
-    }
+    const auto past =
+        survey.targets.empty() ? detail::one_seen_past_another(search, sought, hidden, pairs) : std::nullopt;
     if (past) {
       survey.targets.push_back(*past);
       std::erase(hidden, past->frontier);
