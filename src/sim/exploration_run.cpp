@@ -45,9 +45,7 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   if (options.band && options.unknown_box) {
     throw std::invalid_argument("ExplorationRunOptions::unknown_box: there is none in the plane of a band");
   }
-  if (!options.map.region) {
-    options.map.region = world.region;
-  }
+  options.map.region = options.map.region.value_or(world.region);
   if (world.plan) {
     if (options.band) {
       throw std::invalid_argument("ExplorationRunOptions::band: a world that is a plane has no heights");
