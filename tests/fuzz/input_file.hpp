@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <unistd.h>
-
-#include <filesystem>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
-#include <string>
+
+#include "temporary_path.hpp"
 
 namespace vantage::fuzz {
 
-/// A temporary file with these bytes, for readers that accept only files. Deleted by the destructor.
-class InputFile {
+/// A temporary file with these bytes, for readers that accept only files.
+class InputFile : public TemporaryPath {
  public:
-  InputFile(const std::uint8_t* data, std::size_t size, const std::string& ending)
-      : path_(std::filesystem::temp_directory_path() / ("vantage-fuzz-" + std::to_string(::getpid()) + ending)) {
-    std::ofstream(path_, std::ios::binary)
+  InputFile(const std::uint8_t* data, std::size_t size, const std::string& ending) : TemporaryPath(ending) {
+    std::ofstream(path(), std::ios::binary)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
-  InputFile(const InputFile&) = delete;
-  InputFile(InputFile&&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-  InputFile& operator=(InputFile&&) = delete;
-  ~InputFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace vantage::fuzz

@@ -30,14 +30,18 @@ struct SurveyedWorld {
   double furthest_m;  // length of the search rays, metres
   FrontierSurveyOptions options{.sight_directions = kDirections};
   TriedViews tried{sensor};
+  bool is_level = false;  // the region is one layer of cells
 };
 
 // Random rooms with walls, worn walls and unknown holes.
-OccupancyMap random_rooms(std::mt19937& engine, double resolution_m) {
+OccupancyMap random_rooms(std::mt19937& engine, double resolution_m, bool is_level = false) {
   OccupancyMapOptions options{.resolution_m = resolution_m};
+  const double edge_m = 0.9 * kExtent * resolution_m;
   if (engine() % 3 == 0) {
-    const double edge_m = 0.9 * kExtent * resolution_m;
     options.region = Box{Eigen::Vector3d::Constant(-edge_m), Eigen::Vector3d::Constant(edge_m)};
+  }
+  if (is_level) {
+    options.region = Box{Eigen::Vector3d(-edge_m, -edge_m, 0.0), Eigen::Vector3d(edge_m, edge_m, resolution_m)};
   }
   OccupancyMap map(options);
   std::uniform_int_distribution<std::int32_t> coordinate(-kExtent, kExtent);
@@ -62,7 +66,7 @@ OccupancyMap random_rooms(std::mt19937& engine, double resolution_m) {
   return map;
 }
 
-SurveyedWorld random_world(std::mt19937& engine) {
+SurveyedWorld random_world(std::mt19937& engine, bool is_level = false) {
   const double resolution_m = engine() % 2 == 0 ? 0.1 : 0.05;
   const double far_m = (engine() % 4 == 0 ? 1000.0 : static_cast<double>(5 + engine() % 30)) * resolution_m;
   const double min_m = 2.0 * resolution_m;
@@ -70,16 +74,20 @@ SurveyedWorld random_world(std::mt19937& engine) {
                            ? RangeSensor::spherical(90, 60, 1.2, 1.0, min_m, far_m)
                            : RangeSensor::spherical(36, 18, 2.0 * std::numbers::pi, std::numbers::pi, min_m, far_m);
   sensor.reports_no_return = true;
-  const OccupancyMap map = random_rooms(engine, resolution_m);
+  const OccupancyMap map = random_rooms(engine, resolution_m, is_level);
   const double across_m = map.frame().box_of(map.bounds()).extent().norm() + resolution_m;
-  return {map, FreeFlyer({.radius_m = (engine() % 2 == 0 ? 0.4 : 1.6) * resolution_m, .yaw_only = engine() % 3 == 0}),
-          sensor, pose_looking(Eigen::Vector3d::Constant(0.5 * resolution_m), 0.0), std::min(far_m, across_m)};
+  const double radius_m = (engine() % 2 == 0 || is_level ? 0.4 : 1.6) * resolution_m;
+  SurveyedWorld world{map, FreeFlyer({.radius_m = radius_m, .yaw_only = engine() % 3 == 0}), sensor,
+                      pose_looking(Eigen::Vector3d::Constant(0.5 * resolution_m), 0.0), std::min(far_m, across_m)};
+  world.is_level = is_level;
+  return world;
 }
 
-std::vector<Eigen::Vector3d> directions(std::size_t count) {
+// All around, or level.
+std::vector<Eigen::Vector3d> directions(std::size_t count, bool level) {
   std::vector<Eigen::Vector3d> all;
   for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    const double z = level ? 0.0 : 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
     const double angle = std::numbers::pi * (3.0 - std::sqrt(5.0)) * static_cast<double>(i);
     all.emplace_back(std::sqrt(1.0 - z * z) * std::cos(angle), std::sqrt(1.0 - z * z) * std::sin(angle), z);
   }
@@ -114,7 +122,7 @@ std::optional<VoxelIndex> along(const SurveyedWorld& world, const ReachableSpace
 // The target of a frontier cell by definition: the first unknown neighbour that is seen along its first direction.
 std::optional<FrontierTarget> target_of(const SurveyedWorld& world, const ReachableSpace& reachable,
                                         const VoxelIndex& frontier) {
-  static const std::vector<Eigen::Vector3d> all_around = directions(kDirections);
+  const std::vector<Eigen::Vector3d> all_around = directions(kDirections, world.is_level);
   for (const VoxelIndex& step : kFaceNeighbours) {
     const VoxelIndex unknown = frontier + step;
     if (!world.map.in_region(unknown) || world.map.at(unknown) != Occupancy::Unknown ||
@@ -163,7 +171,7 @@ std::optional<FrontierTarget> part_target_of(const SurveyedWorld& world, const R
                                              const VoxelIndex& frontier) {
   const VoxelFrame& frame = world.map.frame();
   const Eigen::Vector3d centre = frame.centre_of(frontier);
-  for (const Eigen::Vector3d& direction : directions(kDirections)) {
+  for (const Eigen::Vector3d& direction : directions(kDirections, world.is_level)) {
     for (const VoxelIndex& cell : VoxelRay(frame, centre, centre + world.furthest_m * direction)) {
       if (cell == frontier) {
         continue;
@@ -236,8 +244,10 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   std::size_t given_up = 0;
   std::size_t resting = 0;
   std::size_t in_part = 0;
-  for (int i = 0; i < 40; ++i) {
-    SurveyedWorld world = random_world(engine);
+  std::size_t level_targets = 0;
+  std::size_t level_in_part = 0;
+  for (int i = 0; i < 100; ++i) {  // the last 60 are level
+    SurveyedWorld world = random_world(engine, i >= 40);
     const auto survey_of = [&] {
       return survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
     };
@@ -255,7 +265,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       } else if (const auto part =
                      world.sensor.looks_all_around() ? part_target_of(world, reachable, cell) : std::nullopt) {
         expected.push_back(*part);
-        ++in_part;
+        ++(world.is_level ? level_in_part : in_part);
       } else {
         ++(was_given_up(world, cell)                 ? leftover.in_vain
            : body_comes_near(world, reachable, cell) ? leftover.unobservable
@@ -272,6 +282,10 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       ASSERT_EQ(survey.targets[k].viewpoint, expected[k].viewpoint) << "world " << i;
     }
     EXPECT_EQ(survey.leftover, leftover) << "world " << i;
+    if (world.is_level) {
+      level_targets += expected.size();
+      continue;
+    }
     ++compared;
     targets += expected.size();
     hidden += leftover.unobservable + leftover.unreachable;
@@ -283,6 +297,8 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   EXPECT_GT(given_up, 100U);
   EXPECT_GT(resting, 10U);
   EXPECT_GT(in_part, 100U);
+  EXPECT_GT(level_targets, 1'000U);
+  EXPECT_GT(level_in_part, 20U);
 }
 
 TEST(FrontierSurvey, TakesCellsSeenInPart) {
