@@ -81,7 +81,7 @@ struct FrontierVoidOptions {
 
 /// Intermediate results of a plan of FrontierVoidPlanner, for display.
 struct VoidSearch {
-  VoidClusters voids;                        ///< clusters of all void cells, when a view was last chosen
+  VoidClusters voids;  ///< clusters of the void cells that views could see, when a view was last chosen
   std::vector<FrontierVoid> frontier_voids;  ///< voids with an observable frontier
   std::vector<VoxelIndex> frontier;          ///< observable frontier cells
   std::vector<VoxelIndex> places;            ///< reachable cells with a utility above 0
@@ -96,9 +96,10 @@ struct VoidSearch {
 ///                 ->  N views at the places of highest utility                        (IV-C)
 ///                 ->  the view that observes most distinct void cells, by ray casting (eq. 3)
 ///
-/// Only frontier cells that the shared survey finds observable are used. So the search ends when everything
-/// observable is seen, and the leftover is reported by cause. docs/frontier_void.md lists where each equation is
-/// implemented. (Dornhege & Kleiner 2011.)
+/// Only frontier cells that the shared survey finds observable are used, and only void cells that are as near to one
+/// of them as the sensor's range: a view sees no others, and the hull may be far larger. So the search ends when
+/// everything observable is seen, and the leftover is reported by cause. docs/frontier_void.md lists where each
+/// equation is implemented. (Dornhege & Kleiner 2011.)
 class FrontierVoidPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.
@@ -129,6 +130,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   VoidSearch search_;
   Following<VoidTracker> void_cells_;
   OccupancyMap::Revision clustered_ = 0;  // of the map of `search_.voids` and `sight_`
+  std::vector<VoxelBox> near_;            // where these were searched
   std::optional<UnknownSight> sight_;     // none: the voids are yet to be clustered
 };
 

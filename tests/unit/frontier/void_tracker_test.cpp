@@ -93,10 +93,28 @@ TEST(VoidTracker, HoldsWhatExtractionFromNothingFinds) {
   EXPECT_GT(hulls_shrunk, 10U);
 }
 
+const std::array<VoxelBox, 1> kEverywhere{VoxelBox{{-1000, -1000, -1000}, {1000, 1000, 1000}}};
+
+VoxelBox random_box(std::mt19937& engine) {
+  std::uniform_int_distribution<std::int32_t> anywhere(-20, 20);
+  const VoxelIndex lo{anywhere(engine), anywhere(engine), anywhere(engine)};
+  return {lo, lo + VoxelIndex{3, 3, 3}};
+}
+
+// The bricks that hold a cell of a box.
+std::set<VoxelIndex> bricks_of(const std::vector<VoxelBox>& boxes) {
+  std::set<VoxelIndex> bricks;
+  for (const VoxelBox& box : boxes) {
+    for_each_cell(box, [&](const VoxelIndex& cell) { bricks.insert(Brick::of_cell(cell)); });
+  }
+  return bricks;
+}
+
 // Compares with a flood through void cells, one by one.
 TEST(VoidTracker, KnowsTheVoidCellsBehindAFrontier) {
   std::mt19937 engine(73);
   std::size_t behind_count = 0;
+  std::size_t near_count = 0;
   std::size_t enclosed = 0;
   constexpr int kWorlds = test::kSanitized ? 2 : 6;
   for (int world = 0; world < kWorlds; ++world) {
@@ -120,14 +138,23 @@ TEST(VoidTracker, KnowsTheVoidCellsBehindAFrontier) {
       for (std::size_t next = 0; next < expected.size(); ++next) {
         meet_beside(VoxelIndex(expected[next]));
       }
-      std::vector<VoxelIndex> behind = tracker.cells_behind(frontier);
+      std::vector<VoxelIndex> behind = tracker.cells_behind(frontier, kEverywhere);
       std::sort(behind.begin(), behind.end());
       ASSERT_EQ(behind, std::vector<VoxelIndex>(met.begin(), met.end())) << "world " << world << ", step " << step;
       behind_count += behind.size();
       enclosed += tracker.cell_count() - behind.size();
+      const std::vector<VoxelBox> near{random_box(engine)};
+      const std::set<VoxelIndex> bricks = bricks_of(near);
+      std::erase_if(met, [&](const VoxelIndex& cell) { return bricks.count(Brick::of_cell(cell)) == 0; });
+      behind = tracker.cells_behind(frontier, near);
+      std::sort(behind.begin(), behind.end());
+      ASSERT_EQ(behind, std::vector<VoxelIndex>(met.begin(), met.end())) << "world " << world << ", step " << step;
+      near_count += behind.size();
     }
   }
   EXPECT_GT(behind_count, 15'000U * kWorlds);
+  EXPECT_GT(near_count, 1'000U * kWorlds);
+  EXPECT_LT(near_count, behind_count * 3 / 4);
   EXPECT_GT(enclosed, 100U * kWorlds);
 }
 
@@ -183,7 +210,7 @@ TEST(VoidTracker, FindsWhatLiesBetweenPartsFarApart) {
         for (std::size_t next = 0; next < reached.size(); ++next) {
           reach_beside(VoxelIndex(reached[next]));
         }
-        std::vector<VoxelIndex> behind = tracker.cells_behind(frontier);
+        std::vector<VoxelIndex> behind = tracker.cells_behind(frontier, kEverywhere);
         std::sort(behind.begin(), behind.end());
         std::sort(reached.begin(), reached.end());
         ASSERT_TRUE(behind == reached) << "world " << world << ", step " << step;

@@ -188,6 +188,32 @@ TEST(FrontierVoidPlanner, ShowsWhatThePlanWasMadeFrom) {
   }
 }
 
+// The hull of the returns holds millions of cells that no view can see.
+TEST(FrontierVoidPlanner, ClustersOnlyWhatAViewCanSee) {
+  Robot robot;
+  Scan wild{.world_from_sensor = robot.pose};
+  wild.points = {{1.0F, 0.2F, 80.0F}, {-70.0F, 0.1F, 60.0F}, {30.0F, 0.5F, 100.0F}};
+  OccupancyMap map({.resolution_m = 0.1});
+  map.assume_free(robot.platform->body_box(robot.pose));
+  map.insert(testing::scan_cells_of(robot.world, robot.sensor, robot.pose));
+  map.insert(wild);
+  FrontierVoidPlanner planner(robot.setup());
+  const Plan plan = planner.plan(map, robot.pose);
+  ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
+  const std::int32_t reach = 40 + Brick::kSide + 32;  // the range, a brick, and the cells that share a box
+  std::size_t clustered = 0;
+  planner.search().voids.for_each_cell([&](const VoxelIndex& cell) {
+    ++clustered;
+    ASSERT_TRUE(
+        std::any_of(planner.search().frontier.begin(), planner.search().frontier.end(), [&](const VoxelIndex& other) {
+          return VoxelBox{other, other + VoxelIndex{1, 1, 1}}.grown(reach).contains(cell);
+        }));
+  });
+  EXPECT_GT(plan.statistics.void_cells, 1'000'000U);
+  EXPECT_GT(clustered, 1'000U);
+  EXPECT_LT(clustered, plan.statistics.void_cells / 4);
+}
+
 TEST(FrontierVoidPlanner, ALevelPlatformStaysLevel) {
   Robot robot(true);
   FrontierVoidPlanner planner(robot.setup());

@@ -13,6 +13,7 @@
 #include <vantage/frontier/impl/hull_change.hpp>
 #include <vantage/frontier/impl/lattice_point.hpp>
 #include <vantage/frontier/impl/on_facet.hpp>
+#include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/geometry/impl/plane_distance.hpp>
 #include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/map/impl/connected_cells.hpp>
@@ -242,7 +243,8 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells() const {
   return cells;
 }
 
-VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const VoxelIndex> frontier) {
+VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const VoxelIndex> frontier,
+                                                                 std::span<const VoxelBox> near) {
   std::vector<VoxelIndex> starts;
   for (const VoxelIndex& cell : frontier) {
     for (const VoxelIndex& step : kFaceNeighbours) {
@@ -258,8 +260,14 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const
       starts, [&](const VoxelIndex& tile, std::span<BrickPlane> bricks) { fill(whole, tile, bricks); },
       [&](const VoxelIndex& brick, const BrickPlane& cells) { (void)behind_.assign(brick, cells); });
   std::vector<VoxelIndex> cells;
-  behind_.for_each_brick(
-      [&](const VoxelIndex& brick, const BrickPlane& behind) { detail::append(behind, brick, cells); });
+  behind_.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& behind) {
+    const VoxelIndex first = Brick::first_cell(brick);
+    const VoxelBox box{first, first + VoxelIndex{Brick::kSide, Brick::kSide, Brick::kSide}};
+    if (std::any_of(near.begin(), near.end(),
+                    [&](const VoxelBox& one) { return !detail::box_overlap(one, box).empty(); })) {
+      detail::append(behind, brick, cells);
+    }
+  });
   return cells;
 }
 

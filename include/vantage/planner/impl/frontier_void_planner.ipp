@@ -4,11 +4,15 @@
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
+#include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 
+#include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/view/impl/ranked_views.hpp>
@@ -31,6 +35,22 @@ inline std::string volume(double cells, double cell_m) {
 inline double expected(const std::vector<SightedCell>& seen) {
   const auto add = [](double cells, const SightedCell& one) { return cells + one.chance; };
   return std::round(std::accumulate(seen.begin(), seen.end(), 0.0, add));
+}
+
+// Boxes that hold all that lies within a range of a frontier cell: one for the cells of each cube of 32 cells.
+inline constexpr std::int32_t kCubeBits = 5;
+
+inline std::vector<VoxelBox> boxes_around(std::span<const VoxelIndex> frontier, std::int32_t range) {
+  std::map<VoxelIndex, VoxelBox, RasterOrder> boxes;
+  for (const VoxelIndex& cell : frontier) {
+    VoxelBox& box = boxes[{cell.x >> kCubeBits, cell.y >> kCubeBits, cell.z >> kCubeBits}];
+    box = box_around(box, {cell, cell + VoxelIndex{1, 1, 1}});
+  }
+  std::vector<VoxelBox> grown;
+  for (const auto& [cube, box] : boxes) {
+    grown.push_back(box.grown(range));
+  }
+  return grown;
 }
 
 // At least one cell.
@@ -102,8 +122,10 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(PlanStatis
   for (const FrontierTarget& target : situation().survey().targets) {
     search_.frontier.push_back(target.frontier);
   }
-  if (!sight_) {  // else a view in this map was refused, and only the targets have changed
-    const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells());
+  std::vector<VoxelBox> near = detail::boxes_around(search_.frontier, map.frame().cells_up_to(sensor.max_range_m));
+  if (!sight_ || near != near_) {  // else a view in this map was refused, and only the targets have changed
+    near_ = std::move(near);
+    const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells(), near_);
     search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
     clustered_ = map.revision();
     sight_.emplace(
