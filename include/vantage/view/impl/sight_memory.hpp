@@ -34,6 +34,9 @@ namespace vantage::detail {
 ///     look_around():  no looked-at block changed after the answer was found, and no skipped box
 ///                     holds a reachable cell now?   yes: the stored answer    no: search again (SightTree)
 ///
+/// An answer that was valid in the last survey is valid without a look at its blocks where all changes are too far
+/// away for its search. So a survey of a large map follows what has changed.
+///
 /// All blocks are compared if the map is another one. Blocks are stored for a brick of the map where one of their
 /// cells is or was clear or reachable, or a search has looked at one. So memory follows what can be passed.
 class SightMemory {
@@ -94,7 +97,8 @@ class SightMemory {
   BrickDirectory::Number store(const VoxelIndex& brick);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& cell);
-  [[nodiscard]] bool stands(const Answer& answer) const;
+  void changed(Block& block, const VoxelIndex& brick);
+  [[nodiscard]] bool stands(const Answer& answer, bool stood_before) const;
   static std::uint64_t bit_of(std::size_t offset) { return std::uint64_t{1} << (offset & 63U); }
 
   static constexpr VoxelIndex kNoBrick{std::numeric_limits<std::int32_t>::max(), 0, 0};
@@ -115,6 +119,7 @@ class SightMemory {
   VoxelIndex last_brick_ = kNoBrick;
   BrickDirectory::Number last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
+  VoxelBox touched_;  // around the bricks that changed in this survey, as far as a search looks
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
   std::vector<Answer> answers_;
@@ -151,9 +156,9 @@ template <class Passes, class Serves>
 std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& cell, std::uint32_t about, bool anew,
                                                    const Passes& passes, const Serves& serves) {
   Answer& answer = answer_of(cell);
-  const bool asked_before = answer.asked == survey_;  // in this survey, from another frontier cell
-  answer.asked = survey_;
-  if (answer.about == about && (asked_before || (!anew && stands(answer)))) {
+  const std::uint32_t asked = std::exchange(answer.asked, survey_);
+  const bool asked_before = asked == survey_;  // in this survey, from another frontier cell
+  if (answer.about == about && (asked_before || (!anew && stands(answer, asked + 1 == survey_)))) {
     return answer.viewpoint;
   }
   answer = {.cell = cell, .about = about, .found = survey_, .asked = survey_};

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/spread_directions.hpp>
 
 namespace vantage::detail {
@@ -35,8 +36,13 @@ VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const Reachable
   last_blocks_ = nullptr;
   last_brick_ = kNoBrick;
   ++survey_;
+  touched_ = {};
   follow_clear(map);
   follow_places(reachable, tried);
+  if (!touched_.empty()) {
+    constexpr std::int32_t kBeside = 2;  // an unknown cell, and what lies beside it
+    touched_ = touched_.grown(map.frame().cells_up_to(furthest_m_) + kBeside);
+  }
 }
 
 VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
@@ -70,7 +76,9 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
   if (reachable.started_anew()) {
     for (BrickBlocks& stored : bricks_) {
       for (Block& block : stored.blocks) {
-        block.changed = std::exchange(block.reachable, 0) != 0 ? survey_ : block.changed;
+        if (std::exchange(block.reachable, 0) != 0) {
+          changed(block, stored.brick);
+        }
       }
     }
     places_.clear();
@@ -116,14 +124,22 @@ void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member m
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     Block& block = stored.blocks[word];
     if (std::exchange(block.*member, cells[word]) != cells[word]) {
-      block.changed = survey_;
+      changed(block, brick);
     }
   }
 }
 
-VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {
-  return answer.may_stand &&
-         std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
+VANTAGE_INLINE void SightMemory::changed(Block& block, const VoxelIndex& brick) {
+  block.changed = survey_;
+  const VoxelIndex first = Brick::first_cell(brick);
+  touched_ = box_around(touched_, {first, first + VoxelIndex{Brick::kSide, Brick::kSide, Brick::kSide}});
+}
+
+VANTAGE_INLINE bool SightMemory::stands(const Answer& answer, bool stood_before) const {
+  if (!answer.may_stand || (stood_before && !touched_.contains(answer.cell))) {
+    return answer.may_stand;
+  }
+  return std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
                      [&](std::uint32_t at) {
                        return bricks_[at / Brick::kWords].blocks[at % Brick::kWords].changed <= answer.found;
                      }) &&
