@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/view/frontier_survey.hpp>
 #include <vector>
@@ -21,8 +22,9 @@ namespace VANTAGE_EXPORT vantage {
 /// Surveys a map repeatedly while it changes.
 ///
 /// The result is always the same as that of `survey_frontiers`: the same targets with the same viewpoints. It is only
-/// faster, and counts fewer `ray_operations`: the viewpoint found for an unknown cell is kept until a cell that the
-/// search has looked at changes.
+/// faster, and counts fewer `ray_operations`: what was found for a frontier cell is kept while all changes are
+/// further away than a search looks, and the viewpoint found for an unknown cell until a cell that the search has
+/// looked at changes.
 class FrontierSurveyor {
  public:
   /// Makes a surveyor without results. `platform` must not be null, and its answers must depend only on the map.
@@ -50,6 +52,15 @@ class FrontierSurveyor {
   [[nodiscard]] const ReachableSpace& reachable() const { return reachable_; }
 
  private:
+  // What a survey has found for a frontier cell.
+  struct Finding {
+    VoxelIndex frontier;
+    std::optional<FrontierTarget> target = {};
+    bool is_lasting = true;  // depends on no evidence of TriedViews
+  };
+  template <class Search>
+  [[nodiscard]] std::vector<Finding> find_each(const TriedViews& tried, const std::vector<VoxelIndex>& frontier,
+                                               Search&& search);
   [[nodiscard]] FrontierSurvey find_targets(const OccupancyMap& map, const TriedViews& tried,
                                             std::vector<VoxelIndex> frontier);
 
@@ -58,6 +69,7 @@ class FrontierSurveyor {
   FrontierSurveyOptions options_;
   ReachableSpace reachable_;
   std::unique_ptr<detail::SightMemory> memory_;
+  std::vector<Finding> findings_;  // of the last survey, in raster order; empty if it was not completed
 };
 
 }  // namespace vantage

@@ -214,19 +214,6 @@ inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, c
   });
 }
 
-// Moves the cells of which a viewpoint sees an unknown neighbour, if only in part, from `hidden` to the targets.
-template <class IsSought>
-void take_those_seen_in_part(ViewpointSearch& search, const IsSought& is_sought, std::vector<VoxelIndex>& hidden,
-                             std::vector<FrontierTarget>& targets) {
-  std::erase_if(hidden, [&](const VoxelIndex& cell) {
-    const std::optional<FrontierTarget> target = search.look_back_from(cell, is_sought);
-    if (target) {
-      targets.push_back(*target);
-    }
-    return target.has_value();
-  });
-}
-
 // The first target found along lines past other unknown cells.
 template <class IsSought>
 std::optional<FrontierTarget> one_seen_past_another(ViewpointSearch& search, const IsSought& is_sought,
@@ -291,44 +278,83 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey_from(const std::vector<Vo
   return find_targets(map, tried, std::move(frontier));
 }
 
+// The findings for all frontier cells: those of the last survey where they still hold, else those of
+// `search(frontier cell)`.
+template <class Search>
+std::vector<FrontierSurveyor::Finding> FrontierSurveyor::find_each(const TriedViews& tried,
+                                                                   const std::vector<VoxelIndex>& frontier,
+                                                                   Search&& search) {
+  const std::vector<Finding> before = std::exchange(findings_, {});
+  std::vector<Finding> found;
+  found.reserve(frontier.size());
+  auto last = before.begin();
+  for (const VoxelIndex& cell : frontier) {
+    const bool is_lasting = std::none_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
+                                         [&](const VoxelIndex& step) { return tried.tried(cell + step); });
+    last = std::find_if(last, before.end(), [&](const Finding& one) { return !RasterOrder{}(one.frontier, cell); });
+    const bool holds = last != before.end() && last->frontier == cell && last->is_lasting && is_lasting &&
+                       !memory_->may_differ(cell);
+    found.push_back(holds ? *last : Finding{cell, search(cell), is_lasting});
+  }
+  return found;
+}
+
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const TriedViews& tried,
                                                              std::vector<VoxelIndex> frontier) {
   memory_->follow(map, reachable_, tried, detail::furthest_m(map, sensor_), options_.sight_directions);
   FrontierSurvey survey;
   survey.frontier_cells = frontier.size();
   if (frontier.empty() || !reachable_.start()) {
+    findings_.clear();
     survey.leftover.unreachable = frontier.size();
     return survey;
   }
   detail::ViewpointSearch search(map.frame(), *platform_, sensor_, reachable_, tried, *memory_);
   const auto sought = [&](const VoxelIndex& unknown) { return detail::is_sought(map, unknown, tried); };
-  const auto try_to_see = [&](const VoxelIndex& cell, auto&& find) {
+  const auto first_seen = [&](const VoxelIndex& cell, auto&& find) -> std::optional<FrontierTarget> {
     for (const VoxelIndex& step : kFaceNeighbours) {
       const VoxelIndex unknown = cell + step;
       if (const auto viewpoint = sought(unknown) ? find(unknown) : std::nullopt) {
-        survey.targets.push_back({cell, unknown, *viewpoint});
-        return true;
+        return FrontierTarget{cell, unknown, *viewpoint};
       }
     }
-    return false;
+    return std::nullopt;
   };
-  std::vector<VoxelIndex>& hidden = frontier;  // the cells without target remain
-  std::erase_if(hidden, [&](const VoxelIndex& cell) {
-    return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
-  });
   // A sensor that looks all around sees parts of cells in passing; a camera would have to be aimed at each.
-  if (sensor_.looks_all_around() || survey.targets.empty()) {
-    detail::take_those_seen_in_part(search, sought, hidden, survey.targets);
+  const bool takes_parts = sensor_.looks_all_around();
+  std::vector<Finding> findings = find_each(tried, frontier, [&](const VoxelIndex& cell) {
+    const auto whole = first_seen(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
+    return whole || !takes_parts ? whole : search.look_back_from(cell, sought);
+  });
+  std::vector<VoxelIndex> hidden;
+  for (const Finding& one : findings) {
+    if (one.target) {
+      survey.targets.push_back(*one.target);
+    } else {
+      hidden.push_back(one.frontier);
+    }
   }
-  std::sort(survey.targets.begin(), survey.targets.end(),
-            [](const FrontierTarget& a, const FrontierTarget& b) { return RasterOrder{}(a.frontier, b.frontier); });
+  // Moves the cells for which there is a target to the targets.
+  const auto take = [&](auto&& find) {
+    std::erase_if(hidden, [&](const VoxelIndex& cell) {
+      const std::optional<FrontierTarget> target = find(cell);
+      if (target) {
+        survey.targets.push_back(*target);
+      }
+      return target.has_value();
+    });
+  };
+  if (survey.targets.empty() && !takes_parts) {
+    take([&](const VoxelIndex& cell) { return search.look_back_from(cell, sought); });
+  }
   memory_->forget_others();
+  findings_ = std::move(findings);
   if (survey.targets.empty()) {
     // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too
     // many.
     std::size_t pairs = detail::kExhaustivePairs;
-    std::erase_if(hidden, [&](const VoxelIndex& cell) {
-      return try_to_see(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
+    take([&](const VoxelIndex& cell) {
+      return first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
     });
     const auto past =
         survey.targets.empty() ? detail::one_seen_past_another(search, sought, hidden, pairs) : std::nullopt;

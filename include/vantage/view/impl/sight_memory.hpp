@@ -34,8 +34,7 @@ namespace vantage::detail {
 ///     look_around():  no looked-at block changed after the answer was found, and no skipped box
 ///                     holds a reachable cell now?   yes: the stored answer    no: search again (SightTree)
 ///
-/// An answer that was valid in the last survey is valid without a look at its blocks where all changes are too far
-/// away for its search. So a survey of a large map follows what has changed.
+/// Where all changes are too far away for a search, its answer need not be asked for at all (`may_differ`).
 ///
 /// All blocks are compared if the map is another one. Blocks are stored for a brick of the map where one of their
 /// cells is or was clear or reachable, or a search has looked at one. So memory follows what can be passed.
@@ -49,6 +48,9 @@ class SightMemory {
               std::size_t direction_count);
 
   [[nodiscard]] double furthest_m() const { return furthest_m_; }
+  /// Whether something that an answer to this cell, or to one beside it, depends on may have changed between the last
+  /// two calls of `follow`. It does not tell changes of `tried` other than of resting places.
+  [[nodiscard]] bool may_differ(const VoxelIndex& cell) const { return all_changed_ || touched_.contains(cell); }
   /// Whether sight passes this cell. During a search, the answer depends on this cell from now on.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell);
   /// Whether the platform can bring the sensor to this cell and it does not rest, as of the last `follow`.
@@ -62,7 +64,7 @@ class SightMemory {
   template <class Passes, class Serves>
   [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& cell, std::uint32_t about, bool anew,
                                                       const Passes& passes, const Serves& serves);
-  /// Deletes the answers that were not requested since the last `follow`.
+  /// Deletes the answers that may differ and were not requested since the last `follow`.
   void forget_others();
 
  private:
@@ -97,8 +99,8 @@ class SightMemory {
   BrickDirectory::Number store(const VoxelIndex& brick);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& cell);
-  void changed(Block& block, const VoxelIndex& brick);
-  [[nodiscard]] bool stands(const Answer& answer, bool stood_before) const;
+  void touch(const VoxelIndex& brick);
+  [[nodiscard]] bool stands(const Answer& answer) const;
   static std::uint64_t bit_of(std::size_t offset) { return std::uint64_t{1} << (offset & 63U); }
 
   static constexpr VoxelIndex kNoBrick{std::numeric_limits<std::int32_t>::max(), 0, 0};
@@ -119,7 +121,8 @@ class SightMemory {
   VoxelIndex last_brick_ = kNoBrick;
   BrickDirectory::Number last_number_ = BrickDirectory::kNone;
   std::uint32_t survey_ = 0;
-  VoxelBox touched_;  // around the bricks that changed in this survey, as far as a search looks
+  VoxelBox touched_;  // around the bricks that were written for this survey, as far as a search looks
+  bool all_changed_ = true;
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
   std::vector<Answer> answers_;
@@ -156,9 +159,9 @@ template <class Passes, class Serves>
 std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& cell, std::uint32_t about, bool anew,
                                                    const Passes& passes, const Serves& serves) {
   Answer& answer = answer_of(cell);
-  const std::uint32_t asked = std::exchange(answer.asked, survey_);
-  const bool asked_before = asked == survey_;  // in this survey, from another frontier cell
-  if (answer.about == about && (asked_before || (!anew && stands(answer, asked + 1 == survey_)))) {
+  const bool asked_before = answer.asked == survey_;  // in this survey, from another frontier cell
+  answer.asked = survey_;
+  if (answer.about == about && (asked_before || (!anew && stands(answer)))) {
     return answer.viewpoint;
   }
   answer = {.cell = cell, .about = about, .found = survey_, .asked = survey_};

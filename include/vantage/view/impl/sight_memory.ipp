@@ -31,6 +31,9 @@ VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const Reachable
       is_level_ != is_level) {
     is_level_ = is_level;
     begin(map, furthest_m, direction_count);
+    all_changed_ = true;
+  } else {
+    all_changed_ = !map_.is(map);
   }
   asked_ = nullptr;
   last_blocks_ = nullptr;
@@ -40,7 +43,7 @@ VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const Reachable
   follow_clear(map);
   follow_places(reachable, tried);
   if (!touched_.empty()) {
-    constexpr std::int32_t kBeside = 2;  // an unknown cell, and what lies beside it
+    constexpr std::int32_t kBeside = 3;  // a cell beside the one asked for, and what lies beside that
     touched_ = touched_.grown(map.frame().cells_up_to(furthest_m_) + kBeside);
   }
 }
@@ -68,6 +71,7 @@ VANTAGE_INLINE void SightMemory::follow_clear(const OccupancyMap& map) {
   }
   map.for_each_written_since(followed_, [&](const VoxelIndex& address, const Brick& brick) {
     set(address, map.clear_plane(brick), &Block::clear);
+    touch(address);
   });
   followed_ = map.revision();
 }
@@ -77,7 +81,8 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
     for (BrickBlocks& stored : bricks_) {
       for (Block& block : stored.blocks) {
         if (std::exchange(block.reachable, 0) != 0) {
-          changed(block, stored.brick);
+          block.changed = survey_;
+          touch(stored.brick);
         }
       }
     }
@@ -90,6 +95,7 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
                                       [&](const VoxelBox& box) { return Brick::over(box).contains(brick); });
     const BrickPlane places = cells == nullptr ? BrickPlane{} : *cells;
     set(brick, any_rest ? without_resting(places, brick, tried) : places, &Block::reachable);
+    touch(brick);
   };
   for (const VoxelIndex& brick : reachable.changed()) {
     update(brick);
@@ -124,22 +130,19 @@ void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member m
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     Block& block = stored.blocks[word];
     if (std::exchange(block.*member, cells[word]) != cells[word]) {
-      changed(block, brick);
+      block.changed = survey_;
     }
   }
 }
 
-VANTAGE_INLINE void SightMemory::changed(Block& block, const VoxelIndex& brick) {
-  block.changed = survey_;
+VANTAGE_INLINE void SightMemory::touch(const VoxelIndex& brick) {
   const VoxelIndex first = Brick::first_cell(brick);
   touched_ = box_around(touched_, {first, first + VoxelIndex{Brick::kSide, Brick::kSide, Brick::kSide}});
 }
 
-VANTAGE_INLINE bool SightMemory::stands(const Answer& answer, bool stood_before) const {
-  if (!answer.may_stand || (stood_before && !touched_.contains(answer.cell))) {
-    return answer.may_stand;
-  }
-  return std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
+VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {
+  return answer.may_stand &&
+         std::all_of(answer.looked_at.begin(), answer.looked_at.end(),
                      [&](std::uint32_t at) {
                        return bricks_[at / Brick::kWords].blocks[at % Brick::kWords].changed <= answer.found;
                      }) &&
@@ -157,7 +160,8 @@ VANTAGE_INLINE SightMemory::Answer& SightMemory::answer_of(const VoxelIndex& cel
 }
 
 VANTAGE_INLINE void SightMemory::forget_others() {
-  if (std::erase_if(answers_, [&](const Answer& answer) { return answer.asked != survey_; }) > 0) {
+  if (std::erase_if(answers_,
+                    [&](const Answer& answer) { return answer.asked != survey_ && may_differ(answer.cell); }) > 0) {
     numbers_.clear();
     for (const Answer& answer : answers_) {
       numbers_.place(answer.cell, static_cast<std::uint32_t>(&answer - answers_.data()));
