@@ -28,8 +28,7 @@ struct HeightBandOptions {
   double sensor_height_m = 0.5;  ///< z of the sensor; the plane is the layer of cells that holds it
   /// Share of the cells of a column that must be free before the column is free, in (0, 1]. A camera that is close to
   /// an obstacle sees only a part of the band. With a share of 1 the columns beside the robot would stay unknown, and
-  /// the robot could not leave. The cell at the height of the sensor must be one of them, if it is in the band: else
-  /// what is seen above a table that is not seen itself would free the column.
+  /// the robot could not leave.
   double free_share = 0.25;
   /// What the robot requires of the floor. A horizontal sensor does not see the floor beside it. FloorRule::Seen
   /// therefore needs a call of HeightBand::assume_floor for the start position.
@@ -44,8 +43,8 @@ struct HeightBandOptions {
 /// GroundRobot, the harmonic field becomes two-dimensional.
 ///
 /// A column is occupied if one of its cells in the band is occupied, or if it is a drop (see FloorRule::NoDrop). It
-/// is free if at least `free_share` of its cells are free, that at the height of the sensor among them, and its floor
-/// satisfies HeightBandOptions::floor. Otherwise it is unknown. All cells of the plane have log-odds at a clamping limit, so none is contested. Rays at a grazing
+/// is free if at least `free_share` of its cells are free and its floor satisfies HeightBandOptions::floor. Otherwise
+/// it is unknown. All cells of the plane have log-odds at a clamping limit, so none is contested. Rays at a grazing
 /// angle may erase single cells of a wall, but rarely all cells of a column.
 ///
 ///     HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.2, .sensor_height_m = 0.8});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/map/following.hpp>
@@ -25,6 +26,9 @@ class FollowingCaster {
     }
     rays_.emplace(sensor.rays_for(map.resolution_m()));
     sparse_rays_.emplace(sensor.rays_for(kSparse * map.resolution_m()));
+    if (const double excess = static_cast<double>(sparse_rays_->size()) / kMostSparse; excess > 1.0) {
+      sparse_rays_.emplace(sensor.rays_for(std::sqrt(excess) * kSparse * map.resolution_m()));
+    }
     return true;
   }
 
@@ -32,11 +36,13 @@ class FollowingCaster {
   [[nodiscard]] const RayCaster& caster() const { return *caster_; }
   /// The rays of the sensor, as dense as the cells of the map require. Requires a call of `follow`.
   [[nodiscard]] const ViewRays& rays() const { return *rays_; }
-  /// About a sixteenth of them, for a first ranking of many views. Requires a call of `follow`.
+  /// About a sixteenth of them, for a first ranking of many views, or about 1,000 if that is fewer. Requires a call
+  /// of `follow`.
   [[nodiscard]] const ViewRays& sparse_rays() const { return *sparse_rays_; }
 
  private:
   static constexpr double kSparse = 4.0;  // factor on the distance between rays
+  static constexpr double kMostSparse = 1000.0;
 
   Following<RayCaster> caster_;
   std::optional<ViewRays> rays_;

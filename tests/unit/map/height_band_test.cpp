@@ -18,7 +18,6 @@ constexpr double kCell = 0.1;
 Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
   int cells = 0;
   int free = 0;
-  bool is_seen = true;  // at the height of the sensor
   for (std::int32_t z = -40; z < 40; ++z) {
     const VoxelIndex cell{x, y, z};
     const double height_m = map.frame().centre_of(cell).z();
@@ -30,10 +29,8 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
     }
     ++cells;
     free += map.at(cell) == Occupancy::Free ? 1 : 0;
-    is_seen = is_seen &&
-              (z != map.frame().cell_of({0.0, 0.0, options.sensor_height_m}).z || map.at(cell) == Occupancy::Free);
   }
-  if (!is_seen || free == 0 || free < options.free_share * cells) {
+  if (free == 0 || free < options.free_share * cells) {
     return Occupancy::Unknown;
   }
   bool all_free = true;

@@ -112,10 +112,8 @@ VANTAGE_INLINE Occupancy HeightBand::state_of(const OccupancyMap& map, const Vox
     }
     free += state == Occupancy::Free ? 1 : 0;
   }
-  const bool seen_by_sensor =
-      layer_ < lowest_ || layer_ >= above_ || map.at({column.x, column.y, layer_}) == Occupancy::Free;
-  return seen_by_sensor && free > 0 && free >= options_.free_share * (above_ - lowest_) ? state_by_floor(map, column)
-                                                                                        : Occupancy::Unknown;
+  return free > 0 && free >= options_.free_share * (above_ - lowest_) ? state_by_floor(map, column)
+                                                                      : Occupancy::Unknown;
 }
 
 // The state of a column whose cells in the band are free.
