@@ -153,8 +153,15 @@ int reconstruct(const ReconstructRequest& request) {
   if (shared.scale.value_or(1.0) == 1.0) {
     std::cerr << doubt_about_object_unit(request.object, object.bounds());
   }
-  ObjectSceneOptions placing{
-      .name = request.object, .table = request.table, .radii_m = radii_m, .resolution_m = shared.resolution_m};
+  const std::optional<Pose> typed = start_of(shared);
+  ObjectSceneOptions placing{.name = request.object,
+                             .table = request.table,
+                             .radii_m = radii_m,
+                             .resolution_m = shared.resolution_m,
+                             .body_radius_m = shared.robot_radius_m};
+  if (typed) {
+    placing.start = typed->translation();
+  }
   if (!request.object_box.empty()) {
     placing.object_box = box_of("--object-box", request.object_box);
     const Box bounds = object.bounds();
@@ -187,7 +194,6 @@ int reconstruct(const ReconstructRequest& request) {
   const ObjectRunPlanner made = object_run_planner(
       shared, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads}, scene, run,
       options.object_surface, settings_for(request, scene));
-  const std::optional<Pose> typed = start_of(shared);
   std::optional<Pose> start = typed ? typed : made.first_view;
   start = start ? start : draw_first_view(scene, run.truth(), *platform, shared.seed);
 

@@ -139,16 +139,6 @@ void ExplorationRun::assume_start_free(const Pose& start) {
   });
 }
 
-void ExplorationRun::know_surroundings() {
-  truth_.map().for_each_known([&](const VoxelIndex& cell, Occupancy occupancy) {
-    const Box box = map_.frame().box_of(cell);
-    const Box& unknown = *options_.unknown_box;
-    if ((box.max.array() <= unknown.min.array()).any() || (box.min.array() >= unknown.max.array()).any()) {
-      map_.set(cell, occupancy);
-    }
-  });
-}
-
 void ExplorationRun::scan(Progress& progress) {
   const Scan scan = progress.sensor.scan(progress.pose);
   progress.surface.add(scan);
@@ -374,7 +364,7 @@ RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, co
   record.observable_cells = progress.observable.size();
   record.travelled.push_back(start.translation());
   if (options_.unknown_box) {
-    know_surroundings();
+    truth_.tell_around(*options_.unknown_box, map_);
   }
   assume_start_free(start);
   for (const Box& box : options_.declared_clear) {

@@ -22,6 +22,19 @@ double fitting_radius_m(const Box& box, const RangeSensor& sensor, const ObjectS
   return options.table ? std::min(radius_m, 1.5) : radius_m;
 }
 
+// Memory and time follow the region, so it holds no more than the views and the ways between them need.
+Box region_around(const ObjectScene& scene, const ObjectSceneOptions& options) {
+  const double body_m = options.body_radius_m + 2.0 * options.resolution_m;
+  const double reach_m = *std::max_element(scene.radii_m.begin(), scene.radii_m.end()) +
+                         std::max(0.5 * scene.box.extent().norm(), body_m);
+  Box region{scene.box.centre().array() - reach_m, scene.box.centre().array() + reach_m};
+  if (options.table && options.start) {
+    region.extend(*options.start - Eigen::Vector3d::Constant(body_m));
+    region.extend(*options.start + Eigen::Vector3d::Constant(body_m));
+  }
+  return region;
+}
+
 std::string comma_separated(const std::vector<double>& numbers) {
   detail::PlainStream text;
   text.precision(17);
@@ -48,12 +61,13 @@ ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, 
   }
   scene.radii_m =
       options.radii_m.empty() ? std::vector{fitting_radius_m(scene.box, sensor, options)} : options.radii_m;
+  const Box around = region_around(scene, options);
   if (options.table) {
     scene.world = World::by_name("table");
+    Box& room = scene.world.region;
+    room = {room.min.cwiseMax(around.min), room.max.cwiseMin(around.max)};
   } else {
-    const double reach_m =
-        *std::max_element(scene.radii_m.begin(), scene.radii_m.end()) + 0.5 * scene.box.extent().norm();
-    scene.world.region = {scene.box.centre().array() - reach_m, scene.box.centre().array() + reach_m};
+    scene.world.region = around;
   }
   scene.world.name = options.name;
   scene.world.mesh.append(object);

@@ -54,7 +54,7 @@ class TriangleCellTest {
 
 }  // namespace
 
-void rasterise(const TriangleMesh& mesh, const VoxelFrame& frame, double grazed_share, VoxelGrid<CellTruth>& cells) {
+void rasterise(const TriangleMesh& mesh, const VoxelFrame& frame, double grazed_share, TrueCells& cells) {
   constexpr double kRoundingM = 1e-6;
   const Eigen::Vector3d rounding = Eigen::Vector3d::Constant(kRoundingM);
   const VoxelBox& limits = cells.box();
@@ -75,15 +75,14 @@ void rasterise(const TriangleMesh& mesh, const VoxelFrame& frame, double grazed_
         detail::box_overlap({frame.cell_of(bounds.min), frame.cell_of(bounds.max) + VoxelIndex{1, 1, 1}}, limits);
     const TriangleCellTest test(corners);
     for_each_cell(box, [&](const VoxelIndex& cell) {
-      CellTruth& truth = cells[cell];
-      if (truth == CellTruth::Occupied) {
+      if (cells[cell] == CellTruth::Occupied) {
         return;
       }
       const Eigen::Vector3d centre = frame.centre_of(cell);
       if (test.overlaps(centre, frame.size_m * (0.5 - grazed_share))) {
-        truth = CellTruth::Occupied;
+        cells.set(cell, CellTruth::Occupied);
       } else if (test.overlaps(centre, 0.5 * frame.size_m + kRoundingM)) {
-        truth = CellTruth::Grazed;
+        cells.set(cell, CellTruth::Grazed);
       }
     });
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/geometry/voxel.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/sim/truth.hpp>
 #include <vector>
@@ -13,16 +13,14 @@ namespace vantage {
 /// Truth::observable.
 class Sight {
  public:
-  Sight(const VoxelGrid<CellTruth>& cells, const VoxelFrame& frame, const RangeSensor& sensor, bool can_tilt)
+  Sight(const TrueCells& cells, const VoxelFrame& frame, const RangeSensor& sensor, bool can_tilt)
       : cells_(cells), frame_(frame), sensor_(sensor), can_tilt_(can_tilt) {}
 
   /// Whether it sees the centre of the cell.
   [[nodiscard]] bool sees(const VoxelIndex& pose, const VoxelIndex& cell) const;
   /// Whether it sees the centre of the cell, or a point just inside one of its faces, edges or corners.
   [[nodiscard]] bool sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const;
-  [[nodiscard]] bool is_free(const VoxelIndex& cell) const {
-    return cells_.value_or(cell, CellTruth::Free) == CellTruth::Free;
-  }
+  [[nodiscard]] bool is_free(const VoxelIndex& cell) const { return cells_[cell] == CellTruth::Free; }
   [[nodiscard]] const VoxelFrame& frame() const { return frame_; }
   [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
 
@@ -30,7 +28,7 @@ class Sight {
   [[nodiscard]] bool sees_point(const VoxelIndex& pose, const VoxelIndex& cell, const Eigen::Vector3d& to) const;
   [[nodiscard]] bool ends_on_a_surface(const Eigen::Vector3d& pose_m, const Eigen::Vector3d& cell_m) const;
 
-  const VoxelGrid<CellTruth>& cells_;
+  const TrueCells& cells_;
   VoxelFrame frame_;
   RangeSensor sensor_;
   bool can_tilt_;

@@ -8,6 +8,7 @@
 #include <vantage/robot/reachable_space.hpp>
 #include <vantage/sim/truth.hpp>
 
+#include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 #include "sim/rasterise.hpp"
 #include "sim/sight.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double kGrazedShare = 0.02;
 constexpr double kLatticeM = 0.4;
-constexpr double kMostCells = 4294967296.0;  // one byte each
+constexpr double kMostCells = 4294967296.0;
 
 OccupancyMapOptions map_options(double resolution_m, const Box& region) {
   detail::require_option(std::isfinite(resolution_m) && resolution_m > 0.0, "Truth: resolution_m", resolution_m,
@@ -43,16 +44,15 @@ bool reaches_beyond(const Box& mesh, const Box& region, double around_m) {
 }
 
 // Cells of a world that is a plane, in the layer of the region.
-VoxelGrid<CellTruth> cells_of_plan(const GroundPlan& plan, const VoxelFrame& frame, const VoxelBox& covered,
-                                   const VoxelBox& region) {
-  VoxelGrid<CellTruth> cells({{covered.lo.x, covered.lo.y, region.lo.z}, {covered.hi.x, covered.hi.y, region.hi.z}},
-                             CellTruth::Free);
+TrueCells cells_of_plan(const GroundPlan& plan, const VoxelFrame& frame, const VoxelBox& covered,
+                        const VoxelBox& region) {
+  TrueCells cells({{covered.lo.x, covered.lo.y, region.lo.z}, {covered.hi.x, covered.hi.y, region.hi.z}});
   const Eigen::Vector3d grazed = Eigen::Vector3d::Constant(kGrazedShare * frame.size_m);
   for_each_cell(cells.box(), [&](const VoxelIndex& cell) {
     const Box box = frame.box_of(cell);
     if (plan.touches_solid(box)) {
-      cells[cell] =
-          plan.touches_solid({box.min + grazed, box.max - grazed}) ? CellTruth::Occupied : CellTruth::Grazed;
+      const bool solid = plan.touches_solid({box.min + grazed, box.max - grazed});
+      cells.set(cell, solid ? CellTruth::Occupied : CellTruth::Grazed);
     }
   });
   return cells;
@@ -107,17 +107,17 @@ Truth::Truth(const World& world, double resolution_m, const Box& region, double 
   if (world.plan) {
     cells_ = cells_of_plan(*world.plan, frame, covered, region_);
   } else {
-    cells_ = VoxelGrid<CellTruth>(covered, CellTruth::Free);
+    cells_ = TrueCells(covered);
     rasterise(world.mesh, frame, kGrazedShare, cells_);
   }
   for_each_cell(Brick::over(region_), [&](const VoxelIndex& brick) {
-    BrickPlane known{};
+    const BrickPlane known = detail::plane_of(brick, region_);
     BrickPlane occupied{};
-    for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
-      const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
-      const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
-      known[offset >> 6U] |= region_.contains(cell) ? bit : 0U;
-      occupied[offset >> 6U] |= region_.contains(cell) && at(cell) != CellTruth::Free ? bit : 0U;
+    for (std::size_t word = 0; word < Brick::kWords && !cells_.is_free_brick(brick); ++word) {
+      for_each_offset(known[word], word, [&](std::size_t offset) {
+        const bool solid = at(Brick::first_cell(brick) + Brick::cell_at(offset)) != CellTruth::Free;
+        occupied[word] |= std::uint64_t{solid} << (offset & 63U);
+      });
     }
     map_.assign(brick, known, occupied);
   });
@@ -130,14 +130,14 @@ Truth Truth::in_band(const HeightBandOptions& options) const {
   const std::int32_t above = band.layers().second;
   const std::int32_t layer = band.plane().region()->lo.z;
   const VoxelBox& box = cells_.box();
-  VoxelGrid<CellTruth> cells({{box.lo.x, box.lo.y, layer}, {box.hi.x, box.hi.y, layer + 1}}, CellTruth::Free);
+  TrueCells cells({{box.lo.x, box.lo.y, layer}, {box.hi.x, box.hi.y, layer + 1}});
   for_each_cell(cells.box(), [&](const VoxelIndex& column) {
+    CellTruth state = CellTruth::Free;
     for (VoxelIndex cell{column.x, column.y, lowest}; cell.z < above; ++cell.z) {
-      cells[column] = std::max(cells[column], at(cell));  // Free < Grazed < Occupied
+      state = std::max(state, at(cell));  // Free < Grazed < Occupied
     }
-    if (cells[column] == CellTruth::Free && band.plane().at(column) == Occupancy::Occupied) {
-      cells[column] = CellTruth::Occupied;  // a drop
-    }
+    const bool drop = state == CellTruth::Free && band.plane().at(column) == Occupancy::Occupied;
+    cells.set(column, drop ? CellTruth::Occupied : state);
   });
   return {band.plane(), std::move(cells), longest_range_m_};
 }
@@ -160,12 +160,17 @@ std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& sta
   const ReachableSpace space(map_, platform, start);
   const bool is_plane = region_.extent().z == 1;
   std::vector<VoxelIndex> lattice;
-  for (const VoxelIndex& cell : space.cells()) {
-    const bool on_lattice = cell.x % pitch == 0 && cell.y % pitch == 0 && (is_plane || cell.z % pitch == 0);
-    if (cell == *space.start() || on_lattice) {
-      lattice.push_back(cell);
+  space.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) {
+    for (std::size_t word = 0; word < Brick::kWords; ++word) {
+      for_each_offset(cells[word], word, [&](std::size_t offset) {
+        const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
+        const bool on_lattice = cell.x % pitch == 0 && cell.y % pitch == 0 && (is_plane || cell.z % pitch == 0);
+        if (cell == *space.start() || on_lattice) {
+          lattice.push_back(cell);
+        }
+      });
     }
-  }
+  });
   return lattice;
 }
 
@@ -188,6 +193,28 @@ std::vector<VoxelIndex> Truth::observable(const Platform& platform, const RangeS
     cells.hi = {std::min(cells.hi.x, hi.x), std::min(cells.hi.y, hi.y), std::min(cells.hi.z, hi.z)};
   }
   return cells.empty() ? std::vector<VoxelIndex>() : seen_cells(sight, cells, poses, threads, on_share);
+}
+
+void Truth::tell_around(const Box& unknown, OccupancyMap& map) const {
+  const auto is_apart = [&unknown](const Box& box) {
+    return (box.max.array() <= unknown.min.array()).any() || (box.min.array() >= unknown.max.array()).any();
+  };
+  const VoxelFrame& frame = map_.frame();
+  map_.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
+    const VoxelIndex first = Brick::first_cell(address);
+    const bool all = is_apart(frame.box_of(VoxelBox{first, first + VoxelIndex{8, 8, 8}}));
+    BrickPlane known = brick.known;
+    BrickPlane occupied = brick.occupied;
+    for (std::size_t word = 0; word < Brick::kWords && !all; ++word) {
+      for_each_offset(brick.known[word], word, [&](std::size_t offset) {
+        if (!is_apart(frame.box_of(first + Brick::cell_at(offset)))) {
+          known[word] &= ~(std::uint64_t{1} << (offset & 63U));
+        }
+      });
+      occupied[word] &= known[word];
+    }
+    map.assign(address, known, occupied);
+  });
 }
 
 double Truth::coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const {

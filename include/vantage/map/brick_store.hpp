@@ -15,7 +15,8 @@ namespace detail {
 class BrickFile;
 }
 
-/// The bricks of an OccupancyMap by number, in order of creation. No brick moves while the store lives.
+/// The bricks of an OccupancyMap by number, in order of creation. No brick moves while the store lives, except one
+/// that is shared: it moves when it is written to.
 ///
 /// Bricks are on the heap, or in a file that is mapped into memory (impl/brick_file.hpp). In a file, those that were
 /// not written to for longest are taken out of memory. They come back by themselves when they are read or written, so
@@ -48,9 +49,16 @@ class BrickStore {
   [[nodiscard]] Brick& to_write(std::size_t number) {
     if (file_ != nullptr) {
       note_use(number);
+    } else if (is_shared(number)) {
+      unshare(number);
     }
     return *bricks_[number];
   }
+  /// Keeps one brick for all that are shared, because free space has many equal ones. `number` must be less than
+  /// `size()`, and the brick equal to those shared before. No effect with a file.
+  void share(std::size_t number);
+  /// Whether a brick is shared.
+  [[nodiscard]] bool is_shared(std::size_t number) const { return bricks_[number] == shared_.get(); }
   /// Appends a brick without known cells. Returns whether there was room for it: false if the disk is full.
   [[nodiscard]] bool add();
   /// Takes a part of what was only read out of memory again, each call the next 16 MiB of the file. No effect without
@@ -62,9 +70,12 @@ class BrickStore {
 
  private:
   void note_use(std::size_t number);
+  void unshare(std::size_t number);
 
   std::unique_ptr<detail::BrickFile> file_;  // null: bricks are on the heap
   std::vector<Brick*> bricks_;
+  std::unique_ptr<Brick> shared_;  // null: none was shared
+  std::size_t shared_count_ = 0;
 };
 
 }  // namespace vantage

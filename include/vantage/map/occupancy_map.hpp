@@ -101,9 +101,10 @@ class OccupancyMap {
   [[nodiscard]] Counts counts() const;
   /// The smallest box that contains all known cells; empty if there are none.
   [[nodiscard]] VoxelBox bounds() const { return may_have_shrunk_ ? box_of_known() : bounds_; }
-  /// Bytes of the map, directory included, in memory or on disk (OccupancyMapOptions::resident_bytes).
+  /// Bytes of the map, directory included, in memory or on disk (OccupancyMapOptions::resident_bytes), none shared.
   [[nodiscard]] std::size_t memory_bytes() const;
-  /// What of `memory_bytes` is kept in memory. Bricks on disk that were only read lately come on top.
+  /// What of it is in memory: equal free bricks (`assign`) count once. Bricks on disk that were only read come on
+  /// top.
   [[nodiscard]] std::size_t resident_bytes() const;
   /// The number of bricks.
   [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
@@ -123,7 +124,7 @@ class OccupancyMap {
     }
     return clear;
   }
-  /// The brick at an address (in units of bricks), or null if it is not stored. Valid while the map lives.
+  /// The brick at an address (in units of bricks), or null if it is not stored. Valid until the map is written to.
   [[nodiscard]] const Brick* find_brick(const VoxelIndex& brick) const {
     const BrickDirectory::Number number = directory_.find(brick);
     return number == BrickDirectory::kNone ? nullptr : &bricks_[number];

@@ -111,7 +111,6 @@ class ExplorationRun {
   struct Progress;
   void check_start(const Pose& start) const;
   void assume_start_free(const Pose& start);
-  void know_surroundings();
   void scan(Progress& progress);
   // At once without a robot.
   void look_around(Progress& progress, detail::TimedRobot* robot, const OnView& on_view);

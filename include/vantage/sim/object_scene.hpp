@@ -24,7 +24,10 @@ struct ObjectSceneOptions {
   std::optional<Box> object_box = std::nullopt;  ///< box to reconstruct, metres; none: the object with 3 cm around it
   std::vector<double> radii_m =
       {};  ///< radii of the shells of views, metres; empty: one from which the whole box is in view
-  double resolution_m = 0.02;  ///< edge of a cell of the map, metres, > 0
+  double resolution_m = 0.02;   ///< edge of a cell of the map, metres, > 0
+  double body_radius_m = 0.05;  ///< of the robot, metres: there is room for it on the shells
+  /// Where the robot starts in the room of the table, metres; none: on the first shell.
+  std::optional<Eigen::Vector3d> start = std::nullopt;
 };
 
 /// Height of the table top in the world `table`, metres.
@@ -37,9 +40,11 @@ struct ObjectScene {
   std::vector<double> radii_m;  ///< radii of the shells of views about the middle of the box, metres
 };
 
-/// Puts an object, given at its place in the world, into its world. If no radius is given there is one shell, far
-/// enough that a sphere around the box fits into the image, but so near that the sensor resolves cells and reaches
-/// the far side of the box; never inside the box, and on the table at most 1.5 m (Vasquez-Gomez et al. 2013).
+/// Puts an object, given at its place in the world, into its world. The region is a cube that holds the shells; in
+/// the world `table` it also holds the start, and is cut off at the walls of the room. If no radius is given there is
+/// one shell, far enough that a sphere around the box fits into the image, but so near that the sensor resolves cells
+/// and reaches the far side of the box; never inside the box, and on the table at most 1.5 m (Vasquez-Gomez et al.
+/// 2013).
 [[nodiscard]] ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor,
                                        const ObjectSceneOptions& options);
 

@@ -9,23 +9,15 @@
 #include <utility>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
-#include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/map/height_band.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
+#include <vantage/sim/true_cells.hpp>
 #include <vantage/sim/world.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-/// State of a cell of the true world.
-enum class CellTruth : std::uint8_t {
-  Free,    ///< no surface
-  Grazed,  ///< surfaces only within 2 % of the cell's edge from its faces: rounding and a few rays decide what a map
-           ///< makes of it, so either state is right; to a body and to sight it is occupied
-  Occupied,  ///< a surface passes
-};
 
 /// A world as cells of one resolution in one region: what a perfect map of it says.
 class Truth {
@@ -45,9 +37,9 @@ class Truth {
   [[nodiscard]] Truth in_band(const HeightBandOptions& band) const;
 
   /// True state of a cell.
-  [[nodiscard]] CellTruth at(const VoxelIndex& cell) const { return cells_.value_or(cell, CellTruth::Free); }
+  [[nodiscard]] CellTruth at(const VoxelIndex& cell) const { return cells_[cell]; }
   /// True states of the region and of the cells around it in which a ray may end.
-  [[nodiscard]] const VoxelGrid<CellTruth>& cells() const { return cells_; }
+  [[nodiscard]] const TrueCells& cells() const { return cells_; }
   /// The region as a map in which every cell is known; grazed cells are occupied. A Platform is asked in this map.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
 
@@ -73,6 +65,9 @@ class Truth {
                                                    const std::function<void(double share)>& on_share = {},
                                                    const std::optional<Box>& within = std::nullopt) const;
 
+  /// Writes the cells of the region that do not touch the box `unknown` to a map of the same cells.
+  void tell_around(const Box& unknown, OccupancyMap& map) const;
+
   /// Share of `cells` that the map knows with the right state, in [0, 1]; 1 if there are none.
   [[nodiscard]] double coverage(const OccupancyMap& map, const std::vector<VoxelIndex>& cells) const;
 
@@ -80,12 +75,12 @@ class Truth {
   [[nodiscard]] std::vector<VoxelIndex> lattice(const Platform& platform, const Pose& start) const;
 
  private:
-  Truth(const OccupancyMap& map, VoxelGrid<CellTruth> cells, double longest_range_m)
+  Truth(const OccupancyMap& map, TrueCells cells, double longest_range_m)
       : map_(map), region_(*map.region()), cells_(std::move(cells)), longest_range_m_(longest_range_m) {}
 
   OccupancyMap map_;
   VoxelBox region_;
-  VoxelGrid<CellTruth> cells_;  // the region and, around it, what a ray may end on
+  TrueCells cells_;  // the region and, around it, what a ray may end on
   // A ray of at most this length from the region can only end on surfaces in `cells_`.
   double longest_range_m_ = std::numeric_limits<double>::infinity();
 };

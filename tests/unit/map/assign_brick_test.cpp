@@ -16,11 +16,12 @@ struct Planes {
   BrickPlane occupied{};
 };
 
-// None, all, few, half or most cells known.
+// None, all, few, half or most cells known; all may be free.
 Planes random_planes(std::mt19937& engine) {
   const auto word = [&] { return std::uint64_t{engine()} << 32U | engine(); };
   Planes planes;
   const std::size_t kind = engine() % 6;
+  const bool free = engine() % 2 == 0;
   for (std::size_t i = 0; i < Brick::kWords; ++i) {
     const std::uint64_t a = word();
     const std::uint64_t b = word();
@@ -29,7 +30,7 @@ Planes random_planes(std::mt19937& engine) {
                       : kind == 2 ? a & b & word()
                       : kind == 3 ? a
                                   : a | b;
-    planes.occupied[i] = planes.known[i] & word();
+    planes.occupied[i] = kind == 1 && free ? 0 : planes.known[i] & word();
   }
   return planes;
 }
@@ -53,12 +54,13 @@ TEST(AssignBrick, EqualsSettingEveryCell) {
   std::size_t refused = 0;
   std::size_t outside = 0;
   std::size_t unchanged = 0;
+  std::size_t shared = 0;
   for (int world = 0; world < 120; ++world) {
     OccupancyMapOptions options;
     if (world % 3 == 1) {  // cuts through bricks
       options.region = Box{{-1.05, -0.65, -2.0}, {1.2, 1.45, 0.95}};
     }
-    options.max_bytes = world % 4 == 3 ? 90'000 : 0;
+    options.max_bytes = world % 4 == 3 ? 70'000 : 0;
     OccupancyMap assigned(options);
     OccupancyMap set(options);
     for (int step = 0; step < 25; ++step) {
@@ -82,13 +84,46 @@ TEST(AssignBrick, EqualsSettingEveryCell) {
       outside += assigned.revision() == before ? 1U : 0U;
       unchanged += assigned.changed_since(before).empty() ? 1U : 0U;
       ++compared;
+      shared += assigned.resident_bytes() < assigned.memory_bytes() ? 1U : 0U;
+      if (step % 10 == 9) {
+        const OccupancyMap before_change(assigned);
+        std::mt19937 same = engine;
+        change_around_origin(assigned, same);
+        test::expect_equal_maps(before_change, set);
+        assigned = before_change;
+      }
     }
     refused += assigned.cells_refused();
   }
   EXPECT_EQ(compared, 3000U);
   EXPECT_GT(refused, 1000U);
   EXPECT_GT(outside, 100U);
+  EXPECT_GT(shared, 100U);
   EXPECT_GT(unchanged, outside + 100U);
+}
+
+// However large a free room is, only what stands in it takes bricks. A scan through free space changes nothing there.
+TEST(AssignBrick, FreeSpaceIsKeptOnce) {
+  BrickPlane all;
+  all.fill(~std::uint64_t{0});
+  const auto bytes_of_room = [&](std::int32_t bricks) {
+    OccupancyMap map;
+    for_each_cell({{0, 0, 0}, {bricks, bricks, bricks}},
+                  [&](const VoxelIndex& brick) { map.assign(brick, all, BrickPlane{}); });
+    const std::size_t before = map.resident_bytes();
+    Scan scan;
+    scan.world_from_sensor.translation() = Eigen::Vector3d(0.4, 0.4, 0.4);
+    for (int ray = 0; ray < 100; ++ray) {
+      scan.points.emplace_back(0.001F * static_cast<float>(ray), 0.0F, 1.0F);
+    }
+    EXPECT_EQ(map.insert(scan).cells_cleared, 9U);
+    EXPECT_EQ(map.resident_bytes(), before + sizeof(Brick)) << "the brick in which the rays end";
+    EXPECT_EQ(written_since(map, map.revision() - 1).size(), 1U);
+    return before;
+  };
+  const auto small = static_cast<double>(bytes_of_room(8));
+  const auto large = static_cast<double>(bytes_of_room(24));
+  EXPECT_LT((large - small) / (24.0 * 24.0 * 24.0 - 512.0), 100.0) << "bytes of a brick of 512 cells";
 }
 
 TEST(AssignBrick, RefusesWhatHasNoMeaning) {

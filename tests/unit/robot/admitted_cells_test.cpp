@@ -43,5 +43,36 @@ TEST(AdmittedCells, FollowWhateverHappensToAMap) {
   EXPECT_GT(compared, 3000U * kWorlds);
 }
 
+// More bricks than the platform is asked about at once.
+TEST(AdmittedCells, OfALargeMapAreThoseThatThePlatformAdmits) {
+  OccupancyMap map({.resolution_m = 0.1});
+  BrickPlane all;
+  all.fill(~std::uint64_t{0});
+  const VoxelBox bricks{{-30, -30, -5}, {30, 31, 14}};
+  ASSERT_GT(bricks.size(), 65536U);
+  for_each_cell(bricks, [&](const VoxelIndex& brick) { map.assign(brick, all, BrickPlane{}); });
+  const VoxelBox cells{Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)};
+  std::mt19937 engine(5);
+  for (int speck = 0; speck < 2000; ++speck) {
+    const auto within = [&](std::int32_t lo, std::int32_t hi) {
+      return lo + static_cast<std::int32_t>(engine() % static_cast<std::uint32_t>(hi - lo));
+    };
+    map.set({within(cells.lo.x, cells.hi.x), within(cells.lo.y, cells.hi.y), within(cells.lo.z, cells.hi.z)},
+            Occupancy::Occupied);
+  }
+  const FreeFlyer flyer({.radius_m = 0.25});
+  AdmittedCells admitted;
+  admitted.follow(map, flyer);
+  const VoxelGrid<std::uint8_t> expected = flyer.admitted_cells(map, cells);
+  std::size_t wrong = 0;
+  std::size_t refused = 0;
+  for_each_cell(cells, [&](const VoxelIndex& cell) {
+    wrong += admitted.contains(cell) != (expected[cell] != 0) ? 1U : 0U;
+    refused += expected[cell] == 0 ? 1U : 0U;
+  });
+  EXPECT_EQ(wrong, 0U);
+  EXPECT_GT(refused, 100000U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -86,6 +86,37 @@ TEST(Truth, ASurfaceOnABorderIsGrazedOnBothSides) {
   EXPECT_EQ(truth.coverage(map, cells), 0.5);
 }
 
+// Asks every cell on its own.
+TEST(Truth, TellsWhatDoesNotTouchABox) {
+  std::mt19937 engine(4);
+  const auto draw = [&] { return -1.0 + 2.0 * static_cast<double>(engine()) * 0x1p-32; };
+  std::size_t told = 0;
+  std::size_t kept = 0;
+  for (int i = 0; i < 20; ++i) {
+    World world;
+    world.region = {{-1.0, -1.05, -0.9}, {1.1, 1.0, 1.0}};
+    world.mesh.add_box({{-0.3, -0.3, -0.3}, {0.3, 0.4, 0.2}});
+    const Truth truth(world, 0.1, world.region);
+    Box unknown{{draw(), draw(), draw()}, {draw(), draw(), draw()}};
+    const Eigen::Vector3d lo = unknown.min.cwiseMin(unknown.max);
+    unknown = {lo, lo + (unknown.max - unknown.min).cwiseAbs()};
+    if (i % 2 == 0) {  // its faces are those of cells
+      unknown = truth.map().frame().box_of(truth.map().frame().cells_touched_by(unknown));
+    }
+    OccupancyMap map(truth.map().options());
+    truth.tell_around(unknown, map);
+    truth.map().for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+      const Box box = map.frame().box_of(cell);
+      const bool apart =
+          (box.max.array() <= unknown.min.array()).any() || (box.min.array() >= unknown.max.array()).any();
+      ASSERT_EQ(map.at(cell), apart ? state : Occupancy::Unknown);
+      ++(apart ? told : kept);
+    });
+  }
+  EXPECT_GT(told, 50'000U);
+  EXPECT_GT(kept, 2'000U);
+}
+
 TEST(Truth, RefusesWhatItCannotRasterise) {
   const World world = two_rooms();
   EXPECT_THROW(Truth(world, 0.0, world.region), std::invalid_argument);

@@ -53,6 +53,10 @@ VANTAGE_INLINE void OccupancyMap::assign(const VoxelIndex& brick, const BrickPla
   }
   ++revision_;
   write_brick(brick, which, cells);
+  const BrickDirectory::Number number = directory_.find(brick);
+  if (number != BrickDirectory::kNone && which == all && known == all && !detail::any(occupied)) {
+    bricks_.share(number);
+  }
 }
 
 // Writes the cells `which` of a brick, which must be inside the region, as they are in `cells`. Returns how many have

@@ -20,20 +20,25 @@ VANTAGE_INLINE BrickStore::BrickStore(const BrickStore& other) {
     copy.file_ = std::make_unique<detail::BrickFile>(other.file_->folder(), other.file_->most_hot_bytes());
   }
   copy.bricks_.reserve(other.size());
-  for (const Brick* brick : other.bricks_) {
+  for (std::size_t number = 0; number < other.size(); ++number) {
     if (!copy.add()) {
       throw std::runtime_error(copy.file_->folder().string() +
                                ": OccupancyMapOptions::resident_folder: no room for a copy of the map");
     }
-    *copy.bricks_.back() = *brick;
+    *copy.bricks_.back() = other[number];
+    if (other.is_shared(number)) {
+      copy.share(number);
+    }
   }
   swap(copy);
 }
 
 VANTAGE_INLINE BrickStore::~BrickStore() {
   if (file_ == nullptr) {
-    for (Brick* brick : bricks_) {
-      delete brick;
+    for (std::size_t number = 0; number < bricks_.size(); ++number) {
+      if (!is_shared(number)) {
+        delete bricks_[number];
+      }
     }
   }
 }
@@ -41,6 +46,8 @@ VANTAGE_INLINE BrickStore::~BrickStore() {
 VANTAGE_INLINE void BrickStore::swap(BrickStore& other) noexcept {
   std::swap(file_, other.file_);
   std::swap(bricks_, other.bricks_);
+  std::swap(shared_, other.shared_);
+  std::swap(shared_count_, other.shared_count_);
 }
 
 VANTAGE_INLINE bool BrickStore::add() {
@@ -56,6 +63,22 @@ VANTAGE_INLINE bool BrickStore::add() {
   return true;
 }
 
+VANTAGE_INLINE void BrickStore::share(std::size_t number) {
+  if (file_ != nullptr || is_shared(number)) {
+    return;
+  }
+  if (shared_ == nullptr) {
+    shared_ = std::make_unique<Brick>(*bricks_[number]);
+  }
+  delete std::exchange(bricks_[number], shared_.get());
+  ++shared_count_;
+}
+
+VANTAGE_INLINE void BrickStore::unshare(std::size_t number) {
+  bricks_[number] = new Brick(*shared_);
+  --shared_count_;
+}
+
 VANTAGE_INLINE void BrickStore::note_use(std::size_t number) { file_->note_use(number); }
 
 VANTAGE_INLINE void BrickStore::release_read() {
@@ -65,7 +88,7 @@ VANTAGE_INLINE void BrickStore::release_read() {
 }
 
 VANTAGE_INLINE std::size_t BrickStore::resident_bytes() const {
-  return file_ != nullptr ? file_->hot_bytes() : bricks_.size() * sizeof(Brick);
+  return file_ != nullptr ? file_->hot_bytes() : (bricks_.size() - shared_count_) * sizeof(Brick);
 }
 
 }  // namespace vantage

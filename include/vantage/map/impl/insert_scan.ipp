@@ -74,6 +74,12 @@ class ScanInserter {
       }
       return;
     }
+    if (map_.bricks_.is_shared(number) && !detail::any(marks.hit)) {
+      for (const std::uint64_t passed_cells : marks.passed) {  // as free as can be already
+        report_.cells_cleared += detail::bits_in(passed_cells);
+      }
+      return;
+    }
     Brick& brick = map_.writing(number);
     if (update_brick(brick, marks)) {
       map_.mark_changed(number);

@@ -123,6 +123,14 @@ VANTAGE_INLINE void AdmittedCells::follow(const OccupancyMap& map, const Platfor
 }
 
 VANTAGE_INLINE void AdmittedCells::ask(const OccupancyMap& map, const Platform& platform, const VoxelBox& bricks) {
+  constexpr std::size_t kMostBricks = 32768;  // the platform answers with a byte for every cell: 16 MiB
+  if (bricks.size() > kMostBricks && bricks.extent().z > detail::kTileBricks) {
+    for (VoxelBox slab = bricks; slab.lo.z < bricks.hi.z; slab.lo.z = slab.hi.z) {
+      slab.hi.z = std::min(slab.lo.z + detail::kTileBricks, bricks.hi.z);
+      ask(map, platform, slab);
+    }
+    return;
+  }
   const VoxelGrid<std::uint8_t> admitted =
       platform.admitted_cells(map, {Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
   for_each_cell(bricks, [&](const VoxelIndex& address) {
