@@ -180,10 +180,11 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("replay", "Map what a real camera recorded, and ask planners what they would do");
   const auto request = std::make_shared<ReplayRequest>();
   add_recording_options(*command, *request);
-  command->add_option("--planner", request->run.planner, "By name (vantage list), several with commas between")
-      ->type_name("NAME,...")
-      ->capture_default_str()
-      ->group("Run");
+  CLI::Option* const planner =
+      command->add_option("--planner", request->run.planner, "By name (vantage list), several with commas between")
+          ->type_name("NAME,...")
+          ->capture_default_str()
+          ->group("Run");
   command->add_option("--robot-radius", request->run.robot_radius_m, "The robot is a sphere about its sensor, metres")
       ->type_name("M")
       ->check(a_number())
@@ -191,7 +192,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->group("Run");
   command
       ->add_flag("--select", request->select,
-                 "Let planners choose the order of the views, and compare how soon they know how much")
+                 "Choose the order of the views, and compare how soon how much is known; without planners")
+      ->excludes(planner)
       ->group("Run");
   command
       ->add_option("--object-box", request->object_box,
@@ -204,8 +206,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   command->footer(
       "Examples:\n"
       "  vantage replay --dataset rgbd_dataset_freiburg1_desk --format tum --out desk\n"
-      "  vantage replay --dataset redkitchen --format 7scenes --robot-radius 0 --select --planner "
-      "next-best-view,harmonic\n"
+      "  vantage replay --dataset redkitchen --format 7scenes --select\n"
       "Exit codes: 0 the recording was played to its end, 2 bad input (nothing was written) or a file that cannot\n"
       "be written, 3 the views were spent, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = replay(*request); });

@@ -38,6 +38,9 @@ void check_numbers(const ReplayRequest& request) {
   if (!request.object_box.empty() && !request.select) {
     throw std::invalid_argument("--object-box says what counts for --select, which is not given");
   }
+  if (request.select && !request.run.settings.empty()) {
+    throw std::invalid_argument("--set does not go with --select, which asks no planner");
+  }
   if (request.select && request.run.memory_limit_mb > 0.0) {
     throw std::invalid_argument("--memory-limit does not go with --select, which compares all that the views show");
   }

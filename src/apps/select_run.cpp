@@ -6,21 +6,16 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <ostream>
 #include <span>
 #include <stdexcept>
 #include <utility>
 #include <vantage/evaluation/recorded_views.hpp>
-#include <vantage/planner/make_planner.hpp>
 #include <vantage/version.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>
 #include "apps/commands.hpp"
-#include "apps/named_goals.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 
@@ -30,16 +25,14 @@ namespace {
 using SelectionJson = nlohmann::ordered_json;
 
 constexpr std::uint64_t kRandomOrders = 100;
-constexpr double kMetresPerRadian = 1.0;  // weight of a wrong direction relative to a wrong place
 
 // An order of the views and how it compares.
 struct Contender {
   ViewOrderCurve curve;
   double above_random_volume = 0.0;  // share of the random orders with a smaller area
   double above_random_surface = 0.0;
-  double above_random_void = 0.0;     // share of the random orders with a larger area: more void is left
-  double choose_ms = 0.0;             // per view; 0 if nothing was chosen
-  std::optional<NamedGoals> goals{};  // if views were chosen by goals
+  double above_random_void = 0.0;  // share of the random orders with a larger area: more void is left
+  double choose_ms = 0.0;          // per view; 0 if nothing was chosen
 };
 
 struct Comparison {
@@ -141,34 +134,12 @@ void add_choosers(const ReplayRequest& request, const Recording& recording, cons
                   ProgressStream& told, std::vector<Contender>& contenders) {
   const RangeSensor sensor = recording.sensor();
   const auto threads = static_cast<std::size_t>(request.run.threads);
-  const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
-  const auto planners = planners_of(request, sensor, platform);
-  // Choosers for each planner: the view nearest to its goal, the view for what its next view seeks, and the view
-  // for all that it seeks.
-  std::vector<std::pair<std::string, ChooseView>> choosers{{"expected cells", most_expected_cells(views, sensor)}};
-  std::map<std::string, NamedGoals> goals;
-  for (const auto& planner : planners) {
-    const std::string name(planner->name());
-    if (name == "next-best-view") {
-      choosers.emplace_back(name, most_unknown_cells(views, sensor, threads));
-      continue;
-    }
-    const auto tally = [&views, &named = goals[name]](const Plan& plan, std::size_t last, std::size_t chosen) {
-      named.add(plan, views.scans()[last].world_from_sensor, views.scans()[chosen].world_from_sensor);
-    };
-    choosers.emplace_back(name, nearest_to_goal(views, *planner, kMetresPerRadian, tally));
-    choosers.emplace_back(name + ", by aim", most_for_what_is_sought(views, sensor, sought_next(views, *planner)));
-    choosers.emplace_back(
-        name + ", by all it seeks",
-        most_for_what_is_sought(views, sensor,
-                                name == "frontier-void" ? sought_in_voids() : sought_behind_frontiers()));
-  }
+  const std::vector<std::pair<std::string, ChooseView>> choosers{
+      {"expected cells", most_expected_cells(views, sensor)},
+      {"unknown cells", most_unknown_cells(views, sensor, threads)}};
   ChoosingPrinter printer(told, choosers.size() * (views.size() - 1));
   for (const auto& [name, choose] : choosers) {
     contenders.push_back(chosen(views, name, choose, printer));
-    if (const auto named = goals.find(name); named != goals.end()) {
-      contenders.back().goals = named->second;
-    }
   }
   printer.finish();
 }
@@ -232,11 +203,6 @@ void print_table(std::ostream& out, const Comparison& comparison) {
   out << text
       << "\nAreas under the curves of what is known over the number of views, as shares of what all views know;\n"
          "> random: of 100 random orders, those it is above; greedy: who has seen all views already.\n";
-  for (const Contender& contender : comparison.contenders) {
-    if (contender.goals) {
-      contender.goals->print(out, contender.curve.name);
-    }
-  }
 }
 
 // Up to eight numbers of views, evenly spread, including the first and the last.
@@ -307,9 +273,6 @@ std::string selection_json(const ReplayRequest& request, const Comparison& compa
     order["above_random_surface"] = contender.above_random_surface;
     order["above_random_void"] = contender.above_random_void;
     order["choose_ms"] = contender.choose_ms;
-    if (contender.goals) {
-      order["goals"] = contender.goals->json();
-    }
     orders.push_back(std::move(order));
   }
   SelectionJson skipped = SelectionJson::array();

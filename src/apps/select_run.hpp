@@ -10,10 +10,10 @@
 
 namespace vantage::apps {
 
-/// Runs `vantage replay --select`: in which order would planners have taken the recorded views, and how soon would
-/// they have known everything? Compares with the recorded order, evenly spread views, random orders and the greedy
-/// order with full knowledge. Prints a table; with --out it writes selection.json. Returns the exit code. Throws
-/// std::runtime_error if no frame can be read.
+/// Runs `vantage replay --select`: how soon would everything have been known with the recorded views in another
+/// order? Compares the order by expected cells with that by unknown cells, the recorded order, evenly spread views,
+/// random orders and the greedy order with full knowledge. Prints a table; with --out it writes selection.json.
+/// Returns the exit code. Throws std::runtime_error if no frame can be read.
 [[nodiscard]] int select_views(const ReplayRequest& request, const Recording& recording, ProgressStream& told);
 
 }  // namespace vantage::apps

@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <random>
-#include <set>
 #include <stdexcept>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vantage/evaluation/recorded_views.hpp>
+#include <vantage/evaluation/spread.hpp>
+#include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
-#include <vantage/planner/make_planner.hpp>
-#include <vantage/robot/free_flyer.hpp>
 #include <vantage/vision/recording.hpp>
 #include <vector>
 
@@ -25,20 +21,23 @@
 namespace vantage {
 namespace {
 
-struct Dataset {
+struct Source {
   std::string name;
-  RecordedViews views;
-  RangeSensor sensor;
+  std::string format;
+  std::string folder;
+  double cell_m;
+  std::optional<Box> object = std::nullopt;
 };
 
-Dataset recorded(const std::string& format, const std::filesystem::path& folder, double cell_m,
-                 const std::optional<Box>& object = std::nullopt) {
-  const Recording recording = Recording::open(format, folder);
+const Source kBunny{"bunny", "stanford", "object_scans/stanford_bunny_range", 0.004,
+                    Box{{-0.11, -0.08, 0.02}, {0.08, 0.08, 0.20}}};
+
+std::vector<Scan> scans_of(const Recording& recording) {
   std::vector<Scan> scans;
   for (std::size_t i = 0; i < recording.frames().size(); ++i) {
     scans.push_back(recording.read(i).scan.scan);
   }
-  return {format, RecordedViews(std::move(scans), {.resolution_m = cell_m}, object), recording.sensor()};
+  return scans;
 }
 
 double share_below(const std::vector<double>& areas, double area) {
@@ -47,17 +46,16 @@ double share_below(const std::vector<double>& areas, double area) {
 
 // The areas under the curves of 100 random orders and of the greedy one, for one measure.
 struct Field {
-  Field(const RecordedViews& views, RecordedViews::Measure measure) {
-    const auto area =
-        measure == RecordedViews::Measure::Volume ? &ViewOrderCurve::volume_area : &ViewOrderCurve::surface_area;
-    greedy = (views.curve("greedy", views.greedy_order(0, measure)).*area)();
+  Field(const RecordedViews& views, std::size_t start, RecordedViews::Measure measure)
+      : area(measure == RecordedViews::Measure::Volume ? &ViewOrderCurve::volume_area
+                                                       : &ViewOrderCurve::surface_area) {
+    greedy = (views.curve("greedy", views.greedy_order(start, measure)).*area)();
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-      random.push_back((views.curve("random", views.random_order(0, seed)).*area)());
+      random.push_back((views.curve("random", views.random_order(start, seed)).*area)());
     }
   }
-  // An area as a share of that of greedy, and the share of random orders below it.
-  [[nodiscard]] double of_greedy(double area) const { return area / greedy; }
-  [[nodiscard]] double above(double area) const { return share_below(random, area); }
+  [[nodiscard]] double of_greedy(const ViewOrderCurve& curve) const { return (curve.*area)() / greedy; }
+  [[nodiscard]] double above(const ViewOrderCurve& curve) const { return share_below(random, (curve.*area)()); }
   // The 95th of the 100 random areas in ascending order.
   [[nodiscard]] double bound() const {
     std::vector<double> sorted = random;
@@ -65,85 +63,111 @@ struct Field {
     return sorted[94];
   }
 
+  double (ViewOrderCurve::*area)() const;
   double greedy = 0.0;
   std::vector<double> random = {};
 };
 
-// The minimum quality of a choice: better than evenly spaced views, at least 90 % of the random orders below it, and
-// at least 90 % of greedy.
-class Bar {
- public:
-  explicit Bar(const RecordedViews& views)
-      : even_(views.evenly_spaced("evenly spaced")),
-        volume_(views, RecordedViews::Measure::Volume),
-        surface_(views, RecordedViews::Measure::Surface) {
-    print(even_);
-  }
+// How one rule does, by case.
+struct Standing {
+  std::string rule;
+  std::vector<double> volume_above;
+  std::vector<double> volume_of_greedy;
+  std::vector<double> surface_above;
+  std::vector<double> surface_of_greedy;
 
-  void print(const ViewOrderCurve& curve) const {
-    std::printf("  %-26s", curve.name.c_str());
-    print_area("volume", curve.volume_area(), volume_);
-    print_area("  surface", curve.surface_area(), surface_);
+  void add(const ViewOrderCurve& curve, const Field& volume, const Field& surface) {
+    volume_above.push_back(volume.above(curve));
+    volume_of_greedy.push_back(volume.of_greedy(curve));
+    surface_above.push_back(surface.above(curve));
+    surface_of_greedy.push_back(surface.of_greedy(curve));
+  }
+  void print(const std::string& recording) const {
+    std::printf("| %s | %s |", recording.c_str(), rule.c_str());
+    for (const auto* shares : {&volume_above, &volume_of_greedy, &surface_above, &surface_of_greedy}) {
+      std::printf(" %.1f (%.1f, %.1f) |", 100.0 * quantile(*shares, 0.5), 100.0 * quantile(*shares, 0.0),
+                  100.0 * quantile(*shares, 1.0));
+    }
     std::printf("\n");
   }
-  void expect_over(const ViewOrderCurve& chosen) const {
-    print(chosen);
-    expect_over(chosen.volume_area(), even_.volume_area(), volume_, chosen.name + ", volume");
-    expect_over(chosen.surface_area(), even_.surface_area(), surface_, chosen.name + ", surface");
-  }
-  [[nodiscard]] double volume_bound() const { return std::max(volume_.bound(), even_.volume_area()); }
-  [[nodiscard]] double surface_bound() const { return std::max(surface_.bound(), even_.surface_area()); }
-
- private:
-  static void print_area(const char* measure, double area, const Field& field) {
-    std::printf("%s %.4f, %.1f %% of greedy, above %.0f %%", measure, area, 100.0 * field.of_greedy(area),
-                100.0 * field.above(area));
-  }
-  static void expect_over(double area, double even, const Field& field, const std::string& who) {
-    EXPECT_GT(area, even) << who;
-    EXPECT_GE(field.above(area), 0.9) << who;
-    EXPECT_GE(field.of_greedy(area), 0.9) << who;
-    EXPECT_LE(field.of_greedy(area), 1.05) << who << ": greedy is near the best there is";
-  }
-
-  ViewOrderCurve even_;
-  Field volume_;
-  Field surface_;
 };
 
-ViewOrderCurve chosen_curve(const Dataset& data, const char* name, const ChooseView& choose) {
-  return data.views.curve(name, chosen_order(data.views, 0, choose));
-}
-
-// Tests the choices by expected gain, by the cells that all planners seek, and by those that `planners` seek next.
-void expect_good_choice(const Dataset& data, const std::vector<const char*>& planners) {
-  std::printf("%s\n", data.name.c_str());
-  const Bar bar(data.views);
-  const auto most_for = [&](SoughtCells sought) {
-    return most_for_what_is_sought(data.views, data.sensor, std::move(sought));
-  };
-  bar.print(chosen_curve(data, "next-best-view", most_unknown_cells(data.views, data.sensor)));
-  bar.expect_over(chosen_curve(data, "expected cells", most_expected_cells(data.views, data.sensor)));
-  bar.expect_over(chosen_curve(data, "behind all frontiers", most_for(sought_behind_frontiers())));
-  bar.expect_over(chosen_curve(data, "in all voids", most_for(sought_in_voids())));
-  const auto nowhere_wide = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.0});
-  for (const char* name : planners) {
-    const auto planner = make_planner(name, {.sensor = data.sensor, .platform = nowhere_wide});
-    bar.expect_over(chosen_curve(data, name, most_for(sought_next(data.views, *planner))));
+// Parts of a recording are recordings: all frames, every other one, and each half.
+std::vector<std::vector<Scan>> parts_of(const std::vector<Scan>& scans) {
+  std::vector<std::vector<Scan>> parts(5);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    parts[0].push_back(scans[i]);
+    parts[1 + i % 2].push_back(scans[i]);
+    parts[2 * i < scans.size() ? 3 : 4].push_back(scans[i]);
   }
+  return parts;
 }
 
-const Box kBunny{{-0.11, -0.08, 0.02}, {0.08, 0.08, 0.20}};
+// Five parts of a recording, each from its first view and from the one in the middle. What was chosen by looking at
+// some of these cases shows on the others whether it carries over.
+std::vector<Standing> standings_of(const Source& source) {
+  const Recording recording = Recording::open(source.format, test::real_data(source.folder));
+  std::vector<Standing> all(3);
+  all[0].rule = "evenly spaced";
+  all[1].rule = "unknown cells";
+  all[2].rule = "expected cells";
+  for (const std::vector<Scan>& part : parts_of(scans_of(recording))) {
+    const RecordedViews views(part, {.resolution_m = source.cell_m}, source.object);
+    for (const std::size_t start : {std::size_t{0}, part.size() / 2}) {
+      const Field volume(views, start, RecordedViews::Measure::Volume);
+      const Field surface(views, start, RecordedViews::Measure::Surface);
+      const auto chosen = [&](const ChooseView& choose) {
+        return views.curve("", chosen_order(views, start, choose));
+      };
+      all[0].add(views.evenly_spaced(""), volume, surface);
+      all[1].add(chosen(most_unknown_cells(views, recording.sensor())), volume, surface);
+      all[2].add(chosen(most_expected_cells(views, recording.sensor())), volume, surface);
+    }
+  }
+  for (const Standing& standing : all) {
+    standing.print(source.name);
+  }
+  return all;
+}
 
-TEST(RealViews, BunnyScans) {
-  VANTAGE_REAL_DATA(folder, "object_scans/stanford_bunny_range");
-  expect_good_choice(recorded("stanford", folder, 0.004, kBunny), {});
+void expect_carries_over(const Source& source) {
+  const std::vector<Standing> standings = standings_of(source);
+  const Standing& unknown = standings[1];
+  const Standing& expected = standings[2];
+  EXPECT_EQ(expected.volume_above.size(), 10U);
+  EXPECT_GE(quantile(expected.volume_above, 0.5), 0.75);
+  EXPECT_GE(quantile(expected.surface_above, 0.5), 0.75);
+  EXPECT_GT(quantile(expected.volume_of_greedy, 0.5), quantile(unknown.volume_of_greedy, 0.5));
+  EXPECT_GT(quantile(expected.surface_of_greedy, 0.5), quantile(unknown.surface_of_greedy, 0.5));
+  EXPECT_GE(quantile(expected.volume_of_greedy, 0.0), 0.9);
+  EXPECT_GE(quantile(expected.surface_of_greedy, 0.0), 0.9);
+}
+
+TEST(RealViews, ExpectedCellsOnPartsOfTheBunnyScans) {
+  VANTAGE_REAL_DATA(folder, kBunny.folder);
+  expect_carries_over(kBunny);
+}
+
+TEST(RealViews, ExpectedCellsOnPartsOfTheShelfBin) {
+  VANTAGE_REAL_DATA(folder, "rgbd/apc_shelf_bin_15");
+  expect_carries_over({"shelf bin", "apc", "rgbd/apc_shelf_bin_15", 0.02});
+}
+
+TEST(RealViews, ExpectedCellsOnPartsOfTheKitchen) {
+  VANTAGE_REAL_DATA(folder, "rgbd/7scenes_redkitchen_40");
+  expect_carries_over({"kitchen", "7scenes", "rgbd/7scenes_redkitchen_40", 0.05});
+}
+
+TEST(RealViews, ExpectedCellsOnPartsOfTheStreet) {
+  VANTAGE_REAL_DATA(folder, "stereo/kitti_odometry_seq1_30");
+  expect_carries_over({"street", "kitti-stereo", "stereo/kitti_odometry_seq1_30", 0.2});
 }
 
 // All orders of the nine scans after the first: shows whether a second view exists that is good in both measures.
 TEST(RealViews, FewOrdersOfTheBunnyScansAreGood) {
   VANTAGE_REAL_DATA(folder, "object_scans/stanford_bunny_range");
-  const RecordedViews views = recorded("stanford", folder, 0.004, kBunny).views;
+  const RecordedViews views(scans_of(Recording::open(kBunny.format, folder)), {.resolution_m = kBunny.cell_m},
+                            kBunny.object);
   ASSERT_EQ(views.size(), 10U);
   std::vector<double> volume(512);
   std::vector<double> surface(512);
@@ -158,8 +182,11 @@ TEST(RealViews, FewOrdersOfTheBunnyScansAreGood) {
     volume[set] = curve.volume.back() / 10.0;
     surface[set] = curve.surface.back() / 10.0;
   }
-  const Bar bar(views);
-  bar.print(views.curve("greedy by volume", views.greedy_order(0, RecordedViews::Measure::Volume)));
+  const ViewOrderCurve even = views.evenly_spaced("");
+  const Field of_volume(views, 0, RecordedViews::Measure::Volume);
+  const Field of_surface(views, 0, RecordedViews::Measure::Surface);
+  const double volume_bound = std::max(of_volume.bound(), even.volume_area());
+  const double surface_bound = std::max(of_surface.bound(), even.surface_area());
   std::size_t orders = 0;
   std::vector<std::size_t> good(10, 0);
   std::vector<std::size_t> order{1, 2, 3, 4, 5, 6, 7, 8, 9};
@@ -173,7 +200,7 @@ TEST(RealViews, FewOrdersOfTheBunnyScansAreGood) {
       surface_area += surface[set];
     }
     ++orders;
-    good[order.front()] += volume_area > bar.volume_bound() && surface_area > bar.surface_bound() ? 1U : 0U;
+    good[order.front()] += volume_area > volume_bound && surface_area > surface_bound ? 1U : 0U;
   } while (std::next_permutation(order.begin(), order.end()));
   EXPECT_EQ(orders, 362880U);
   std::printf("  orders over both bounds, by the view that comes second:");
@@ -182,17 +209,6 @@ TEST(RealViews, FewOrdersOfTheBunnyScansAreGood) {
     EXPECT_EQ(good[view] > 0, view == 3 || view == 5 || view == 9) << view;
   }
   std::printf(", of %zu\n", orders);
-}
-
-TEST(RealViews, ShelfBin) {
-  VANTAGE_REAL_DATA(folder, "rgbd/apc_shelf_bin_15");
-  const Dataset data = recorded("apc", folder, 0.02);
-  expect_good_choice(data, {"harmonic", "frontier-void"});
-}
-
-TEST(RealViews, Kitchen) {
-  VANTAGE_REAL_DATA(folder, "rgbd/7scenes_redkitchen_40");
-  expect_good_choice(recorded("7scenes", folder, 0.05), {"harmonic"});
 }
 
 // Three scans of a wall side by side; the others also see what the middle one sees.
@@ -282,51 +298,6 @@ TEST(RecordedViews, VoidCellsAreThoseUnknownInTheHullOfAllThatIsHit) {
   EXPECT_EQ(compared, 56);
 }
 
-// A view that shows little else is chosen if it is the only one that shows a sought cell.
-TEST(RecordedViews, WhatIsSoughtComesBeforeWhatIsExpected) {
-  const RecordedViews views = three_walls();
-  const RangeSensor sensor = RangeSensor::pinhole(40, 40, 0.9, 0.9, 0.0, 3.0);
-  const auto second = [&](const Eigen::Vector3d& place) {
-    const SoughtCells sought = [&](const OccupancyMap& map, std::size_t) {
-      std::vector<VoxelIndex> cells;
-      for_each_cell({map.frame().cell_of(place), map.frame().cell_of(place) + VoxelIndex{1, 4, 4}},
-                    [&](const VoxelIndex& cell) { cells.push_back(cell); });
-      return cells;
-    };
-    return chosen_order(views, 0, most_for_what_is_sought(views, sensor, sought))[1];
-  };
-  EXPECT_EQ(second({2.5, 0.0, 1.5}), 2U);   // only the last view sees it
-  EXPECT_EQ(second({0.95, 0.0, 1.6}), 1U);  // the middle view sees it, although it shows less
-  EXPECT_EQ(second({9.0, 0.0, 1.5}), 2U);   // no view sees it
-}
-
-// Tests every cell separately.
-TEST(RecordedViews, BehindFrontiersIsWhatIsUnknownBesideAFreeCell) {
-  int found = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const std::optional<Box> region =
-        seed % 3 == 0 ? std::optional(Box{{-1.0, -1.0, -1.0}, {1.5, 1.0, 0.5}}) : std::nullopt;
-    OccupancyMap map({.resolution_m = 0.1, .region = region});
-    for (const Scan& scan : drawn_scans(seed)) {
-      map.insert(scan);
-    }
-    const std::vector<VoxelIndex> sought = sought_behind_frontiers()(map, 0);
-    std::set<std::tuple<int, int, int>> cells;
-    for (const VoxelIndex& cell : sought) {
-      cells.emplace(cell.x, cell.y, cell.z);
-    }
-    const VoxelIndex one{1, 1, 1};
-    for_each_cell({map.bounds().lo - one, map.bounds().hi + one}, [&](const VoxelIndex& cell) {
-      const bool beside = std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
-                                      [&](const VoxelIndex& step) { return map.at(cell + step) == Occupancy::Free; });
-      const bool expected = beside && map.in_region(cell) && map.at(cell) == Occupancy::Unknown;
-      EXPECT_EQ(cells.count({cell.x, cell.y, cell.z}) == 1U, expected) << "seed " << seed;
-      found += expected ? 1 : 0;
-    });
-  }
-  EXPECT_GT(found, 10000);
-}
-
 // With an object, the surroundings are free, and nothing is sought beyond them.
 TEST(RecordedViews, AroundAnObjectNothingIsLeftToLookFor) {
   int frontier = 0;
@@ -342,8 +313,9 @@ TEST(RecordedViews, AroundAnObjectNothingIsLeftToLookFor) {
       const bool beside = around.contains(map.frame().centre_of(cell));
       EXPECT_TRUE(beside || map.at(cell) == Occupancy::Free) << "seed " << seed;
     });
-    for (const VoxelIndex& cell : sought_behind_frontiers()(map, 0)) {
-      EXPECT_TRUE(around.contains(map.frame().centre_of(cell))) << "seed " << seed;
+    const Box further{object.min - Eigen::Vector3d::Constant(0.2), object.max + Eigen::Vector3d::Constant(0.2)};
+    for (const VoxelIndex& cell : frontier_cells(map)) {
+      EXPECT_TRUE(further.contains(map.frame().centre_of(cell))) << "seed " << seed;
       ++frontier;
     }
   }
@@ -355,8 +327,6 @@ TEST(RecordedViews, ChoosersTakeTheViewThatShowsMore) {
   const RangeSensor sensor = RangeSensor::pinhole(40, 40, 0.9, 0.9, 0.0, 3.0);
   const std::vector<std::size_t> best{0, 2, 1};
   EXPECT_EQ(chosen_order(views, 0, most_expected_cells(views, sensor)), best);
-  EXPECT_EQ(chosen_order(views, 0, most_for_what_is_sought(views, sensor, sought_in_voids())), best)
-      << "a wall has no void: of all views the one that makes most known";
   const ChooseView twice = most_unknown_cells(views, sensor);
   for (const std::size_t start : {0U, 1U}) {
     EXPECT_EQ(chosen_order(views, start, twice), chosen_order(views, start, most_unknown_cells(views, sensor)))

@@ -11,7 +11,6 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/map/scan.hpp>
-#include <vantage/planner/exploration_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vector>
 
@@ -96,8 +95,8 @@ using ChooseView =
 [[nodiscard]] std::vector<std::size_t> chosen_order(const RecordedViews& views, std::size_t start,
                                                     const ChooseView& choose);
 
-/// Chooses the view that sees most unknown cells, exactly counted. A pose in unknown space sees only its own cell.
-/// (Vasquez-Gomez et al. 2013, eq. 4)
+/// Chooses the view that sees most unknown cells, exactly counted. A pose in unknown space sees only its own cell, so
+/// this rule loses to random orders wherever recorded poses do. (Vasquez-Gomez et al. 2013, eq. 4)
 [[nodiscard]] ChooseView most_unknown_cells(const RecordedViews& views, const RangeSensor& sensor,
                                             std::size_t threads = 1);
 
@@ -105,30 +104,5 @@ using ChooseView =
 /// probability that an earlier return came from further away than the cell, given that it came from beyond the
 /// start of the unknown. A cell counts by its most likely ray.
 [[nodiscard]] ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& sensor);
-
-/// The unknown cells that the next view is wanted for, given `map`; `last` is the view taken last.
-using SoughtCells = std::function<std::vector<VoxelIndex>(const OccupancyMap& map, std::size_t last)>;
-
-/// What `planner` seeks with its next view (Plan::sought).
-[[nodiscard]] SoughtCells sought_next(const RecordedViews& views, ExplorationPlanner& planner);
-/// All unknown cells beside frontiers.
-[[nodiscard]] SoughtCells sought_behind_frontiers();
-/// All void cells (Dornhege & Kleiner 2011, IV-B).
-[[nodiscard]] SoughtCells sought_in_voids();
-
-/// Among the views that are expected to show at least half as many of the sought cells as any view, chooses the
-/// one that is expected to make most cells known; among all views if none shows a sought cell. Expectations as in
-/// most_expected_cells.
-[[nodiscard]] ChooseView most_for_what_is_sought(const RecordedViews& views, const RangeSensor& sensor,
-                                                 SoughtCells sought);
-
-/// Called with the plan after the view `last` and the view chosen for it.
-using GoalObserver = std::function<void(const Plan& plan, std::size_t last, std::size_t chosen)>;
-
-/// Chooses the view nearest to the goal of `planner`; a radian between the directions counts as
-/// `metres_per_radian`. If the plan has no goal, chooses the view furthest, by the same measure, from all views
-/// taken. `observer` may be empty.
-[[nodiscard]] ChooseView nearest_to_goal(const RecordedViews& views, ExplorationPlanner& planner,
-                                         double metres_per_radian, GoalObserver observer = {});
 
 }  // namespace vantage
