@@ -103,8 +103,7 @@ class OccupancyMap {
   [[nodiscard]] VoxelBox bounds() const { return may_have_shrunk_ ? box_of_known() : bounds_; }
   /// Bytes of the map, directory included, in memory or on disk (OccupancyMapOptions::resident_bytes), none shared.
   [[nodiscard]] std::size_t memory_bytes() const;
-  /// What of it is in memory: equal free bricks (`assign`) count once. Bricks on disk that were only read come on
-  /// top.
+  /// What of it is in memory: equal free bricks (`assign`) count once. Bricks on disk that were read add to it.
   [[nodiscard]] std::size_t resident_bytes() const;
   /// The number of bricks.
   [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
