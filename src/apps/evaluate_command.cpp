@@ -3,13 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,9 +44,9 @@ using TrialJson = nlohmann::json;
 struct EvaluateRequest {
   std::vector<std::string> objects;
   std::vector<std::string> planners{"next-best-view", "evenly-spaced", "random-views", "oracle-greedy"};
-  std::vector<std::string> sensors{"vpl", "vpl+"};
-  std::vector<double> resolutions_m{0.01};
-  std::size_t starts = 3;
+  std::vector<std::string> sensors{"vpl", "vpl+", "kinect", "kinect+"};
+  std::vector<double> resolutions_m{0.01, 0.005};
+  std::size_t starts = 5;
   std::string results;
   bool quick = false;
   ExploreRequest run;
@@ -56,13 +59,41 @@ struct Trial {
   std::string sensor;
   double resolution_m = 0.01;
   std::uint64_t start = 1;
+  std::size_t views = 20;  // after which it ends
 
-  [[nodiscard]] std::string key() const {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g %llu", resolution_m, static_cast<unsigned long long>(start));
-    return object + ' ' + planner + ' ' + sensor + ' ' + text;
+  // What it is kept by in the file of results.
+  [[nodiscard]] std::string key(const ExploreRequest& shared) const {
+    char text[64];
+    std::snprintf(text, sizeof text, " %g m, start %llu, %zu views", resolution_m,
+                  static_cast<unsigned long long>(start), views);
+    std::string key = object + ' ' + planner + ' ' + sensor + text;
+    for (const std::string& setting : shared.settings) {
+      key += ' ' + setting;
+    }
+    return key;
   }
 };
+
+// The generated objects and, where their files are, the scanned and modelled ones.
+std::vector<std::string> objects_of_the_table() {
+  const auto generated = generated_object_names();
+  std::vector<std::string> objects(generated.begin(), generated.end());
+  const char* const data = std::getenv("VANTAGE_DATA");
+  if (data == nullptr || *data == '\0') {
+    std::cerr << "VANTAGE_DATA is not set: bunny, dragon, fan and office chair are left out\n";
+    return objects;
+  }
+  for (const char* file : {"stanford/bunny_res3_opencv.ply", "stanford/dragon_vrip_res3.ply@3",
+                           "household/tableFan.obj@0.01,y", "household/office_chair.obj@1,y"}) {
+    objects.push_back(std::string(data) + "/meshes/" + file);
+  }
+  return objects;
+}
+
+// The stem of a mesh file, or the name of a generated object.
+std::string short_name(const std::string& object) {
+  return std::filesystem::path(object.substr(0, object.find('@'))).stem().string();
+}
 
 // NAME[:SEED] of a generated object, or FILE[@SCALE[,y]] of a mesh.
 TriangleMesh object_of(const std::string& text) {
@@ -92,15 +123,17 @@ RangeSensor sensor_named(const std::string& name, const ExploreRequest& shared) 
   return sensor;
 }
 
-TrialJson result_of(const Trial& trial, const ExploreRequest& shared, std::size_t spread) {
+TrialJson result_of(const Trial& trial, const ExploreRequest& shared) {
   const TriangleMesh object = object_of(trial.object);
   const RangeSensor sensor = sensor_named(trial.sensor, shared);
-  const ObjectScene scene = object_scene(object, sensor, {.name = trial.object, .resolution_m = trial.resolution_m});
+  const ObjectScene scene = object_scene(
+      object, sensor,
+      {.name = trial.object, .resolution_m = trial.resolution_m, .body_radius_m = shared.robot_radius_m});
   ExploreRequest request = shared;
   request.planner = trial.planner;
   request.resolution_m = trial.resolution_m;
   request.seed = trial.start;
-  request.max_views = spread > 0 ? spread : shared.max_views;
+  request.max_views = trial.views;
   const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = shared.robot_radius_m});
   ExplorationRunOptions options = object_run_options(request, scene, object);
   options.measure_coverage = false;
@@ -116,7 +149,7 @@ TrialJson result_of(const Trial& trial, const ExploreRequest& shared, std::size_
   const auto began = std::chrono::steady_clock::now();
   const RunRecord record = run.run(*made.planner, start);
   TrialJson result{
-      {"key", trial.key()},
+      {"key", trial.key(shared)},
       {"object", trial.object},
       {"planner", trial.planner},
       {"seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count()},
@@ -158,69 +191,70 @@ double at_view(const TrialJson& list, std::size_t view) {
   return list.empty() ? 0.0 : list.at(std::min(view, list.size()) - 1).get<double>();
 }
 
-// The first view after which 95 % of what can be seen was seen.
-constexpr std::size_t kNever = 99;
-std::size_t view_of_enough(const TrialJson& result) {
+// The first view after which 95 % of what can be seen was seen; infinite if there is none.
+double view_of_enough(const TrialJson& result) {
   const TrialJson& seen = result.at("seen");
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen[i].get<double>() >= 0.95 * result.at("observable").get<double>()) {
-      return i + 1;
+      return static_cast<double>(i + 1);
     }
   }
-  return kNever;
+  return std::numeric_limits<double>::infinity();
 }
 
-void print_row(const std::string& object, const std::string& planner, const std::vector<const TrialJson*>& results) {
-  constexpr std::size_t kShown = 10;
-  std::printf("| %s | %s |", object.c_str(), planner.c_str());
-  const auto over = [&](const auto& value) {
+constexpr std::array<std::size_t, 8> kShown{1, 2, 3, 4, 5, 6, 8, 10};  // views
+
+void print_row(const std::string& what, const std::string& planner, const std::vector<const TrialJson*>& results) {
+  std::printf("| %s | %s |", what.c_str(), planner.c_str());
+  const auto cell = [&](int digits, const auto& value) {
     std::vector<double> values;
-    values.reserve(results.size());
     for (const TrialJson* result : results) {
       values.push_back(value(*result));
     }
-    return values;
+    std::printf(" %s |", spread_text(values, digits).c_str());
   };
-  for (std::size_t view = 1; view <= kShown; ++view) {
-    std::printf(" %.0f",
-                100.0 * quantile(over([&](const TrialJson& r) { return at_view(r.at("seen"), view); }), 0.5));
+  for (const std::size_t view : kShown) {
+    cell(0, [&](const TrialJson& r) { return 100.0 * at_view(r.at("seen"), view); });
   }
-  const auto enough = over([](const TrialJson& r) { return static_cast<double>(view_of_enough(r)); });
-  const auto views = over([](const TrialJson& r) { return static_cast<double>(r.at("seen").size()); });
-  const auto last = over([](const TrialJson& r) { return 100.0 * r.at("seen").back().get<double>(); });
-  const auto path_to_enough = over([](const TrialJson& r) {
-    const std::size_t view = view_of_enough(r);
-    return view == kNever ? 99.0 : at_view(r.at("path_m"), view);
+  cell(0, [](const TrialJson& r) { return 100.0 * r.at("observable").get<double>(); });
+  cell(0, view_of_enough);
+  cell(1, [](const TrialJson& r) {
+    const double view = view_of_enough(r);
+    return std::isinf(view) ? view : at_view(r.at("path_m"), static_cast<std::size_t>(view));
   });
-  std::printf(" | %.0f | %.0f (%.0f, %.0f) | %.1f | %.1f | %.0f | %.1f | %.1f | %.0f | %.1f |\n",
-              quantile(over([](const TrialJson& r) { return 100.0 * r.at("observable").get<double>(); }), 0.5),
-              quantile(enough, 0.5), quantile(enough, 0.25), quantile(enough, 0.75), quantile(path_to_enough, 0.5),
-              quantile(last, 0.5), quantile(views, 0.5),
-              quantile(over([](const TrialJson& r) { return at_view(r.at("path_m"), 5); }), 0.5),
-              quantile(over([](const TrialJson& r) { return r.at("path_m").back().get<double>(); }), 0.5),
-              quantile(over([](const TrialJson& r) { return r.at("turned_deg").get<double>(); }), 0.5),
-              quantile(over([](const TrialJson& r) { return r.at("seconds").get<double>(); }), 0.5));
+  cell(0, [](const TrialJson& r) { return static_cast<double>(r.at("seen").size()); });
+  cell(1, [](const TrialJson& r) { return r.at("path_m").back().get<double>(); });
+  cell(0, [](const TrialJson& r) { return r.at("turned_deg").get<double>(); });
+  cell(1, [](const TrialJson& r) { return r.at("seconds").get<double>(); });
+  std::printf("\n");
 }
 
-// By object and planner.
-using ObjectRows = std::map<std::pair<std::string, std::string>, std::vector<TrialJson>>;
+// Results by what a row is about and by planner, in the order in which they were added.
+struct ResultRows {
+  std::vector<std::string> about;
+  std::map<std::pair<std::string, std::string>, std::vector<const TrialJson*>> results;
 
-void print_table(const EvaluateRequest& request, const ObjectRows& rows) {
-  std::printf(
-      "| object | planner | seen, %%, after views 1, 2, 3 ... 10 | can be seen | views to 95 %% of it | path to it, "
-      "m | seen at "
-      "the end | views | path after 5, m | path | turned, deg | s "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& object : request.objects) {
-    for (const std::string& planner : request.planners) {
-      std::vector<const TrialJson*> results;
-      for (const TrialJson& result : rows.at({object, planner})) {
-        results.push_back(&result);
+  void add(const std::string& what, const std::string& planner, const TrialJson& result) {
+    if (std::find(about.begin(), about.end(), what) == about.end()) {
+      about.push_back(what);
+    }
+    results[{what, planner}].push_back(&result);
+  }
+  void print(const char* title, const std::vector<std::string>& planners) const {
+    std::printf("| %s | planner | seen, %%, after 1 |", title);
+    for (std::size_t i = 1; i < kShown.size(); ++i) {
+      std::printf(" %zu |", kShown[i]);
+    }
+    std::printf(
+        " can be seen | views to 95 %% of it | path to it, m | views | path, m | turned, deg | s |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const std::string& what : about) {
+      for (const std::string& planner : planners) {
+        print_row(what, planner, results.at({what, planner}));
       }
-      print_row(object, planner, results);
     }
   }
-}
+};
 
 // Tells on stderr how far the table has come: a bar on a terminal, otherwise a line per run.
 class ObjectProgress {
@@ -254,11 +288,6 @@ void evaluate_objects(EvaluateRequest& request) {
     request.sensors = {"vpl+"};
     request.resolutions_m = {0.02};
   }
-  if (request.objects.empty()) {
-    for (const std::string_view name : generated_object_names()) {
-      request.objects.emplace_back(name);
-    }
-  }
   std::map<std::string, TrialJson> done =
       request.results.empty() ? std::map<std::string, TrialJson>() : results_in(request.results);
   std::ofstream out;
@@ -266,7 +295,11 @@ void evaluate_objects(EvaluateRequest& request) {
     out.open(request.results, std::ios::app);
     require_written(out, request.results);
   }
-  ObjectRows rows;
+  if (request.objects.empty()) {
+    request.objects = objects_of_the_table();
+  }
+  ResultRows by_object;
+  ResultRows by_sensor;
   const std::size_t all = request.objects.size() * request.sensors.size() * request.resolutions_m.size() *
                           request.starts * request.planners.size();
   std::size_t count = 0;
@@ -275,14 +308,15 @@ void evaluate_objects(EvaluateRequest& request) {
     for (const std::string& sensor : request.sensors) {
       for (const double resolution_m : request.resolutions_m) {
         for (std::uint64_t start = 1; start <= request.starts; ++start) {
-          std::size_t taken = 0;  // views taken by the planner under test
+          std::size_t taken = request.run.max_views;  // views taken by the planner under test
           for (const std::string& planner : request.planners) {
-            const Trial trial{object, planner, sensor, resolution_m, start};
-            progress.tell(count++, trial.key());
-            auto found = done.find(trial.key());
+            const std::size_t views = planner == "evenly-spaced" ? taken : request.run.max_views;
+            const Trial trial{object, planner, sensor, resolution_m, start, views};
+            const std::string key = trial.key(request.run);
+            progress.tell(count++, key);
+            auto found = done.find(key);
             if (found == done.end()) {
-              const std::size_t spread = planner == "evenly-spaced" ? taken : 0;
-              found = done.emplace(trial.key(), result_of(trial, request.run, spread)).first;
+              found = done.emplace(key, result_of(trial, request.run)).first;
               progress.made();
               if (!request.results.empty()) {
                 out << found->second.dump() << '\n' << std::flush;
@@ -292,14 +326,19 @@ void evaluate_objects(EvaluateRequest& request) {
             if (planner == "next-best-view") {
               taken = found->second.at("seen").size();
             }
-            rows[{object, planner}].push_back(found->second);
+            by_object.add(short_name(object), planner, found->second);
+            char cells[32];
+            std::snprintf(cells, sizeof cells, ", %g m", resolution_m);
+            by_sensor.add(sensor + cells, planner, found->second);
           }
         }
       }
     }
   }
   progress.finish();
-  print_table(request, rows);
+  by_object.print("object", request.planners);
+  std::printf("\n");
+  by_sensor.print("sensor, cells", request.planners);
 }
 
 }  // namespace
@@ -307,7 +346,9 @@ void evaluate_objects(EvaluateRequest& request) {
 void add_evaluate_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("evaluate", "Print tables of planners beside their peers");
   command->require_subcommand(1);
-  command->footer("Examples:\n  vantage evaluate exploration --help\n  vantage evaluate objects");
+  command->footer(
+      "Examples:\n  vantage evaluate exploration --help\n"
+      "  vantage evaluate objects --results runs.jsonl");
   add_evaluate_exploration_command(*command, exit_code);
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
@@ -316,8 +357,8 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
       command->add_subcommand("objects", "Share of objects seen after each view, and the length of the path");
   objects
       ->add_option("--objects", request->objects,
-                   "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; all "
-                   "generated ones unless given")
+                   "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; nine generated ones and four "
+                   "meshes of VANTAGE_DATA unless given")
       ->delimiter(';');
   objects->add_option("--planners", request->planners, "Names")->delimiter(',')->capture_default_str();
   objects->add_option("--sensors", request->sensors, "Names; a name with + reports rays without return")
