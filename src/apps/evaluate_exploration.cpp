@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/evaluation/exploration_table.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/report/report_html.hpp>
@@ -120,6 +121,9 @@ std::vector<PlannerText> planners_of(const EvaluateExplorationRequest& request) 
       planners.emplace_back(name);
     }
     planners.emplace_back("harmonic,mode=faithful");
+    for (const std::string_view name : exploration_peer_names()) {
+      planners.emplace_back(name);
+    }
   }
   // A wrong name or setting is found before the first run.
   for (const PlannerText& planner : planners) {

@@ -6,9 +6,11 @@
 #include <iterator>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/sim/world.hpp>
@@ -42,14 +44,20 @@ constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
     {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},
     {"next-best-view", "the view of most unknown cells, nearness counted (Vasquez-Gomez et al. 2013)"},
     {"tour", "a tour over all frontiers known to be left, in seconds or metres"},
+    {"distance-advantage", "what is far from everything else while it is near (Ericson et al. 2025)"},
+    {"fuel-like", "a tour over all parts of the frontier, the first ones refined (Zhou et al. 2021)"},
+    {"rh-nbv", "the best branch of a random tree of views, its first edge (Bircher et al. 2016)"},
+    {"aep-like", "such a tree here, frontiers elsewhere (Selin et al. 2019)"},
+    {"tare-like", "views that cover what is near, a coarse tour beyond (Cao et al. 2021)"},
+    {"falcon-like", "a path over zones of free and unknown space (Zhang et al. 2024)"},
 };
 
 void print(std::string_view name, std::string_view about) {
-  constexpr std::size_t kWidth = 18;
+  constexpr std::size_t kWidth = 20;
   std::cout << "  " << name << std::string(name.size() < kWidth ? kWidth - name.size() : 1, ' ') << about << '\n';
 }
 
-void print_names(const char* title, const std::vector<std::string_view>& names) {
+void print_names(const char* title, std::span<const std::string_view> names) {
   std::cout << title << '\n';
   for (const std::string_view name : names) {
     const auto* about =
@@ -61,6 +69,8 @@ void print_names(const char* title, const std::vector<std::string_view>& names) 
 void list() {
   print_names("worlds (or a mesh file, a .bt/.ot map, or a nav2 .yaml)", World::names());
   print_names("planners", planner_names());
+  print_names("planners to compare with (ours after the papers, explore and evaluate exploration only)",
+              exploration_peer_names());
   std::cout << "sensors (or a .json file)\n";
   for (const std::string_view name : RangeSensor::preset_names()) {
     print(name, described(name));

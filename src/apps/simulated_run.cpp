@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/simulated_run.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
@@ -62,13 +64,20 @@ SensorCarrier carrier_of(const ExploreRequest& request) {
 }
 
 std::unique_ptr<ExplorationPlanner> planner_of(const ExploreRequest& request, const SensorCarrier& carrier) {
-  return make_planner(request.planner,
-                      {.sensor = carrier.sensor,
-                       .platform = carrier.platform,
-                       .seed = request.seed,
-                       .threads = request.threads,
-                       .motion = motion_of(request)},
-                      settings_of(request));
+  const PlannerSetup setup{.sensor = carrier.sensor,
+                           .platform = carrier.platform,
+                           .seed = request.seed,
+                           .threads = request.threads,
+                           .motion = motion_of(request)};
+  const Settings settings = settings_of(request);
+  const auto peers = exploration_peer_names();
+  if (std::find(peers.begin(), peers.end(), request.planner) == peers.end()) {
+    return make_planner(request.planner, setup, settings);
+  }
+  if (!settings.empty()) {
+    throw std::invalid_argument("the planner " + request.planner + " has no settings");
+  }
+  return make_exploration_peer(request.planner, setup);
 }
 
 ExploredWorld explored_world(const ExploreRequest& request) {

@@ -19,7 +19,9 @@ namespace vantage::detail {
 struct OpenTourProblem {
   /// The legs, as rows of n numbers: row i leads from site i to each site, row n from the start.
   std::vector<double> legs = {};
-  std::vector<double> shows = {};  ///< by site: a share of the things, in sum 1; or 1 each: any first one shows all
+  /// By site: a share of the things, in sum 1; or 1 each: any first one shows all; or 0 each: the length alone
+  /// counts.
+  std::vector<double> shows = {};
 
   /// The number of sites.
   [[nodiscard]] std::size_t size() const { return shows.size(); }
@@ -42,7 +44,7 @@ inline constexpr std::size_t kExactSites = 10;
 /// A cheap tour over all sites: the optimum up to kExactSites (Held & Karp 1962), beyond a local one under moving up
 /// to three neighbours (Or 1976) and reversing (Croes 1958), from several first sites. Always the same for the same
 /// problem.
-[[nodiscard]] std::vector<std::size_t> open_tour(const OpenTourProblem& problem);
+VANTAGE_EXPORT [[nodiscard]] std::vector<std::size_t> open_tour(const OpenTourProblem& problem);
 
 }  // namespace vantage::detail
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/distance_advantage.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+#include <vantage/robot/grid_path.hpp>
+
+namespace vantage::detail {
+
+std::vector<double> distance_advantages(const BlockWays& ways, const VoxelIndex& start,
+                                        const std::vector<VoxelIndex>& places) {
+  std::vector<double> advantages;
+  for (const VoxelIndex& place : places) {
+    const std::vector<double> lengths = ways.lengths_from(place);
+    double sum_m = 0.0;
+    double cells = 0.0;
+    for (std::size_t piece = 0; piece < lengths.size(); ++piece) {
+      if (lengths[piece] != BlockWays::kNoWay) {
+        double count = 0.0;
+        for (const std::uint64_t word : ways.cells_of(static_cast<BlockWays::Piece>(piece))) {
+          count += std::popcount(word);
+        }
+        sum_m += count * lengths[piece];
+        cells += count;
+      }
+    }
+    advantages.push_back(sum_m / cells - ways.length_to(start, place, lengths));
+  }
+  return advantages;
+}
+
+std::optional<ChosenView> DistanceAdvantagePeer::choose(Plan& plan) {
+  const BlockWays& through = ways();
+  const VoxelIndex start = *situation().reachable().start();
+  const std::vector<ViewedSite> parts = sites(through.lengths_from(start));
+  std::vector<VoxelIndex> places;
+  for (const ViewedSite& part : parts) {
+    places.push_back(part.site.middle.viewpoint);
+  }
+  const std::vector<double> advantages = distance_advantages(through, start, places);
+  plan.statistics.views_scored += places.size();
+  const auto best = std::max_element(advantages.begin(), advantages.end()) - advantages.begin();
+  const FrontierTarget& wanted = parts[static_cast<std::size_t>(best)].site.middle;
+  ChosenView chosen{.view = view_of_target(situation().surveyed(), wanted, plan.statistics.ray_operations),
+                    .way = GridPaths(situation().reachable()).to(wanted.viewpoint)};
+  // Once the wanted cell is known, the planner chooses again.
+  std::erase(chosen.view.unknown, wanted.unknown);
+  chosen.view.hoped = std::exchange(chosen.view.unknown, {wanted.unknown});
+  return chosen;
+}
+
+}  // namespace vantage::detail

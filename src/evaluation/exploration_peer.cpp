@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/exploration_peer.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vantage/robot/grid_path.hpp>
+
+namespace vantage::detail {
+namespace {
+
+// Cells that stand for those of a part.
+constexpr std::size_t kMostCells = 64;
+// A view is kept if it shows this share of what the best one of the part shows.
+constexpr double kKept = 0.8;
+
+// The part with some of its targets, evenly chosen.
+FrontierSite thinned(const FrontierSite& site) {
+  FrontierSite thin{site.middle, {}};
+  const std::size_t stride = (site.targets.size() + kMostCells - 1) / kMostCells;
+  for (std::size_t i = 0; i < site.targets.size(); i += stride) {
+    thin.targets.push_back(site.targets[i]);
+  }
+  return thin;
+}
+
+}  // namespace
+
+const BlockWays& ExplorationPeer::ways() {
+  const VoxelFrame& frame = situation().map().frame();
+  if (!ways_ || ways_->frame().size_m != frame.size_m) {
+    ways_.emplace(frame, frame.size_m < 0.15 ? 8 : 4);
+  }
+  ways_->follow([&space = situation().reachable()](const VoxelIndex& brick) {
+    const BrickPlane* const cells = space.find(brick);
+    return cells == nullptr ? BrickPlane{} : *cells;
+  });
+  velocity_m_s_ = motion_.velocity_at(situation().current().translation());
+  return *ways_;
+}
+
+std::vector<ViewedSite> ExplorationPeer::sites(const std::vector<double>& from_start) const {
+  const VoxelIndex start = *situation().reachable().start();
+  std::vector<ViewedSite> all;
+  for (FrontierSite& site :
+       frontier_sites(situation().survey().targets, std::max(1, situation().map().frame().cells_up_to(kSiteM)))) {
+    const double way_m = ways_->length_to(site.middle.viewpoint, start, from_start);
+    all.push_back({.site = std::move(site), .way_m = way_m, .unknown = {}, .views = {}});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const ViewedSite& a, const ViewedSite& b) { return a.way_m < b.way_m; });
+  return all;
+}
+
+void ExplorationPeer::sample_views(ViewedSite& site, std::size_t most, Plan& plan) const {
+  TourViews sampled(situation(), {thinned(site.site)}, plan.statistics.ray_operations);
+  plan.statistics.views_scored += sampled.views.size();
+  site.unknown = std::move(sampled.unknown);
+  site.views = std::move(sampled.views);
+  std::stable_sort(site.views.begin(), site.views.end(),
+                   [](const TourView& a, const TourView& b) { return a.sees.size() > b.sees.size(); });
+  if (site.views.empty()) {  // what is left is beyond the resolving range, or seen in part
+    const TargetView view = view_of_target(situation().surveyed(), site.site.middle, plan.statistics.ray_operations);
+    site.unknown = view.unknown;
+    site.views.push_back({site.site.middle.viewpoint, view.view.pose, {}});
+    site.views.front().sees.resize(view.unknown.size());
+    std::iota(site.views.front().sees.begin(), site.views.front().sees.end(), 0U);
+  }
+  const double least = kKept * static_cast<double>(site.views.front().sees.size());
+  std::erase_if(site.views, [&](const TourView& view) { return static_cast<double>(view.sees.size()) < least; });
+  if (site.views.size() > most) {
+    site.views.erase(site.views.begin() + static_cast<std::ptrdiff_t>(most), site.views.end());
+  }
+}
+
+ChosenView ExplorationPeer::taking(const TourView& view, const std::vector<VoxelIndex>& unknown) {
+  std::vector<std::pair<double, VoxelIndex>> ranked;
+  for (const std::uint32_t number : view.sees) {
+    const Eigen::Vector3d line = situation().map().frame().centre_of(unknown[number]) - view.pose.translation();
+    ranked.emplace_back(-line.stableNormalized().dot(optical_axis(view.pose)), unknown[number]);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ChosenView chosen{.view = {.view = {.pose = view.pose, .utility = static_cast<double>(ranked.size())}},
+                    .way = GridPaths(situation().reachable()).to(view.place)};
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    (2 * i < ranked.size() ? chosen.view.unknown : chosen.view.hoped).push_back(ranked[i].second);
+  }
+  if (const std::optional<MotionModel>& motion = situation().setup().motion) {
+    if (std::optional<std::vector<Pose>> path = path_to(view.pose, chosen.way)) {
+      motion_.follow(*path, *motion);
+      chosen.path = std::move(*path);
+    }
+  }
+  return chosen;
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/falcon_like.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace vantage::detail {
+namespace {
+
+constexpr double kBlockM = 5.0;
+// A smaller unknown zone is not worth a place in the path.
+constexpr double kLeastZoneM = 1.0;
+// A path over more zones than these leaves out the furthest.
+constexpr std::size_t kMostZones = 120;
+
+Zones zones_of(const Situation& situation) {
+  const OccupancyMap& map = situation.map();
+  const VoxelBox known = map.bounds().grown(1);
+  const VoxelBox box = map.region() ? *map.region() : known;
+  return {map.frame(), box, std::max(1, map.frame().cells_up_to(kBlockM)), [&](const VoxelIndex& cell) {
+            const Occupancy state = map.at(cell);
+            return state == Occupancy::Free      ? ZoneKind::Free
+                   : state == Occupancy::Unknown ? ZoneKind::Unknown
+                                                 : ZoneKind::None;
+          }};
+}
+
+}  // namespace
+
+std::vector<std::size_t> coverage_path(const Zones& zones, std::size_t start, std::vector<std::size_t> to_cover) {
+  std::map<std::size_t, std::vector<double>> lengths;
+  const std::vector<double>& from_start = lengths.emplace(start, zones.lengths_from(start)).first->second;
+  std::erase_if(to_cover, [&](std::size_t zone) { return !std::isfinite(from_start[zone]); });
+  std::stable_sort(to_cover.begin(), to_cover.end(),
+                   [&](std::size_t a, std::size_t b) { return from_start[a] < from_start[b]; });
+  to_cover.resize(std::min(to_cover.size(), kMostZones));
+  return cheapest_order(to_cover, start, [&](std::size_t from, std::size_t to) {
+    auto known = lengths.find(from);
+    if (known == lengths.end()) {
+      known = lengths.emplace(from, zones.lengths_from(from)).first;
+    }
+    return known->second[to];
+  });
+}
+
+std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
+  const VoxelIndex start = *situation().reachable().start();
+  const std::vector<double> from_start = ways().lengths_from(start);
+  std::vector<ViewedSite> parts = sites(from_start);
+  const Zones zones = zones_of(situation());
+  // A part belongs to the zone of its unknown cells, because it may be seen from afar.
+  std::map<std::size_t, std::vector<std::size_t>> parts_in;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts_in[zones.zone_of(parts[i].site.middle.unknown)].push_back(i);
+  }
+  std::vector<std::size_t> to_cover;
+  const double least_cells = std::pow(kLeastZoneM / situation().map().resolution_m(), 2);
+  for (std::size_t zone = 0; zone < zones.all().size(); ++zone) {
+    const Zone& each = zones.all()[zone];
+    if (parts_in.contains(zone) ||
+        (each.kind == ZoneKind::Unknown && static_cast<double>(each.cells) >= least_cells)) {
+      to_cover.push_back(zone);
+    }
+  }
+  // The parts of the first two zones that have some, and the nearest of the next.
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t zone : coverage_path(zones, zones.zone_of(start), to_cover)) {
+    if (parts_in.contains(zone) && groups.size() < 3) {
+      groups.push_back(parts_in.at(zone));
+    }
+  }
+  if (groups.empty()) {  // no way leads to the zone of any part
+    groups.push_back({0});
+  }
+  std::vector<ViewedSite> ahead;
+  std::vector<std::vector<std::size_t>> numbers;
+  for (const std::vector<std::size_t>& group : groups) {
+    numbers.emplace_back();
+    for (const std::size_t i : group) {
+      numbers.back().push_back(ahead.size());
+      ahead.push_back(parts[i]);
+    }
+  }
+  look_at(ahead, plan);
+  std::vector<TourView> best;
+  for (const ViewedSite& part : ahead) {
+    best.push_back(part.views.front());
+  }
+  TourLegs costs = legs(from_start, best);
+  const LegCost leg = [&](std::size_t from, std::size_t to) { return costs.between(from, to); };
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto end = i + 1 < numbers.size() ? std::optional(numbers[i + 1].front()) : std::nullopt;
+    const std::vector<std::size_t> within =
+        cheapest_order(numbers[i], order.empty() ? best.size() : order.back(), leg, end);
+    order.insert(order.end(), within.begin(), within.end());
+  }
+  return refined(ahead, order, from_start);
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "evaluation/fuel_like.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include <vantage/planner/impl/open_tour.hpp>
+
+namespace vantage::detail {
+namespace {
+
+// Parts whose views are sampled.
+constexpr std::size_t kSampled = 24;
+// Views of a part, and the parts of a tour, among which the first is chosen: those within this distance.
+constexpr std::size_t kViews = 15;
+constexpr std::size_t kRefined = 7;
+constexpr double kRefinedM = 5.0;
+// A leg so long that the cheapest tour has it only where it must: longer than all others together.
+constexpr double kForbidden = 1e7;
+
+}  // namespace
+
+std::vector<std::size_t> cheapest_order(const std::vector<std::size_t>& views, std::size_t start, const LegCost& leg,
+                                        std::optional<std::size_t> end) {
+  std::vector<std::size_t> sites = views;
+  if (end) {
+    sites.push_back(*end);  // the legs that leave it are forbidden, so it is the last
+  }
+  OpenTourProblem problem;
+  problem.shows.assign(sites.size(), 0.0);  // the length alone counts
+  for (std::size_t from = 0; from <= sites.size(); ++from) {
+    const bool leaves_end = end && from + 1 == sites.size();
+    for (std::size_t to = 0; to < sites.size(); ++to) {
+      const double cost = leaves_end ? kForbidden : leg(from < sites.size() ? sites[from] : start, sites[to]);
+      problem.legs.push_back(std::min(cost, kForbidden));
+    }
+  }
+  std::vector<std::size_t> order;
+  for (const std::size_t site : sites.empty() ? std::vector<std::size_t>{} : open_tour(problem)) {
+    if (site < views.size()) {
+      order.push_back(views[site]);
+    }
+  }
+  return order;
+}
+
+std::vector<std::size_t> cheapest_through(const std::vector<std::vector<std::size_t>>& layers, std::size_t start,
+                                          const LegCost& leg, std::optional<std::size_t> end) {
+  struct Reached {
+    double cost = std::numeric_limits<double>::infinity();
+    std::size_t before = 0;  // position in the layer before
+  };
+  std::vector<std::vector<Reached>> reached;
+  const auto reach = [&](std::size_t view) {
+    if (reached.empty()) {
+      return Reached{leg(start, view), 0};
+    }
+    Reached best;
+    const std::vector<std::size_t>& layer = layers[reached.size() - 1];
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      if (const double cost = reached.back()[i].cost + leg(layer[i], view); cost < best.cost) {
+        best = {cost, i};
+      }
+    }
+    return best;
+  };
+  for (const std::vector<std::size_t>& layer : layers) {
+    std::vector<Reached> next;
+    for (const std::size_t view : layer) {
+      next.push_back(reach(view));
+    }
+    reached.push_back(std::move(next));
+  }
+  const std::vector<Reached>& last = reached.back();
+  const auto cheapest =
+      std::min_element(last.begin(), last.end(), [](const Reached& a, const Reached& b) { return a.cost < b.cost; });
+  std::size_t at = end ? reach(*end).before : static_cast<std::size_t>(cheapest - last.begin());
+  std::vector<std::size_t> chosen(layers.size());
+  for (std::size_t layer = layers.size(); layer-- > 0;) {
+    chosen[layer] = layers[layer][at];
+    at = reached[layer][at].before;
+  }
+  return chosen;
+}
+
+void RefiningPeer::look_at(std::vector<ViewedSite>& parts, Plan& plan) const {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    ViewedSite& part = parts[i];
+    if (i < kSampled) {
+      sample_views(part, kViews, plan);
+    } else {
+      const FrontierTarget& middle = part.site.middle;
+      const Eigen::Vector3d from = situation().reachable().position_in(middle.viewpoint);
+      part.unknown = {middle.unknown};
+      part.views = {{middle.viewpoint,
+                     situation().platform().facing(from, situation().map().frame().centre_of(middle.unknown) - from),
+                     {0}}};
+    }
+  }
+}
+
+ChosenView RefiningPeer::refined(const std::vector<ViewedSite>& parts, const std::vector<std::size_t>& order,
+                                 const std::vector<double>& from_start) {
+  std::vector<TourView> views;
+  std::vector<std::vector<std::size_t>> layers;
+  std::optional<std::size_t> end;
+  for (std::size_t i = 0; i < order.size() && !end; ++i) {
+    const ViewedSite& part = parts[order[i]];
+    const bool is_near =
+        (part.views.front().pose.translation() - situation().current().translation()).norm() <= kRefinedM;
+    if (i == 0 || (i < kRefined && is_near)) {
+      layers.emplace_back(part.views.size());
+      std::iota(layers.back().begin(), layers.back().end(), views.size());
+      views.insert(views.end(), part.views.begin(), part.views.end());
+    } else {
+      end = views.size();
+      views.push_back(part.views.front());
+    }
+  }
+  TourLegs costs = legs(from_start, views);
+  const std::size_t first = cheapest_through(
+      layers, views.size(), [&](std::size_t from, std::size_t to) { return costs.between(from, to); }, end)[0];
+  ChosenView chosen = taking(views[first], parts[order.front()].unknown);
+  chosen.reason = "the first of " + std::to_string(order.size()) + " parts of a tour, a view of " +
+                  std::to_string(views[first].sees.size()) + " unknown cells";
+  return chosen;
+}
+
+std::optional<ChosenView> FuelLikePeer::choose(Plan& plan) {
+  const std::vector<double> from_start = ways().lengths_from(*situation().reachable().start());
+  std::vector<ViewedSite> parts = sites(from_start);
+  look_at(parts, plan);
+  std::vector<TourView> best;
+  for (const ViewedSite& part : parts) {
+    best.push_back(part.views.front());
+  }
+  std::vector<std::size_t> all(parts.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  TourLegs costs = legs(from_start, best);
+  const std::vector<std::size_t> order =
+      cheapest_order(all, best.size(), [&](std::size_t from, std::size_t to) { return costs.between(from, to); });
+  return refined(parts, order, from_start);
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vantage/geometry/pose.hpp>
+#include <vector>
+
+#include <vantage/geometry/impl/dice.hpp>
+#include "evaluation/exploration_peer.hpp"
+#include "evaluation/unknown_volume.hpp"
+
+namespace vantage::detail {
+
+/// A view in a tree.
+struct TreeNode {
+  Pose pose;               ///< world_from_sensor
+  std::size_t parent = 0;  ///< number of a node before this one; 0 for the root
+  double way_m = 0.0;      ///< from the root
+  double gain = 0.0;       ///< of this view alone
+};
+
+/// For each node: the sum of gain * exp(-lambda * way) over the nodes from the root to it, the root left out.
+[[nodiscard]] std::vector<double> branch_values(const std::vector<TreeNode>& tree, double lambda_per_m);
+
+/// `rh-nbv`, see make_exploration_peer.
+class RhNbvPeer : public ExplorationPeer {
+ public:
+  using ExplorationPeer::ExplorationPeer;
+
+ protected:
+  /// The view at a place, its gain included: a random yaw.
+  [[nodiscard]] virtual TreeNode viewed(const VoxelIndex& place, const UnknownVolume& volume, Dice& dice, Plan& plan);
+  /// Branches whose best view shows less than this share of UnknownVolume::most are not followed.
+  [[nodiscard]] virtual double least_share() const { return 0.0; }
+  /// The cell of the lattice on which nodes stand that is near to this one.
+  [[nodiscard]] virtual VoxelIndex node_cell(const VoxelIndex& cell) const { return cell; }
+  /// Called before a tree grows.
+  virtual void begin_tree(const UnknownVolume& /*volume*/) {}
+
+ private:
+  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) final;
+  [[nodiscard]] std::vector<TreeNode> tree(const UnknownVolume& volume, Plan& plan);
+  void seed(std::vector<TreeNode>& tree, const UnknownVolume& volume, Plan& plan) const;
+  [[nodiscard]] ChosenView first_edge(const std::vector<TreeNode>& tree, std::size_t end, Plan& plan);
+
+  std::vector<Pose> branch_;         // the best one of the last plan
+  std::vector<Pose> branch_before_;  // that of the plan before
+  OccupancyMap::Revision planned_ = 0;
+};
+
+}  // namespace vantage::detail
