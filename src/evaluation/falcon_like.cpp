@@ -9,10 +9,8 @@ namespace vantage::detail {
 namespace {
 
 constexpr double kBlockM = 5.0;
-// A smaller unknown zone is not worth a place in the path.
-constexpr double kLeastZoneM = 1.0;
 // A path over more zones than these leaves out the furthest.
-constexpr std::size_t kMostZones = 120;
+constexpr std::size_t kMostZones = 40;
 
 Zones zones_of(const Situation& situation) {
   const OccupancyMap& map = situation.map();
@@ -28,14 +26,21 @@ Zones zones_of(const Situation& situation) {
 
 }  // namespace
 
-std::vector<std::size_t> coverage_path(const Zones& zones, std::size_t start, std::vector<std::size_t> to_cover) {
+std::vector<std::size_t> coverage_path(const Zones& zones, const std::map<std::size_t, double>& to_cover) {
+  std::vector<std::size_t> covered;
+  for (const auto& [zone, way_m] : to_cover) {
+    if (std::isfinite(way_m)) {
+      covered.push_back(zone);
+    }
+  }
+  std::stable_sort(covered.begin(), covered.end(),
+                   [&](std::size_t a, std::size_t b) { return to_cover.at(a) < to_cover.at(b); });
+  covered.resize(std::min(covered.size(), kMostZones));
   std::map<std::size_t, std::vector<double>> lengths;
-  const std::vector<double>& from_start = lengths.emplace(start, zones.lengths_from(start)).first->second;
-  std::erase_if(to_cover, [&](std::size_t zone) { return !std::isfinite(from_start[zone]); });
-  std::stable_sort(to_cover.begin(), to_cover.end(),
-                   [&](std::size_t a, std::size_t b) { return from_start[a] < from_start[b]; });
-  to_cover.resize(std::min(to_cover.size(), kMostZones));
-  return cheapest_order(to_cover, start, [&](std::size_t from, std::size_t to) {
+  return cheapest_order(covered, Zones::kNone, [&](std::size_t from, std::size_t to) {
+    if (from == Zones::kNone) {
+      return to_cover.at(to);
+    }
     auto known = lengths.find(from);
     if (known == lengths.end()) {
       known = lengths.emplace(from, zones.lengths_from(from)).first;
@@ -54,18 +59,16 @@ std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     parts_in[zones.zone_of(parts[i].site.middle.unknown)].push_back(i);
   }
-  std::vector<std::size_t> to_cover;
-  const double least_cells = std::pow(kLeastZoneM / situation().map().resolution_m(), 2);
-  for (std::size_t zone = 0; zone < zones.all().size(); ++zone) {
-    const Zone& each = zones.all()[zone];
-    if (parts_in.contains(zone) ||
-        (each.kind == ZoneKind::Unknown && static_cast<double>(each.cells) >= least_cells)) {
-      to_cover.push_back(zone);
+  // From here to a zone, the way to the nearest of its parts counts.
+  std::map<std::size_t, double> to_cover;
+  for (const auto& [zone, numbers] : parts_in) {
+    if (zone != Zones::kNone) {
+      to_cover[zone] = parts[numbers.front()].way_m;
     }
   }
   // The parts of the first two zones that have some, and the nearest of the next.
   std::vector<std::vector<std::size_t>> groups;
-  for (const std::size_t zone : coverage_path(zones, zones.zone_of(start), to_cover)) {
+  for (const std::size_t zone : coverage_path(zones, to_cover)) {
     if (parts_in.contains(zone) && groups.size() < 3) {
       groups.push_back(parts_in.at(zone));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <vector>
 
 #include "evaluation/fuel_like.hpp"
@@ -17,8 +19,9 @@ class FalconLikePeer final : public RefiningPeer {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
 };
 
-/// The order in which a path from `start` covers these zones, those that have a way from it.
-[[nodiscard]] std::vector<std::size_t> coverage_path(const Zones& zones, std::size_t start,
-                                                     std::vector<std::size_t> to_cover);
+/// The order in which a path covers zones. `to_cover`: zones, and the way from here to each, metres; those with an
+/// infinite one are left out.
+[[nodiscard]] std::vector<std::size_t> coverage_path(const Zones& zones,
+                                                     const std::map<std::size_t, double>& to_cover);
 
 }  // namespace vantage::detail

@@ -16,6 +16,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
@@ -149,6 +150,13 @@ bool same(const Plan& a, const Plan& b) {
                     [](const Pose& p, const Pose& q) { return p.matrix() == q.matrix(); });
 }
 
+// A planner, or a peer of that name.
+std::unique_ptr<ExplorationPlanner> planner_named(const std::string& name, const PlannerSetup& setup) {
+  const auto peers = exploration_peer_names();
+  return std::find(peers.begin(), peers.end(), name) != peers.end() ? make_exploration_peer(name, setup)
+                                                                    : make_planner(name, setup);
+}
+
 /// A robot, its host and the results of the run.
 class DrivenRobot {
  public:
@@ -160,8 +168,8 @@ class DrivenRobot {
         platform_(scene.platform()),
         map_({.resolution_m = scene.cell_m, .region = world_.frame.box_of(world_.solid.box())}),
         engine_(scene.seed),
-        planner_(make_planner(planner, {sensor_, platform_, 7, 1})),
-        on_threads_(make_planner(planner, {sensor_, platform_, 7, 2})) {
+        planner_(planner_named(planner, {sensor_, platform_, 7, 1})),
+        on_threads_(planner_named(planner, {sensor_, platform_, 7, 2})) {
     const double cell = scene.cell_m;
     Eigen::Vector3d at = world_.frame.centre_of(world_.start);
     if (host == Host::OffCentre) {
@@ -481,6 +489,18 @@ TEST_P(ExplorationContractInRealBuildings, Holds) {
     ended += expect_contract(planner, host, Scene::in_real_building(real, number).met_by(host)) ? 1U : 0U;
   }
   EXPECT_EQ(ended, seeds);
+}
+
+// The peers only choose; what they share with the planners keeps the contract. A sample of it.
+TEST(ExplorationContractCase, PeersKeepIt) {
+  std::size_t ended = 0;
+  for (const std::string_view peer : exploration_peer_names()) {
+    for (const std::uint32_t number : {1U, 2U, 3U}) {
+      ended += expect_contract(std::string(peer), Host::Perfect, Scene::numbered(number)) ? 1U : 0U;
+    }
+    ended += expect_contract(std::string(peer), Host::StopsShort, Scene::numbered(4)) ? 1U : 0U;
+  }
+  EXPECT_EQ(ended, 4 * exploration_peer_names().size());
 }
 
 // Runs that once broke the contract, by what was wrong.

@@ -32,9 +32,10 @@ namespace VANTAGE_EXPORT vantage {
 ///   tour; beyond, a coarse tour over cubes that hold frontier, which gives the end of the tour near here. Left out:
 ///   random choice of the cover, surfaces that were seen under flat angles, the way home.
 /// - `falcon-like` (Zhang, Chen, Feng, Zhou & Shen 2024, FALCON): divides free and unknown space into zones, cells of
-///   a block that are connected; a path over all zones left to explore, on which ways through unknown space count
-///   twice; the views of parts are taken in the order of their zones, the first of them chosen as in `fuel-like`.
-///   Left out: zones are made anew for each plan; minimum-time trajectories.
+///   a block that are connected; a path over the unknown zones that border known space, on which ways through unknown
+///   space count twice; the parts are taken in the order of their zones, views of the first ones as in `fuel-like`.
+///   Left out: unknown zones behind these in the path (with them, a path by local search starts elsewhere with each
+///   plan), zones kept from plan to plan, minimum-time trajectories.
 ///
 /// Throws std::invalid_argument if there is no such peer, with the list of names, or as PlannerSetup::validate.
 [[nodiscard]] std::unique_ptr<ExplorationPlanner> make_exploration_peer(std::string_view name,
