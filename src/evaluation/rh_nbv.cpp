@@ -18,6 +18,8 @@ constexpr std::size_t kMostNodes = 200;
 constexpr std::size_t kMostDraws = 1000;
 // A node of the last branch that is nearer was reached.
 constexpr double kReachedM = 0.3;
+// After so many plans from one place no tree is grown: random goals would not show that the robot does not move.
+constexpr std::size_t kMostStill = 3;
 
 std::size_t nearest_node(const std::vector<TreeNode>& tree, const Eigen::Vector3d& to) {
   const auto nearest = std::min_element(tree.begin(), tree.end(), [&](const TreeNode& a, const TreeNode& b) {
@@ -117,11 +119,14 @@ std::optional<ChosenView> RhNbvPeer::choose(Plan& plan) {
   if (situation().map().revision() != planned_) {  // a second plan for the same map starts from the same branch
     branch_before_ = std::move(branch_);
     planned_ = situation().map().revision();
+    const Eigen::Vector3d here = situation().current().translation();
+    still_ = (here - planned_at_m_).norm() < 0.5 * situation().map().resolution_m() ? still_ + 1 : 0;
+    planned_at_m_ = here;
   }
   branch_.clear();
   const UnknownVolume volume(situation().map(), situation().sensor());
   begin_tree(volume);
-  if (!situation().reachable().only_turns()) {
+  if (!situation().reachable().only_turns() && still_ < kMostStill) {
     const std::vector<TreeNode> grown = tree(volume, plan);
     const std::vector<double> values = branch_values(grown, kLambdaPerM);
     std::vector<std::size_t> order(grown.size());

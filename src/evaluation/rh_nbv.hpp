@@ -47,6 +47,8 @@ class RhNbvPeer : public ExplorationPeer {
   std::vector<Pose> branch_;         // the best one of the last plan
   std::vector<Pose> branch_before_;  // that of the plan before
   OccupancyMap::Revision planned_ = 0;
+  Eigen::Vector3d planned_at_m_ = Eigen::Vector3d::Zero();
+  std::size_t still_ = 0;  // plans in a row from about the same place
 };
 
 }  // namespace vantage::detail
