@@ -66,6 +66,15 @@ KinematicChain chain_of(const SearchRequest& request) {
                                   : KinematicChain::from_urdf(request.arm, base, sensor);
 }
 
+std::shared_ptr<const Arm> arm_of(const SearchRequest& request, const KinematicChain& chain,
+                                  const ArmOptions& options) {
+  try {
+    return std::make_shared<const Arm>(chain, options);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("--arm " + request.arm + ": " + error.what());
+  }
+}
+
 Pose base_of(const SearchRequest& request) {
   const std::vector<double> n = numbers_of("--base", request.base);
   if (n.size() < 3 || n.size() > 4) {
@@ -188,7 +197,7 @@ int search(const SearchRequest& request) {
   arm_options.world_from_base = base_of(request);
   arm_options.declared_clear = {body_at(request, chain, arm_options.world_from_base, joints)};
   arm_options.seed = shared.seed;
-  const auto arm = std::make_shared<const Arm>(chain, arm_options);
+  const std::shared_ptr<const Arm> arm = arm_of(request, chain, arm_options);
   const PlannerSetup setup{.sensor = sensor, .platform = arm, .seed = shared.seed, .threads = shared.threads};
   const auto planner = planner_of(request, arm, setup);
   const World world = world_of(shared);
