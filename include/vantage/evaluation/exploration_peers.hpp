@@ -24,7 +24,7 @@ namespace VANTAGE_EXPORT vantage {
 /// - `rh-nbv` (Bircher, Kamel, Alexis, Oleynikova & Siegwart 2016): a random tree of views around here; the branch
 ///   with the largest sum of gain * exp(-lambda * way); takes its first edge, and the rest of the branch is the first
 ///   of the next tree. The gain is the volume of unknown space in view. Left out: the end by lack of gain; without it
-///   in the tree, the planner goes to the nearest frontier.
+///   in the tree, and for a robot that does not move, it goes to the nearest frontier.
 /// - `aep-like` (Selin, Tiger, Duberg, Heintz & Jensfelt 2019, AEP): such a tree with the best of all yaws at each
 ///   node, gains kept while nothing around them changes, and the nearest frontier if the gain is small. Left out:
 ///   the interpolation of gains between nodes, pitch.
