@@ -208,6 +208,7 @@ void print_row(const std::string& what, const std::string& planner, const std::v
   std::printf("| %s | %s |", what.c_str(), planner.c_str());
   const auto cell = [&](int digits, const auto& value) {
     std::vector<double> values;
+    values.reserve(results.size());
     for (const TrialJson* result : results) {
       values.push_back(value(*result));
     }
