@@ -349,7 +349,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   command->footer(
       "Examples:\n  vantage evaluate exploration --help\n"
-      "  vantage evaluate objects --results runs.jsonl");
+      "  vantage evaluate objects");
   add_evaluate_exploration_command(*command, exit_code);
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
