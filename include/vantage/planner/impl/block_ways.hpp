@@ -11,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/geometry/voxel_table.hpp>
 #include <vantage/map/brick.hpp>
@@ -30,7 +29,7 @@ namespace vantage::detail {
 /// blocks. Pieces and links are made where a search first reaches them, and kept until the set changes beside them.
 /// So the cost follows the searches and the changes, not the set. The lengths depend only on the set as it is, not on
 /// what was kept.
-class VANTAGE_EXPORT BlockWays {
+class BlockWays {
  public:
   /// A piece by its number.
   using Piece = std::uint32_t;

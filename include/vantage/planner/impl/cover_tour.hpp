@@ -23,8 +23,7 @@ struct CoverTourProblem {
 /// Chooses views and an order of them at once: always the view that shows most new things for what it adds to the
 /// tour, at the place in the order where it adds least. Ends when nothing new can be seen, or after `most_views`. A
 /// view whose things the others show is left out at the end.
-VANTAGE_EXPORT [[nodiscard]] std::vector<std::size_t> cover_tour(const CoverTourProblem& problem,
-                                                                 std::size_t most_views);
+[[nodiscard]] std::vector<std::size_t> cover_tour(const CoverTourProblem& problem, std::size_t most_views);
 
 /// The same tour with its first `layers` views replaced, each by one that shows nearly as much, and nearly all of
 /// what no other of the tour shows, so that the tour costs least (dynamic programming over the layers).

@@ -47,6 +47,7 @@ inline std::vector<VoxelBox> boxes_around(std::span<const VoxelIndex> frontier, 
     box = box_around(box, {cell, cell + VoxelIndex{1, 1, 1}});
   }
   std::vector<VoxelBox> grown;
+  grown.reserve(boxes.size());
   for (const auto& [cube, box] : boxes) {
     grown.push_back(box.grown(range));
   }

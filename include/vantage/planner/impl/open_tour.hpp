@@ -44,7 +44,7 @@ inline constexpr std::size_t kExactSites = 10;
 /// A cheap tour over all sites: the optimum up to kExactSites (Held & Karp 1962), beyond a local one under moving up
 /// to three neighbours (Or 1976) and reversing (Croes 1958), from several first sites. Always the same for the same
 /// problem.
-VANTAGE_EXPORT [[nodiscard]] std::vector<std::size_t> open_tour(const OpenTourProblem& problem);
+[[nodiscard]] std::vector<std::size_t> open_tour(const OpenTourProblem& problem);
 
 }  // namespace vantage::detail
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vantage/compiler.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vector>
 
@@ -27,7 +26,7 @@ struct TourView {
 /// Only reachable places count. The first parts, those that are looked at first, have places all around; the others
 /// have only V and the frontier. If the parts have many unknown cells, some of each stand for all. So the cost of the
 /// rays is bounded, whatever the size of the cells.
-struct VANTAGE_EXPORT TourViews {
+struct TourViews {
   std::vector<VoxelIndex> unknown;  ///< unknown cells of all parts, in raster order
   std::vector<TourView> views;      ///< each sees some of them
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vantage/compiler.hpp>
 #include <vantage/view/frontier_survey.hpp>
 #include <vector>
 
@@ -16,8 +15,8 @@ struct FrontierSite {
 
 /// Divides targets, in raster order of their frontier cells, into clusters that touch through corners, and those by
 /// halving until none is longer than `most_cells` along an axis.
-VANTAGE_EXPORT [[nodiscard]] std::vector<FrontierSite> frontier_sites(const std::vector<FrontierTarget>& targets,
-                                                                      std::int32_t most_cells);
+[[nodiscard]] std::vector<FrontierSite> frontier_sites(const std::vector<FrontierTarget>& targets,
+                                                       std::int32_t most_cells);
 
 }  // namespace vantage::detail
 
