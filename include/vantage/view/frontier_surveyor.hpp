@@ -43,10 +43,10 @@ class FrontierSurveyor {
   /// Surveys the map with the sensor at `current` (world_from_sensor). `frontier`: the frontier cells of the map in
   /// raster order (FrontierTracker, frontier_cells). Unknown cells that `tried` has given up are no targets.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
-                                      std::vector<VoxelIndex> frontier);
+                                      const std::vector<VoxelIndex>& frontier);
   /// As above, for a sensor that could be brought to each of `places`, at least one, and nowhere else.
   [[nodiscard]] FrontierSurvey survey_from(const std::vector<VoxelIndex>& places, const OccupancyMap& map,
-                                           const TriedViews& tried, std::vector<VoxelIndex> frontier);
+                                           const TriedViews& tried, const std::vector<VoxelIndex>& frontier);
 
   /// The cells to which the platform could bring the sensor in the last survey.
   [[nodiscard]] const ReachableSpace& reachable() const { return reachable_; }
@@ -62,7 +62,7 @@ class FrontierSurveyor {
   [[nodiscard]] std::vector<Finding> find_each(const TriedViews& tried, const std::vector<VoxelIndex>& frontier,
                                                Search&& search);
   [[nodiscard]] FrontierSurvey find_targets(const OccupancyMap& map, const TriedViews& tried,
-                                            std::vector<VoxelIndex> frontier);
+                                            const std::vector<VoxelIndex>& frontier);
 
   std::shared_ptr<const Platform> platform_;
   RangeSensor sensor_;

@@ -29,9 +29,30 @@ inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
 // Searches viewpoints of unknown cells.
 class ViewpointSearch {
  public:
-  ViewpointSearch(const VoxelFrame& frame, const Platform& platform, const RangeSensor& sensor,
+  ViewpointSearch(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor,
                   const ReachableSpace& reachable, const TriedViews& tried, detail::SightMemory& memory)
-      : frame_(frame), platform_(platform), sensor_(sensor), reachable_(reachable), tried_(tried), memory_(memory) {}
+      : map_(map),
+        frame_(map.frame()),
+        platform_(platform),
+        sensor_(sensor),
+        reachable_(reachable),
+        tried_(tried),
+        memory_(memory) {}
+
+  [[nodiscard]] bool is_sought(const VoxelIndex& cell) const {
+    return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown && !tried_.gave_up(cell);
+  }
+  // The first unknown neighbour of a frontier cell for which `find` returns a viewpoint.
+  template <class Find>
+  std::optional<FrontierTarget> first_seen(const VoxelIndex& frontier, Find&& find) {
+    for (const VoxelIndex& step : kFaceNeighbours) {
+      const VoxelIndex unknown = frontier + step;
+      if (const auto viewpoint = is_sought(unknown) ? find(unknown) : std::nullopt) {
+        return FrontierTarget{frontier, unknown, *viewpoint};
+      }
+    }
+    return std::nullopt;
+  }
 
   // Searches backwards from `unknown`: first straight through the frontier cell, then along rays in all directions.
   std::optional<VoxelIndex> look_back(const VoxelIndex& unknown, const VoxelIndex& frontier) {
@@ -46,8 +67,7 @@ class ViewpointSearch {
         [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
   // Searches backwards from a frontier cell for a viewpoint that sees a part of one of its unknown neighbours.
-  template <class IsSought>
-  std::optional<FrontierTarget> look_back_from(const VoxelIndex& frontier, const IsSought& is_sought) {
+  std::optional<FrontierTarget> look_back_from(const VoxelIndex& frontier) {
     std::vector<VoxelIndex> steps;
     std::uint32_t about = 0;
     bool any_tried = false;
@@ -79,8 +99,7 @@ class ViewpointSearch {
   }
   // The same for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
   // one, that becomes known.
-  template <class IsSought>
-  std::optional<FrontierTarget> try_past(const VoxelIndex& unknown, const IsSought& is_sought, std::size_t& pairs) {
+  std::optional<FrontierTarget> try_past(const VoxelIndex& unknown, std::size_t& pairs) {
     VoxelIndex before = unknown;
     VoxelIndex first = unknown;
     bool is_before = false;  // whether the next cell is the one before `first`
@@ -192,6 +211,7 @@ class ViewpointSearch {
            (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
   }
 
+  const OccupancyMap& map_;
   VoxelFrame frame_;
   const Platform& platform_;
   const RangeSensor& sensor_;
@@ -202,10 +222,6 @@ class ViewpointSearch {
   std::uint64_t operations_ = 0;
 };
 
-inline bool is_sought(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
-  return map.in_region(cell) && map.at(cell) == Occupancy::Unknown && !tried.gave_up(cell);
-}
-
 // Whether an unknown neighbour of the frontier cell was given up.
 inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
   return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
@@ -215,17 +231,43 @@ inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, c
 }
 
 // The first target found along lines past other unknown cells.
-template <class IsSought>
-std::optional<FrontierTarget> one_seen_past_another(ViewpointSearch& search, const IsSought& is_sought,
-                                                    const std::vector<VoxelIndex>& hidden, std::size_t& pairs) {
+inline std::optional<FrontierTarget> one_seen_past_another(ViewpointSearch& search,
+                                                           const std::vector<VoxelIndex>& hidden,
+                                                           std::size_t& pairs) {
   for (const VoxelIndex& cell : hidden) {
     for (const VoxelIndex& step : kFaceNeighbours) {
-      if (const auto past = is_sought(cell + step) ? search.try_past(cell + step, is_sought, pairs) : std::nullopt) {
+      if (const auto past = search.is_sought(cell + step) ? search.try_past(cell + step, pairs) : std::nullopt) {
         return past;
       }
     }
   }
   return std::nullopt;
+}
+
+// Moves the cells for which `find` returns a target from `hidden` to `targets`.
+template <class Find>
+void take_seen(std::vector<VoxelIndex>& hidden, std::vector<FrontierTarget>& targets, Find&& find) {
+  std::erase_if(hidden, [&](const VoxelIndex& cell) {
+    const std::optional<FrontierTarget> target = find(cell);
+    if (target) {
+      targets.push_back(*target);
+    }
+    return target.has_value();
+  });
+}
+
+// The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too many.
+inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidden, FrontierSurvey& survey) {
+  std::size_t pairs = kExhaustivePairs;
+  take_seen(hidden, survey.targets, [&](const VoxelIndex& cell) {
+    return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
+  });
+  const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden, pairs) : std::nullopt;
+  if (past) {
+    survey.targets.push_back(*past);
+    std::erase(hidden, past->frontier);
+  }
+  survey.exhausted = pairs > 0;
 }
 
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.
@@ -266,16 +308,17 @@ VANTAGE_INLINE FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&)
 VANTAGE_INLINE FrontierSurveyor::~FrontierSurveyor() = default;
 
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, const Pose& current,
-                                                       const TriedViews& tried, std::vector<VoxelIndex> frontier) {
+                                                       const TriedViews& tried,
+                                                       const std::vector<VoxelIndex>& frontier) {
   reachable_.follow(map, *platform_, current);
-  return find_targets(map, tried, std::move(frontier));
+  return find_targets(map, tried, frontier);
 }
 
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey_from(const std::vector<VoxelIndex>& places,
                                                             const OccupancyMap& map, const TriedViews& tried,
-                                                            std::vector<VoxelIndex> frontier) {
+                                                            const std::vector<VoxelIndex>& frontier) {
   reachable_ = ReachableSpace(map.frame(), places);
-  return find_targets(map, tried, std::move(frontier));
+  return find_targets(map, tried, frontier);
 }
 
 // The findings for all frontier cells: those of the last survey where they still hold, else those of
@@ -300,7 +343,7 @@ std::vector<FrontierSurveyor::Finding> FrontierSurveyor::find_each(const TriedVi
 }
 
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const TriedViews& tried,
-                                                             std::vector<VoxelIndex> frontier) {
+                                                             const std::vector<VoxelIndex>& frontier) {
   memory_->follow(map, reachable_, tried, detail::furthest_m(map, sensor_), options_.sight_directions);
   FrontierSurvey survey;
   survey.frontier_cells = frontier.size();
@@ -309,22 +352,13 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
     survey.leftover.unreachable = frontier.size();
     return survey;
   }
-  detail::ViewpointSearch search(map.frame(), *platform_, sensor_, reachable_, tried, *memory_);
-  const auto sought = [&](const VoxelIndex& unknown) { return detail::is_sought(map, unknown, tried); };
-  const auto first_seen = [&](const VoxelIndex& cell, auto&& find) -> std::optional<FrontierTarget> {
-    for (const VoxelIndex& step : kFaceNeighbours) {
-      const VoxelIndex unknown = cell + step;
-      if (const auto viewpoint = sought(unknown) ? find(unknown) : std::nullopt) {
-        return FrontierTarget{cell, unknown, *viewpoint};
-      }
-    }
-    return std::nullopt;
-  };
+  detail::ViewpointSearch search(map, *platform_, sensor_, reachable_, tried, *memory_);
   // A sensor that looks all around sees parts of cells in passing; a camera would have to be aimed at each.
   const bool takes_parts = sensor_.looks_all_around();
   std::vector<Finding> findings = find_each(tried, frontier, [&](const VoxelIndex& cell) {
-    const auto whole = first_seen(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
-    return whole || !takes_parts ? whole : search.look_back_from(cell, sought);
+    const auto whole =
+        search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.look_back(unknown, cell); });
+    return whole || !takes_parts ? whole : search.look_back_from(cell);
   });
   std::vector<VoxelIndex> hidden;
   for (const Finding& one : findings) {
@@ -334,35 +368,13 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
       hidden.push_back(one.frontier);
     }
   }
-  // Moves the cells for which there is a target to the targets.
-  const auto take = [&](auto&& find) {
-    std::erase_if(hidden, [&](const VoxelIndex& cell) {
-      const std::optional<FrontierTarget> target = find(cell);
-      if (target) {
-        survey.targets.push_back(*target);
-      }
-      return target.has_value();
-    });
-  };
   if (survey.targets.empty() && !takes_parts) {
-    take([&](const VoxelIndex& cell) { return search.look_back_from(cell, sought); });
+    detail::take_seen(hidden, survey.targets, [&](const VoxelIndex& cell) { return search.look_back_from(cell); });
   }
   memory_->forget_others();
   findings_ = std::move(findings);
   if (survey.targets.empty()) {
-    // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too
-    // many.
-    std::size_t pairs = detail::kExhaustivePairs;
-    take([&](const VoxelIndex& cell) {
-      return first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
-    });
-    const auto past =
-        survey.targets.empty() ? detail::one_seen_past_another(search, sought, hidden, pairs) : std::nullopt;
-    if (past) {
-      survey.targets.push_back(*past);
-      std::erase(hidden, past->frontier);
-    }
-    survey.exhausted = pairs > 0;
+    detail::take_any_seen(search, hidden, survey);
   }
   if (!sensor_.reports_no_return) {
     survey.targets = detail::surfaces_first(map, std::move(survey.targets));
