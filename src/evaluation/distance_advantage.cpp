@@ -35,6 +35,7 @@ std::optional<ChosenView> DistanceAdvantagePeer::choose(Plan& plan) {
   const VoxelIndex start = *situation().reachable().start();
   const std::vector<ViewedSite> parts = sites(through.lengths_from(start));
   std::vector<VoxelIndex> places;
+  places.reserve(parts.size());
   for (const ViewedSite& part : parts) {
     places.push_back(part.site.middle.viewpoint);
   }

@@ -87,6 +87,7 @@ std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
   }
   look_at(ahead, plan);
   std::vector<TourView> best;
+  best.reserve(ahead.size());
   for (const ViewedSite& part : ahead) {
     best.push_back(part.views.front());
   }

@@ -68,6 +68,7 @@ std::vector<std::size_t> cheapest_through(const std::vector<std::vector<std::siz
   };
   for (const std::vector<std::size_t>& layer : layers) {
     std::vector<Reached> next;
+    next.reserve(layer.size());
     for (const std::size_t view : layer) {
       next.push_back(reach(view));
     }
@@ -133,6 +134,7 @@ std::optional<ChosenView> FuelLikePeer::choose(Plan& plan) {
   std::vector<ViewedSite> parts = sites(from_start);
   look_at(parts, plan);
   std::vector<TourView> best;
+  best.reserve(parts.size());
   for (const ViewedSite& part : parts) {
     best.push_back(part.views.front());
   }
