@@ -2,7 +2,6 @@
 #include "evaluation/fuel_like.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -44,46 +43,6 @@ std::vector<std::size_t> cheapest_order(const std::vector<std::size_t>& views, s
     }
   }
   return order;
-}
-
-std::vector<std::size_t> cheapest_through(const std::vector<std::vector<std::size_t>>& layers, std::size_t start,
-                                          const LegCost& leg, std::optional<std::size_t> end) {
-  struct Reached {
-    double cost = std::numeric_limits<double>::infinity();
-    std::size_t before = 0;  // position in the layer before
-  };
-  std::vector<std::vector<Reached>> reached;
-  const auto reach = [&](std::size_t view) {
-    if (reached.empty()) {
-      return Reached{leg(start, view), 0};
-    }
-    Reached best;
-    const std::vector<std::size_t>& layer = layers[reached.size() - 1];
-    for (std::size_t i = 0; i < layer.size(); ++i) {
-      if (const double cost = reached.back()[i].cost + leg(layer[i], view); cost < best.cost) {
-        best = {cost, i};
-      }
-    }
-    return best;
-  };
-  for (const std::vector<std::size_t>& layer : layers) {
-    std::vector<Reached> next;
-    next.reserve(layer.size());
-    for (const std::size_t view : layer) {
-      next.push_back(reach(view));
-    }
-    reached.push_back(std::move(next));
-  }
-  const std::vector<Reached>& last = reached.back();
-  const auto cheapest =
-      std::min_element(last.begin(), last.end(), [](const Reached& a, const Reached& b) { return a.cost < b.cost; });
-  std::size_t at = end ? reach(*end).before : static_cast<std::size_t>(cheapest - last.begin());
-  std::vector<std::size_t> chosen(layers.size());
-  for (std::size_t layer = layers.size(); layer-- > 0;) {
-    chosen[layer] = layers[layer][at];
-    at = reached[layer][at].before;
-  }
-  return chosen;
 }
 
 void RefiningPeer::look_at(std::vector<ViewedSite>& parts, Plan& plan) const {

@@ -4,17 +4,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vantage/compiler.hpp>
 #include <vector>
 
 namespace vantage::detail {
 
+/// What it costs to come from a view to another; from the number of views: from the start.
+using LegCost = std::function<double(std::size_t from, std::size_t to)>;
+
+/// One view of each layer, so that the way through them from `start` costs least (dynamic programming). With `end`,
+/// the leg from the last one to `end` counts too. At least one layer, and none is empty.
+[[nodiscard]] std::vector<std::size_t> cheapest_through(const std::vector<std::vector<std::size_t>>& layers,
+                                                        std::size_t start, const LegCost& leg,
+                                                        std::optional<std::size_t> end = std::nullopt);
+
 /// Views, of which some are to be taken on an open tour from a start, so that together they see what all of them see.
 struct CoverTourProblem {
   std::vector<std::vector<std::uint32_t>> sees;  ///< by view: numbers of things, ascending
   double per_view = 0.0;                         ///< what a view costs besides its way, > 0
-  /// What it costs to come from a view to another; from `size()`: from the start.
-  std::function<double(std::size_t from, std::size_t to)> leg;
+  LegCost leg;
 
   /// The number of views.
   [[nodiscard]] std::size_t size() const { return sees.size(); }

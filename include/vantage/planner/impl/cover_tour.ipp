@@ -112,27 +112,56 @@ VANTAGE_INLINE std::vector<std::size_t> cover_tour(const CoverTourProblem& probl
   return tour;
 }
 
-VANTAGE_INLINE std::vector<std::size_t> refined_tour(const CoverTourProblem& problem, std::vector<std::size_t> tour,
-                                                     std::size_t layers) {
-  struct Node {
-    std::size_t view;
-    double cost;         // from the start
-    std::size_t before;  // number of the node in the layer before
+VANTAGE_INLINE std::vector<std::size_t> cheapest_through(const std::vector<std::vector<std::size_t>>& layers,
+                                                         std::size_t start, const LegCost& leg,
+                                                         std::optional<std::size_t> end) {
+  struct Reached {
+    double cost = std::numeric_limits<double>::infinity();
+    std::size_t before = 0;  // position in the layer before
   };
-  layers = std::min(layers, tour.size());
-  const Shown shown(problem, tour);
-  std::vector<std::vector<Node>> nodes{{{problem.size(), 0.0, 0}}};
+  std::vector<std::vector<Reached>> reached;
   const auto reach = [&](std::size_t view) {
-    Node node{view, std::numeric_limits<double>::infinity(), 0};
-    for (std::size_t i = 0; i < nodes.back().size(); ++i) {
-      const Node& from = nodes.back()[i];
-      if (const double cost = from.cost + problem.leg(from.view, view); cost < node.cost) {
-        node.cost = cost;
-        node.before = i;
+    if (reached.empty()) {
+      return Reached{leg(start, view), 0};
+    }
+    Reached best;
+    const std::vector<std::size_t>& layer = layers[reached.size() - 1];
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      if (const double cost = reached.back()[i].cost + leg(layer[i], view); cost < best.cost) {
+        best = {cost, i};
       }
     }
-    return node;
+    return best;
   };
+  for (const std::vector<std::size_t>& layer : layers) {
+    std::vector<Reached> next;
+    next.reserve(layer.size());
+    for (const std::size_t view : layer) {
+      next.push_back(reach(view));
+    }
+    reached.push_back(std::move(next));
+  }
+  const std::vector<Reached>& last = reached.back();
+  const auto cheapest =
+      std::min_element(last.begin(), last.end(), [](const Reached& a, const Reached& b) { return a.cost < b.cost; });
+  std::size_t at = end ? reach(*end).before : static_cast<std::size_t>(cheapest - last.begin());
+  std::vector<std::size_t> chosen(layers.size());
+  for (std::size_t layer = layers.size(); layer-- > 0;) {
+    chosen[layer] = layers[layer][at];
+    at = reached[layer][at].before;
+  }
+  return chosen;
+}
+
+VANTAGE_INLINE std::vector<std::size_t> refined_tour(const CoverTourProblem& problem, std::vector<std::size_t> tour,
+                                                     std::size_t layers) {
+  layers = std::min(layers, tour.size());
+  if (layers == 0) {
+    return tour;
+  }
+  const Shown shown(problem, tour);
+  std::vector<std::vector<std::size_t>> choices;
+  choices.reserve(layers);
   for (std::size_t layer = 0; layer < layers; ++layer) {
     const std::size_t replaced = tour[layer];
     const std::vector<std::uint32_t> own = shown.only_by(replaced);
@@ -144,25 +173,16 @@ VANTAGE_INLINE std::vector<std::size_t> refined_tour(const CoverTourProblem& pro
              static_cast<double>(problem.sees[view].size()) >=
                  kNearlyAll * static_cast<double>(problem.sees[replaced].size());
     };
-    std::vector<Node> next{reach(replaced)};
+    choices.push_back({replaced});
     for (std::size_t view = 0; view < problem.size(); ++view) {
       if (view != replaced && serves(view)) {
-        next.push_back(reach(view));
+        choices.back().push_back(view);
       }
     }
-    nodes.push_back(std::move(next));
   }
-  // Back from the view behind the layers, or from the cheapest of the last layer.
-  const std::vector<Node>& last = nodes.back();
-  const auto cheapest =
-      std::min_element(last.begin(), last.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
-  std::size_t at =
-      layers < tour.size() ? reach(tour[layers]).before : static_cast<std::size_t>(cheapest - last.begin());
-  for (std::size_t layer = layers; layer > 0; --layer) {
-    const Node& node = nodes[layer][at];
-    tour[layer - 1] = node.view;
-    at = node.before;
-  }
+  const auto end = layers < tour.size() ? std::optional(tour[layers]) : std::nullopt;
+  const std::vector<std::size_t> chosen = cheapest_through(choices, problem.size(), problem.leg, end);
+  std::copy(chosen.begin(), chosen.end(), tour.begin());
   return tour;
 }
 
