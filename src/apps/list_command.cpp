@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,8 +79,13 @@ void list() {
 }
 
 void list_settings(const std::string& planner) {
+  const auto peers = exploration_peer_names();
+  if (std::find(peers.begin(), peers.end(), planner) != peers.end()) {
+    throw std::invalid_argument("the planner " + planner + " has no settings");
+  }
+  const auto settings = planner_settings(planner);
   std::cout << "settings of " << planner << " (--set name=value): name, default, unit, meaning\n";
-  for (const Setting& setting : planner_settings(planner)) {
+  for (const Setting& setting : settings) {
     char text[96];
     std::snprintf(text, sizeof text, "  %-22s %-14s %-9s ", setting.name.c_str(), setting.default_value.c_str(),
                   setting.unit.c_str());
