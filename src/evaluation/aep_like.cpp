@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vantage/map/brick.hpp>
 
+#include <vantage/geometry/impl/box_around.hpp>
+
 namespace vantage::detail {
 namespace {
 
@@ -23,15 +25,7 @@ void KeptColumns::follow(const OccupancyMap& map, double range_m) {
   if (!map_.is(map)) {
     columns_.clear();
   } else if (const std::vector<VoxelIndex> bricks = map.changed_since(revision_); !bricks.empty()) {
-    VoxelBox touched{bricks.front(), bricks.front()};
-    for (const VoxelIndex& brick : bricks) {
-      touched.lo = {std::min(touched.lo.x, brick.x), std::min(touched.lo.y, brick.y),
-                    std::min(touched.lo.z, brick.z)};
-      touched.hi = {std::max(touched.hi.x, brick.x), std::max(touched.hi.y, brick.y),
-                    std::max(touched.hi.z, brick.z)};
-    }
-    touched = VoxelBox{Brick::first_cell(touched.lo), Brick::first_cell(touched.hi + VoxelIndex{1, 1, 1})}.grown(
-        map.frame().cells_up_to(range_m) + 1);
+    const VoxelBox touched = Brick::cells_of(box_around(bricks)).grown(map.frame().cells_up_to(range_m) + 1);
     std::erase_if(columns_, [&](const auto& kept) { return touched.contains(kept.first); });
   }
   map_ = KnownMap(map);

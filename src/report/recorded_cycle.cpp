@@ -8,7 +8,6 @@ void apply_changes(const RecordedCycle& cycle, OccupancyMap& map) {
     const Brick* brick = map.find_brick(change.brick);
     const BrickPlane known = brick == nullptr ? BrickPlane{} : brick->known;
     const BrickPlane occupied = brick == nullptr ? BrickPlane{} : brick->occupied;
-    const VoxelIndex first = Brick::first_cell(change.brick);
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
       const std::uint64_t differs = (known[word] ^ change.known[word]) | (occupied[word] ^ change.occupied[word]);
       for_each_offset(differs, word, [&](std::size_t offset) {
@@ -16,7 +15,7 @@ void apply_changes(const RecordedCycle& cycle, OccupancyMap& map) {
         const Occupancy state = (change.known[word] & bit) == 0      ? Occupancy::Unknown
                                 : (change.occupied[word] & bit) == 0 ? Occupancy::Free
                                                                      : Occupancy::Occupied;
-        map.set(first + Brick::cell_at(offset), state);
+        map.set(Brick::cell_at(change.brick, offset), state);
       });
     }
   }

@@ -21,7 +21,7 @@ std::array<BrickPlane, 6> faces_of(const OccupancyMap& map, const VoxelIndex& br
   std::array<BrickPlane, 6> faces{};
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     for_each_offset(cells[word], word, [&](std::size_t offset) {
-      const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
+      const VoxelIndex cell = Brick::cell_at(brick, offset);
       for (std::size_t direction = 0; direction < faces.size(); ++direction) {
         if (map.at(cell + kFaceNeighbours[direction]) == Occupancy::Free) {
           faces[direction][word] |= std::uint64_t{1} << (offset & 63U);

@@ -115,7 +115,7 @@ Truth::Truth(const World& world, double resolution_m, const Box& region, double 
     BrickPlane occupied{};
     for (std::size_t word = 0; word < Brick::kWords && !cells_.is_free_brick(brick); ++word) {
       for_each_offset(known[word], word, [&](std::size_t offset) {
-        const bool solid = at(Brick::first_cell(brick) + Brick::cell_at(offset)) != CellTruth::Free;
+        const bool solid = at(Brick::cell_at(brick, offset)) != CellTruth::Free;
         occupied[word] |= std::uint64_t{solid} << (offset & 63U);
       });
     }
@@ -161,15 +161,13 @@ std::vector<VoxelIndex> Truth::lattice(const Platform& platform, const Pose& sta
   const bool is_plane = region_.extent().z == 1;
   std::vector<VoxelIndex> lattice;
   space.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) {
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(cells[word], word, [&](std::size_t offset) {
-        const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
-        const bool on_lattice = cell.x % pitch == 0 && cell.y % pitch == 0 && (is_plane || cell.z % pitch == 0);
-        if (cell == *space.start() || on_lattice) {
-          lattice.push_back(cell);
-        }
-      });
-    }
+    for_each_offset(cells, [&](std::size_t offset) {
+      const VoxelIndex cell = Brick::cell_at(brick, offset);
+      const bool on_lattice = cell.x % pitch == 0 && cell.y % pitch == 0 && (is_plane || cell.z % pitch == 0);
+      if (cell == *space.start() || on_lattice) {
+        lattice.push_back(cell);
+      }
+    });
   });
   return lattice;
 }
@@ -201,13 +199,12 @@ void Truth::tell_around(const Box& unknown, OccupancyMap& map) const {
   };
   const VoxelFrame& frame = map_.frame();
   map_.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    const VoxelIndex first = Brick::first_cell(address);
-    const bool all = is_apart(frame.box_of(VoxelBox{first, first + VoxelIndex{8, 8, 8}}));
+    const bool all = is_apart(frame.box_of(Brick::cells_of(address)));
     BrickPlane known = brick.known;
     BrickPlane occupied = brick.occupied;
     for (std::size_t word = 0; word < Brick::kWords && !all; ++word) {
       for_each_offset(brick.known[word], word, [&](std::size_t offset) {
-        if (!is_apart(frame.box_of(first + Brick::cell_at(offset)))) {
+        if (!is_apart(frame.box_of(Brick::cell_at(address, offset)))) {
           known[word] &= ~(std::uint64_t{1} << (offset & 63U));
         }
       });

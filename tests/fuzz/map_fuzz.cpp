@@ -163,7 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         map.assign(brick, cells.known, cells.occupied);
         for (std::size_t offset = 0; offset < vantage::Brick::kCells; ++offset) {
-          model.set(vantage::Brick::first_cell(brick) + vantage::Brick::cell_at(offset), cells.at(offset));
+          model.set(vantage::Brick::cell_at(brick, offset), cells.at(offset));
         }
         break;
       }

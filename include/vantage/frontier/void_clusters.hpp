@@ -62,7 +62,7 @@ class VoidClusters {
     for (std::size_t brick = 0; brick < numbers_.bricks(); ++brick) {
       for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
         if (numbers_.values(brick)[offset] != kNone) {
-          visit(Brick::first_cell(numbers_.address(brick)) + Brick::cell_at(offset));
+          visit(Brick::cell_at(numbers_.address(brick), offset));
         }
       }
     }

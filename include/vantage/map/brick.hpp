@@ -40,6 +40,14 @@ struct Brick {
   [[nodiscard]] static constexpr VoxelIndex first_cell(const VoxelIndex& brick) {
     return {brick.x * kSide, brick.y * kSide, brick.z * kSide};
   }
+  /// The cells of the bricks of a box of addresses.
+  [[nodiscard]] static constexpr VoxelBox cells_of(const VoxelBox& bricks) {
+    return {first_cell(bricks.lo), first_cell(bricks.hi)};
+  }
+  /// The cells of a brick.
+  [[nodiscard]] static constexpr VoxelBox cells_of(const VoxelIndex& brick) {
+    return cells_of(VoxelBox{brick, brick + VoxelIndex{1, 1, 1}});
+  }
   /// The addresses of the bricks that overlap a box of cells; empty for an empty box.
   [[nodiscard]] static constexpr VoxelBox over(const VoxelBox& cells) {
     return cells.empty() ? VoxelBox{}
@@ -60,6 +68,10 @@ struct Brick {
     const auto o = static_cast<std::int32_t>(offset);
     return {(o & 3) | (o >> 6 & 1) << 2, (o >> 2 & 3) | (o >> 7 & 1) << 2, (o >> 4 & 3) | (o >> 8 & 1) << 2};
   }
+  /// The cell at an offset of a brick.
+  [[nodiscard]] static constexpr VoxelIndex cell_at(const VoxelIndex& brick, std::size_t offset) {
+    return first_cell(brick) + cell_at(offset);
+  }
 
   /// State of the cell at an offset.
   [[nodiscard]] Occupancy at(std::size_t offset) const {
@@ -79,6 +91,14 @@ template <class Visit>
 void for_each_offset(std::uint64_t mask, std::size_t word, Visit&& visit) {
   for (; mask != 0; mask &= mask - 1) {
     visit(word * 64U + static_cast<std::size_t>(std::countr_zero(mask)));
+  }
+}
+
+/// Calls `visit(offset)` for each set bit of a plane. Ascending order.
+template <class Visit>
+void for_each_offset(const BrickPlane& plane, Visit&& visit) {
+  for (std::size_t word = 0; word < plane.size(); ++word) {
+    for_each_offset(plane[word], word, visit);
   }
 }
 

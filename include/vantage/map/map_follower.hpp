@@ -65,18 +65,15 @@ class MapFollower {
  private:
   template <class Host>
   std::size_t mirror(const Host& host, const VoxelIndex& brick, const BrickPlane& asked) {
-    const VoxelIndex first = Brick::first_cell(brick);
     Brick cells;
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(asked[word], word, [&](std::size_t offset) {
-        const VoxelIndex cell = first + Brick::cell_at(offset);
-        if constexpr (LogOddsLookup<Host>) {
-          put_log_odds(offset, host.log_odds(cell), cells);
-        } else {
-          put(offset, host.at(cell), cells);
-        }
-      });
-    }
+    for_each_offset(asked, [&](std::size_t offset) {
+      const VoxelIndex cell = Brick::cell_at(brick, offset);
+      if constexpr (LogOddsLookup<Host>) {
+        put_log_odds(offset, host.log_odds(cell), cells);
+      } else {
+        put(offset, host.at(cell), cells);
+      }
+    });
     return take(brick, asked, cells);
   }
 

@@ -139,11 +139,8 @@ class OccupancyMap {
   template <class Visit>
   void for_each_known(Visit&& visit) const {
     for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-      for (std::size_t word = 0; word < Brick::kWords; ++word) {
-        for_each_offset(brick.known[word], word, [&](std::size_t offset) {
-          visit(Brick::first_cell(address) + Brick::cell_at(offset), brick.at(offset));
-        });
-      }
+      for_each_offset(brick.known,
+                      [&](std::size_t offset) { visit(Brick::cell_at(address, offset), brick.at(offset)); });
     });
   }
   /// Calls `visit(VoxelIndex)` for every clear cell.
@@ -151,10 +148,7 @@ class OccupancyMap {
   void for_each_clear(Visit&& visit) const {
     for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
       const BrickPlane clear = clear_plane(brick);
-      for (std::size_t word = 0; word < Brick::kWords; ++word) {
-        for_each_offset(clear[word], word,
-                        [&](std::size_t offset) { visit(Brick::first_cell(address) + Brick::cell_at(offset)); });
-      }
+      for_each_offset(clear, [&](std::size_t offset) { visit(Brick::cell_at(address, offset)); });
     });
   }
 

@@ -38,7 +38,7 @@ Planes random_planes(std::mt19937& engine) {
 void set_cell_by_cell(const VoxelIndex& brick, const Planes& planes, OccupancyMap& map) {
   for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
     const Brick cells{planes.known, planes.occupied, {}};
-    map.set(Brick::first_cell(brick) + Brick::cell_at(offset), cells.at(offset));
+    map.set(Brick::cell_at(brick, offset), cells.at(offset));
   }
 }
 

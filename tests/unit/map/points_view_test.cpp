@@ -27,7 +27,7 @@ std::vector<std::byte> as_message(const std::vector<Eigen::Vector3f>& points, st
   return bytes;
 }
 
-Scan random_depth_image(std::mt19937& engine) {
+Scan random_organised_scan(std::mt19937& engine) {
   Scan scan = test::random_scan(engine, 30);
   scan.points.clear();
   scan.width = 20 + engine() % 20;
@@ -55,7 +55,7 @@ TEST(ScanView, IsInsertedBitForBitAsItsCopy) {
     OccupancyMap copied;
     OccupancyMap in_place;
     for (int step = 0; step < 4; ++step) {
-      Scan scan = (world + step) % 2 == 0 ? test::random_scan(engine, 150) : random_depth_image(engine);
+      Scan scan = (world + step) % 2 == 0 ? test::random_scan(engine, 150) : random_organised_scan(engine);
       for (std::size_t i = engine() % 30; i < scan.points.size(); i += 37) {
         scan.points[i][static_cast<Eigen::Index>(engine() % 3)] = kNan;
       }

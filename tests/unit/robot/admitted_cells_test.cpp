@@ -51,7 +51,7 @@ TEST(AdmittedCells, OfALargeMapAreThoseThatThePlatformAdmits) {
   const VoxelBox bricks{{-30, -30, -5}, {30, 31, 14}};
   ASSERT_GT(bricks.size(), 65536U);
   for_each_cell(bricks, [&](const VoxelIndex& brick) { map.assign(brick, all, BrickPlane{}); });
-  const VoxelBox cells{Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)};
+  const VoxelBox cells = Brick::cells_of(bricks);
   std::mt19937 engine(5);
   for (int speck = 0; speck < 2000; ++speck) {
     const auto within = [&](std::int32_t lo, std::int32_t hi) {

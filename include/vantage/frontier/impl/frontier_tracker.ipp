@@ -243,7 +243,7 @@ VANTAGE_INLINE std::vector<FrontierTracker::PieceNumber> FrontierTracker::neighb
   };
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     for_each_offset(brick.pieces[number.piece].cells[word] & detail::kShell[word], word, [&](std::size_t offset) {
-      const VoxelIndex cell = Brick::first_cell(brick.address) + Brick::cell_at(offset);
+      const VoxelIndex cell = Brick::cell_at(brick.address, offset);
       for (const VoxelIndex& step : steps_) {
         if (Brick::of_cell(cell + step) != brick.address) {
           visit(cell + step);

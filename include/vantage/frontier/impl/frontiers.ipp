@@ -21,7 +21,7 @@ inline unsigned row_mask(std::int32_t first, std::int32_t lo, std::int32_t hi) {
 
 // The cells of a sub-brick that lie in `region`.
 inline std::uint64_t region_mask(const VoxelBox& region, const VoxelIndex& brick, std::size_t word) {
-  const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
+  const VoxelIndex first = Brick::cell_at(brick, word * 64);
   const unsigned xs = row_mask(first.x, region.lo.x, region.hi.x);
   const unsigned ys = row_mask(first.y, region.lo.y, region.hi.y);
   const unsigned zs = row_mask(first.z, region.lo.z, region.hi.z);

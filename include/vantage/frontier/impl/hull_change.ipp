@@ -77,7 +77,7 @@ VANTAGE_INLINE HullChange::HullChange(const Hull& before, const Hull& now) {
 }
 
 VANTAGE_INLINE VoxelBox HullChange::cells_of(const VoxelBox& bricks) const {
-  return box_overlap({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)}, cells_);
+  return box_overlap(Brick::cells_of(bricks), cells_);
 }
 
 VANTAGE_INLINE void HullChange::for_each_brick(const VoxelBox& bricks, const Visit& visit) {
@@ -180,7 +180,7 @@ VANTAGE_INLINE BrickPlane HullChange::inside(const VoxelIndex& brick, const Cutt
   BrickPlane inside = plane_of(brick, cells_);
   const auto cut_by = [&](const HullPlane& plane) {
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      const VoxelIndex first = Brick::first_cell(brick) + Brick::cell_at(word * 64);
+      const VoxelIndex first = Brick::cell_at(brick, word * 64);
       const PointBox box({first, first + VoxelIndex{4, 4, 4}});
       const double distance = inside[word] == 0 ? 0.0 : distance_from(plane, box.middle) - kOnFacet;
       const double reach = box.reach(plane) + kOnFacet;  // adds a margin for rounding

@@ -82,13 +82,11 @@ VANTAGE_INLINE LatticeHull occupied_hull(const OccupancyMap& map) {
   // Only the first and the last occupied cell of a row can be corners of the hull.
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>> ends;
   map.for_each_brick([&](const VoxelIndex& address, const Brick& brick) {
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(brick.occupied[word], word, [&](std::size_t offset) {
-        const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
-        auto& row = ends.try_emplace({cell.z, cell.y}, cell.x, cell.x).first->second;
-        row = {std::min(row.first, cell.x), std::max(row.second, cell.x)};
-      });
-    }
+    for_each_offset(brick.occupied, [&](std::size_t offset) {
+      const VoxelIndex cell = Brick::cell_at(address, offset);
+      auto& row = ends.try_emplace({cell.z, cell.y}, cell.x, cell.x).first->second;
+      row = {std::min(row.first, cell.x), std::max(row.second, cell.x)};
+    });
   });
   std::vector<VoxelIndex> points;
   for (const auto& [row, xs] : ends) {

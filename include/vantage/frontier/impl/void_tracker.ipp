@@ -261,10 +261,9 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const
       [&](const VoxelIndex& brick, const BrickPlane& cells) { (void)behind_.assign(brick, cells); });
   std::vector<VoxelIndex> cells;
   behind_.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& behind) {
-    const VoxelIndex first = Brick::first_cell(brick);
-    const VoxelBox box{first, first + VoxelIndex{Brick::kSide, Brick::kSide, Brick::kSide}};
-    if (std::any_of(near.begin(), near.end(),
-                    [&](const VoxelBox& one) { return !detail::box_overlap(one, box).empty(); })) {
+    if (std::any_of(near.begin(), near.end(), [box = Brick::cells_of(brick)](const VoxelBox& one) {
+          return !detail::box_overlap(one, box).empty();
+        })) {
       detail::append(behind, brick, cells);
     }
   });

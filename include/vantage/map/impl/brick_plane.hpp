@@ -49,8 +49,7 @@ inline bool any(const BrickPlane& plane) {
 
 /// The cells of a brick that lie in a box.
 inline BrickPlane plane_of(const VoxelIndex& brick, const VoxelBox& box) {
-  const VoxelIndex first = Brick::first_cell(brick);
-  const VoxelBox inside = box_overlap({first, first + VoxelIndex{8, 8, 8}}, box);
+  const VoxelBox inside = box_overlap(Brick::cells_of(brick), box);
   const auto layers = [](const Axis& axis, std::int32_t from, std::int32_t to) {
     std::uint64_t cells = 0;
     for (std::int32_t at = std::max(from, 0); at < std::min(to, 4); ++at) {
@@ -60,7 +59,7 @@ inline BrickPlane plane_of(const VoxelIndex& brick, const VoxelBox& box) {
   };
   BrickPlane plane{};
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    const VoxelIndex start = first + Brick::cell_at(64 * word);
+    const VoxelIndex start = Brick::cell_at(brick, 64 * word);
     plane[word] = layers(kAxes[0], inside.lo.x - start.x, inside.hi.x - start.x) &
                   layers(kAxes[1], inside.lo.y - start.y, inside.hi.y - start.y) &
                   layers(kAxes[2], inside.lo.z - start.z, inside.hi.z - start.z);
@@ -137,10 +136,7 @@ inline std::size_t size_of(const BrickPlane& plane) {
 
 /// Appends the cells of a brick's plane to a list.
 inline void append(const BrickPlane& plane, const VoxelIndex& brick, std::vector<VoxelIndex>& cells) {
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    for_each_offset(plane[word], word,
-                    [&](std::size_t offset) { cells.push_back(Brick::first_cell(brick) + Brick::cell_at(offset)); });
-  }
+  for_each_offset(plane, [&](std::size_t offset) { cells.push_back(Brick::cell_at(brick, offset)); });
 }
 
 }  // namespace vantage::detail

@@ -16,9 +16,8 @@ void for_each_end(const ScanRays& rays, const VoxelFrame& frame, RayPolicy polic
   if (to_centres) {
     marks.for_each_marked_brick([&](const VoxelIndex& address, const std::uint64_t*, const std::uint64_t* hit) {
       for (std::size_t word = 0; word < Brick::kWords; ++word) {
-        for_each_offset(hit[word], word, [&](std::size_t offset) {
-          visit(frame.centre_of(Brick::first_cell(address) + Brick::cell_at(offset)), true);
-        });
+        for_each_offset(hit[word], word,
+                        [&](std::size_t offset) { visit(frame.centre_of(Brick::cell_at(address, offset)), true); });
       }
     });
   }
@@ -66,7 +65,7 @@ VANTAGE_INLINE void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap
     const Brick* brick = map.find_brick(address);
     for (std::size_t word = 0; brick != nullptr && word < Brick::kWords; ++word) {
       for_each_offset(passed[word] & ~hit[word] & brick->occupied[word], word, [&](std::size_t offset) {
-        const VoxelIndex cell = Brick::first_cell(address) + Brick::cell_at(offset);
+        const VoxelIndex cell = Brick::cell_at(address, offset);
         if (detail::touches_a_hit(map, marks, cell)) {
           beside_hits.push_back(cell);
         }

@@ -29,9 +29,9 @@ inline VoxelBox box_of_word(const VoxelIndex& corner, std::uint64_t cells) {
 }
 
 // The box around a box and the known cells of a brick.
-inline VoxelBox box_around_known(VoxelBox box, const VoxelIndex& first, const Brick& brick) {
+inline VoxelBox box_around_known(VoxelBox box, const VoxelIndex& address, const Brick& brick) {
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    box = box_around(box, box_of_word(first + Brick::cell_at(64 * word), brick.known[word]));
+    box = box_around(box, box_of_word(Brick::cell_at(address, 64 * word), brick.known[word]));
   }
   return box;
 }
@@ -47,10 +47,10 @@ VANTAGE_INLINE VoxelBox OccupancyMap::box_of_known() const {
   VoxelBox bounds;
   const auto search = [&](auto&& at_an_end) {
     for (std::size_t number = 0; number < bricks_.size(); ++number) {
-      const VoxelIndex first = Brick::first_cell(entries_[number].address);
-      const VoxelBox cells = detail::box_overlap({first, first + VoxelIndex{8, 8, 8}}, bounds_);
+      const VoxelIndex& address = entries_[number].address;
+      const VoxelBox cells = detail::box_overlap(Brick::cells_of(address), bounds_);
       if (at_an_end(cells) && !detail::holds_box(bounds, cells)) {
-        bounds = detail::box_around_known(bounds, first, bricks_[number]);
+        bounds = detail::box_around_known(bounds, address, bricks_[number]);
       }
     }
   };
@@ -66,9 +66,8 @@ VANTAGE_INLINE VoxelBox OccupancyMap::box_of_known() const {
 VANTAGE_INLINE void OccupancyMap::grow_bounds(const VoxelBox& cells) { bounds_ = detail::box_around(bounds_, cells); }
 
 VANTAGE_INLINE void OccupancyMap::grow_bounds(const VoxelIndex& address, const Brick& brick) {
-  const VoxelIndex first = Brick::first_cell(address);
-  if (!bounds_.contains(first) || !bounds_.contains(first + VoxelIndex{7, 7, 7})) {
-    bounds_ = detail::box_around_known(bounds_, first, brick);
+  if (!detail::holds_box(bounds_, Brick::cells_of(address))) {
+    bounds_ = detail::box_around_known(bounds_, address, brick);
   }
 }
 

@@ -124,15 +124,13 @@ VANTAGE_INLINE std::optional<double> OccupancyMap::log_odds(const VoxelIndex& co
   int largest = -128;
   const auto add_brick = [&](const VoxelIndex& address, const Brick& brick) {
     const VoxelIndex corner = Brick::first_cell(address);
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(brick.known[word], word, [&](std::size_t offset) {
-        if (cells.contains(corner + Brick::cell_at(offset))) {
-          ++known;
-          sum += brick.log_odds[offset];
-          largest = std::max<int>(largest, brick.log_odds[offset]);
-        }
-      });
-    }
+    for_each_offset(brick.known, [&](std::size_t offset) {
+      if (cells.contains(corner + Brick::cell_at(offset))) {
+        ++known;
+        sum += brick.log_odds[offset];
+        largest = std::max<int>(largest, brick.log_odds[offset]);
+      }
+    });
   };
   const VoxelBox addresses = Brick::over(cells);
   if (addresses.size() <= bricks_.size()) {

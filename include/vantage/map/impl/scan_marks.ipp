@@ -50,7 +50,7 @@ inline VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
 
 VANTAGE_INLINE ScanMarks::ScanMarks(const VoxelBox& cells, const VoxelIndex& origin)
     : bricks_(detail::bricks_around(cells, origin)) {
-  window_ = {Brick::first_cell(bricks_.lo), Brick::first_cell(bricks_.hi)};
+  window_ = Brick::cells_of(bricks_);
   holds_all_ = window_.contains(cells.lo) && window_.contains(cells.hi - VoxelIndex{1, 1, 1});
   const VoxelIndex extent = bricks_.extent();
   shift_ = {9, 9 + detail::bits_for(extent.x), 9 + detail::bits_for(extent.x) + detail::bits_for(extent.y)};

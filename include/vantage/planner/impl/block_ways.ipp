@@ -41,13 +41,11 @@ VANTAGE_INLINE void BlockWays::add_piece(const VoxelIndex& brick, const BrickPla
   Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   VoxelIndex first;
-  for (std::size_t word = 0; word < Brick::kWords; ++word) {
-    for_each_offset(cells[word], word, [&](std::size_t offset) {
-      first = Brick::first_cell(brick) + Brick::cell_at(offset);
-      sum_m += frame_.centre_of(first);
-      ++count;
-    });
-  }
+  for_each_offset(cells, [&](std::size_t offset) {
+    first = Brick::cell_at(brick, offset);
+    sum_m += frame_.centre_of(first);
+    ++count;
+  });
   if (unused_.empty()) {
     unused_.push_back(static_cast<Piece>(pieces_.size()));
     pieces_.emplace_back();

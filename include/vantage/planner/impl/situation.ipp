@@ -261,14 +261,12 @@ VANTAGE_INLINE std::optional<Plan> Situation::step_aside() const {
 VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
   std::vector<VoxelIndex> beyond;
   reachable().admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
-    for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      for_each_offset(admitted[word], word, [&](std::size_t offset) {
-        const VoxelIndex cell = Brick::first_cell(brick) + Brick::cell_at(offset);
-        if (!reachable().contains(cell)) {
-          beyond.push_back(cell);
-        }
-      });
-    }
+    for_each_offset(admitted, [&](std::size_t offset) {
+      const VoxelIndex cell = Brick::cell_at(brick, offset);
+      if (!reachable().contains(cell)) {
+        beyond.push_back(cell);
+      }
+    });
   });
   return viewpoint_among(std::move(beyond));
 }

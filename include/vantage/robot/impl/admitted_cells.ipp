@@ -131,8 +131,7 @@ VANTAGE_INLINE void AdmittedCells::ask(const OccupancyMap& map, const Platform& 
     }
     return;
   }
-  const VoxelGrid<std::uint8_t> admitted =
-      platform.admitted_cells(map, {Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
+  const VoxelGrid<std::uint8_t> admitted = platform.admitted_cells(map, Brick::cells_of(bricks));
   for_each_cell(bricks, [&](const VoxelIndex& address) {
     if (map.find_brick(address) == nullptr) {
       return;

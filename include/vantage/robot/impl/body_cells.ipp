@@ -13,7 +13,7 @@
 namespace vantage::detail {
 
 inline CellRows clear_rows(const OccupancyMap& map, const VoxelBox& bricks) {
-  CellRows clear({Brick::first_cell(bricks.lo), Brick::first_cell(bricks.hi)});
+  CellRows clear(Brick::cells_of(bricks));
   for_each_cell(bricks, [&](const VoxelIndex& address) {
     const Brick* brick = map.find_brick(address);
     if (brick == nullptr) {
@@ -21,7 +21,7 @@ inline CellRows clear_rows(const OccupancyMap& map, const VoxelBox& bricks) {
     }
     const BrickPlane plane = map.clear_plane(*brick);
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      const VoxelIndex first = Brick::first_cell(address) + Brick::cell_at(64 * word);
+      const VoxelIndex first = Brick::cell_at(address, 64 * word);
       for (std::int32_t row = 0; row < 16 && plane[word] != 0; ++row) {
         clear.insert_four(first + VoxelIndex{0, row & 3, row >> 2}, plane[word] >> (4 * row) & 0xFU);
       }

@@ -45,8 +45,7 @@ inline std::optional<VoxelIndex> nearest_admitted(const OccupancyMap& map, const
 }
 
 inline void fill_from(const BrickSet& cells, const VoxelIndex& tile, std::span<BrickPlane> bricks) {
-  const VoxelIndex first = Brick::first_cell(tile);
-  for_each_cell(VoxelBox{first, first + VoxelIndex{8, 8, 8}}, [&](const VoxelIndex& brick) {
+  for_each_cell(Brick::cells_of(tile), [&](const VoxelIndex& brick) {
     if (const BrickPlane* const held = cells.find(brick)) {
       bricks[ConnectedCells::in_tile(brick)] = *held;
     }
@@ -167,8 +166,7 @@ VANTAGE_INLINE VoxelIndex ReachableSpace::cell(std::size_t position) const {
   for (; left > 0; --left) {
     bits &= bits - 1;
   }
-  return Brick::first_cell(brick.address) +
-         Brick::cell_at(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
+  return Brick::cell_at(brick.address, 64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 VANTAGE_INLINE bool ReachableSpace::any_in(const VoxelBox& cells) const {

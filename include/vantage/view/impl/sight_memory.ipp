@@ -17,7 +17,7 @@ namespace vantage::detail {
 inline BrickPlane without_resting(BrickPlane cells, const VoxelIndex& brick, const TriedViews& tried) {
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     for_each_offset(cells[word], word, [&](std::size_t offset) {
-      const bool rests = tried.rests(Brick::first_cell(brick) + Brick::cell_at(offset));
+      const bool rests = tried.rests(Brick::cell_at(brick, offset));
       cells[word] &= ~(std::uint64_t{rests} << (offset & 63U));
     });
   }
@@ -136,8 +136,7 @@ void SightMemory::set(const VoxelIndex& brick, const BrickPlane& cells, Member m
 }
 
 VANTAGE_INLINE void SightMemory::touch(const VoxelIndex& brick) {
-  const VoxelIndex first = Brick::first_cell(brick);
-  touched_ = box_around(touched_, {first, first + VoxelIndex{Brick::kSide, Brick::kSide, Brick::kSide}});
+  touched_ = box_around(touched_, Brick::cells_of(brick));
 }
 
 VANTAGE_INLINE bool SightMemory::stands(const Answer& answer) const {

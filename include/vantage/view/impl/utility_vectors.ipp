@@ -72,7 +72,7 @@ VANTAGE_INLINE AccumulatedUtility accumulate_utility(const OccupancyMap& map, co
   for (std::size_t number = 0; number < sums.bricks(); ++number) {
     for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
       if (const std::uint64_t sum = sums.values(number)[offset]; sum > 0) {
-        utility.cells.emplace_back(Brick::first_cell(sums.address(number)) + Brick::cell_at(offset), sum);
+        utility.cells.emplace_back(Brick::cell_at(sums.address(number), offset), sum);
       }
     }
   }
