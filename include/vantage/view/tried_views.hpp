@@ -92,6 +92,11 @@ class TriedViews {
   bool try_resting_again();
 
   // --- queries
+  /// The goal (world_from_sensor) of the last planned view, if at the last `review` the robot was still on its way to
+  /// it and some of the cells that it is to resolve were unknown.
+  [[nodiscard]] std::optional<Pose> goal_ahead() const {
+    return expected_ ? std::optional(expected_->goal) : std::nullopt;
+  }
   /// Whether there is any evidence about this unknown cell.
   [[nodiscard]] bool tried(const VoxelIndex& unknown) const { return looks_at(unknown) != nullptr; }
   /// Whether it was looked at in vain from this place or from one that does not differ, or missed from this place.

@@ -33,6 +33,9 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan)
       best = std::move(candidate);
     }
   };
+  if (const std::optional<Pose> goal = situation().tried().goal_ahead()) {
+    consider(targets_seen_from(situation().surveyed(), *goal, plan.statistics.ray_operations));
+  }
   const auto aimed = [&] {
     const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
     consider(view_of_target(situation().surveyed(), target, plan.statistics.ray_operations));

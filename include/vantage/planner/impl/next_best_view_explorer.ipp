@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <numeric>
+#include <cstdint>
 #include <utility>
 #include <vantage/planner/next_best_view_explorer.hpp>
-#include <vantage/view/view_utility.hpp>
+#include <vantage/raytrace/evaluate_view.hpp>
+#include <vector>
 
 #include <vantage/geometry/impl/dice.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
+#include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage {
-
 VANTAGE_INLINE NextBestViewExplorer::NextBestViewExplorer(const PlannerSetup& setup,
                                                           const NextBestViewExplorerOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
@@ -19,45 +19,52 @@ VANTAGE_INLINE NextBestViewExplorer::NextBestViewExplorer(const PlannerSetup& se
                          ">= 1");
 }
 
+// Eq. 2 with eq. 4 and 5 as its factors.
 VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   const OccupancyMap& map = situation().map();
   const FrontierSurvey& survey = situation().survey();
   const ReachableSpace& reachable = situation().reachable();
   const Platform& platform = situation().platform();
+  struct Drawn {
+    View view;
+    double nearness = 0.0;         // eq. 5
+    std::uint64_t operations = 0;  // cells on the rays
+  };
+  constexpr std::size_t kFinalists = 20;  // views that are evaluated with all rays
   Dice dice(situation().setup().seed, map.revision());
-  std::vector<Pose> drawn;
+  std::vector<Drawn> drawn;
   for (std::size_t i = 0; i < options_.hypotheses; ++i) {
+    Pose pose;
     if (i % 2 == 0) {
       const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
       const Eigen::Vector3d from = reachable.position_in(target.viewpoint);
-      drawn.push_back(platform.facing(from, map.frame().centre_of(target.unknown) - from));
+      pose = platform.facing(from, map.frame().centre_of(target.unknown) - from);
     } else {
       const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
-      drawn.push_back(platform.facing(reachable.position_in(cell), dice.direction()));
+      pose = platform.facing(reachable.position_in(cell), dice.direction());
     }
+    drawn.push_back({{pose}, 1.0 / (1.0 + platform.distance_m(situation().current(), pose))});
   }
-  UtilityFactors factors;
-  factors.surface = unknown_cells();
-  factors.distance = nearness([&](const Pose& pose) { return platform.distance_m(situation().current(), pose); });
-  const std::vector<ScoredView> scored =
-      score_views(situation().looking().caster(), drawn, situation().looking().rays(),
-                  map.region() ? *map.region() : map.bounds().grown(1), factors,
-                  static_cast<std::size_t>(situation().setup().threads));
-  plan.statistics.views_scored += scored.size();
-  std::vector<std::size_t> order(scored.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return scored[a].utility > scored[b].utility; });
+  plan.statistics.views_scored += drawn.size();
+  const VoxelBox everywhere = map.region() ? *map.region() : map.bounds().grown(1);
+  const FollowingCaster& looking = situation().looking();
+  detail::rank_views(
+      looking, situation().setup().threads, drawn, kFinalists, plan.statistics.ray_operations,
+      [&](Drawn& candidate, const ViewRays& rays) {
+        const ViewEvaluation seen = evaluate_view(looking.caster(), candidate.view.pose, rays, everywhere);
+        candidate.view.utility = static_cast<double>(seen.unknown) * candidate.nearness;
+      },
+      [](const Drawn& a, const Drawn& b) { return a.view.utility > b.view.utility; });
   plan.candidates.clear();
   // The best view that sees a target; cells that are given up are no targets.
   TargetView best;
-  for (const std::size_t i : order) {
-    if (scored[i].utility > 0.0) {
-      plan.candidates.push_back({scored[i].pose, scored[i].utility});
+  for (const Drawn& candidate : drawn) {
+    if (candidate.view.utility > 0.0) {
+      plan.candidates.push_back(candidate.view);
     }
     if (best.unknown.empty()) {
-      best = targets_seen_from(situation().surveyed(), scored[i].pose, plan.statistics.ray_operations);
-      best.view.utility = scored[i].utility;
+      best = targets_seen_from(situation().surveyed(), candidate.view.pose, plan.statistics.ray_operations);
+      best.view.utility = candidate.view.utility;
     }
   }
   if (best.unknown.empty()) {
