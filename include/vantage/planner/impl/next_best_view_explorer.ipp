@@ -33,17 +33,21 @@ VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan
   constexpr std::size_t kFinalists = 20;  // views that are evaluated with all rays
   Dice dice(situation().setup().seed, map.revision());
   std::vector<Drawn> drawn;
+  const auto add = [&](const Pose& pose) {
+    drawn.push_back({{pose}, 1.0 / (1.0 + platform.distance_m(situation().current(), pose))});
+  };
+  if (const std::optional<Pose> goal = situation().tried().goal_ahead()) {
+    add(*goal);
+  }
   for (std::size_t i = 0; i < options_.hypotheses; ++i) {
-    Pose pose;
     if (i % 2 == 0) {
       const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
       const Eigen::Vector3d from = reachable.position_in(target.viewpoint);
-      pose = platform.facing(from, map.frame().centre_of(target.unknown) - from);
+      add(platform.facing(from, map.frame().centre_of(target.unknown) - from));
     } else {
       const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
-      pose = platform.facing(reachable.position_in(cell), dice.direction());
+      add(platform.facing(reachable.position_in(cell), dice.direction()));
     }
-    drawn.push_back({{pose}, 1.0 / (1.0 + platform.distance_m(situation().current(), pose))});
   }
   plan.statistics.views_scored += drawn.size();
   const VoxelBox everywhere = map.region() ? *map.region() : map.bounds().grown(1);
