@@ -116,7 +116,7 @@ TEST(VoidTracker, KnowsTheVoidCellsBehindAFrontier) {
   std::size_t behind_count = 0;
   std::size_t near_count = 0;
   std::size_t enclosed = 0;
-  constexpr int kWorlds = test::kSanitized ? 2 : 6;
+  constexpr int kWorlds = test::kSanitized ? 2 : 3;
   for (int world = 0; world < kWorlds; ++world) {
     OccupancyMap map({.resolution_m = 0.1});
     VoidTracker tracker(map);

@@ -100,7 +100,7 @@ TEST(ResidentBricks, EqualAMapInMemory) {
   const test::TemporaryFolder folder;
   std::size_t writes = 0;
   std::size_t compared = 0;
-  constexpr std::uint32_t kSeeds = test::kSanitized ? 2 : 6;
+  constexpr std::uint32_t kSeeds = test::kSanitized ? 2 : 3;
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const std::size_t blocks = seed == 1 ? 1 : 4;
     OccupancyMap paged(on_disk(folder.path(), blocks));

@@ -568,7 +568,7 @@ TEST(OccupancyMap, KnowsItsBoundsWhateverHappensToIt) {
   std::mt19937 engine(41);
   std::size_t shrunk = 0;
   std::size_t grown = 0;
-  constexpr int kWorlds = test::kSanitized ? 4 : 20;
+  constexpr int kWorlds = test::kSanitized ? 4 : 8;
   for (int world = 0; world < kWorlds; ++world) {
     OccupancyMap map({.resolution_m = 0.1});
     VoxelBox last;
