@@ -19,7 +19,7 @@ VANTAGE_INLINE NextBestViewExplorer::NextBestViewExplorer(const PlannerSetup& se
                          ">= 1");
 }
 
-// Eq. 2 with eq. 4 and 5 as its factors.
+// The utility of a view is the product of eq. 4 and eq. 5.
 VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan) {
   const OccupancyMap& map = situation().map();
   const FrontierSurvey& survey = situation().survey();
