@@ -19,6 +19,4 @@ jobs="$(nproc)"
 cmake -S . -B build/release -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
   -DVANTAGE_BUILD_TESTS=ON -DVANTAGE_BUILD_EXAMPLES=ON -DCMAKE_UNITY_BUILD=ON -DVANTAGE_WARNINGS_AS_ERRORS="${VANTAGE_WARNINGS_AS_ERRORS:-OFF}"
 cmake --build build/release --parallel "$jobs"
-echo "Every public header and every body alone:"
-cmake --build build/release --parallel "$jobs" --target public_headers
 ctest --test-dir build/release --output-on-failure --no-tests=error --parallel "$jobs" "$@"
