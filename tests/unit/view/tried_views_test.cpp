@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vantage/view/tried_views.hpp>
 #include <vector>
 
@@ -444,6 +445,38 @@ TEST(TriedViews, ForgetsWhenMoreOfTheNeighboursBecomesKnownNotWhenTheyChangeThei
   map.set(kHidden, Occupancy::Occupied);
   tried.review(map, here);
   EXPECT_EQ(tried.size(), 0U) << "it is known";
+}
+
+TEST(TriedViews, KnowsTheGoalAheadUntilItIsReachedServedOrRefused) {
+  std::size_t ends = 0;
+  for (const std::string_view end : {"arrives", "sees what it sought", "fails", "is preempted", "gets another map"}) {
+    SCOPED_TRACE(end);
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    const Pose goal = at(map, {2, 5, 5});
+    const Pose half_way = at(map, {2, 0, 5});
+    tried.review(map, at(map, {2, -5, 5}));
+    EXPECT_FALSE(tried.goal_ahead());
+    ASSERT_TRUE(tried.expect(map, path_to(goal, 2.0), {kHidden}));
+    map.confirm();
+    tried.review(map, half_way);
+    ASSERT_TRUE(tried.goal_ahead());
+    EXPECT_EQ(tried.goal_ahead()->matrix(), goal.matrix());
+    if (end == "sees what it sought") {
+      map.set(kHidden, Occupancy::Free);
+    } else if (end == "fails") {
+      tried.report(GoalResult::Failed);
+    } else if (end == "is preempted") {
+      tried.report(GoalResult::Preempted);
+    } else if (end == "gets another map") {
+      map = free_before_the_hidden();
+    }
+    map.confirm();
+    tried.review(map, end == "arrives" ? goal : half_way);
+    EXPECT_FALSE(tried.goal_ahead());
+    ++ends;
+  }
+  EXPECT_EQ(ends, 5U);
 }
 
 TEST(TriedViews, BelongsToOneMap) {
