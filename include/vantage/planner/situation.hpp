@@ -80,6 +80,9 @@ class Situation {
   [[nodiscard]] const FrontierTracker& frontier() const { return *frontier_; }
   /// The memory of tried views.
   [[nodiscard]] const TriedViews& tried() const { return tried_; }
+  /// The goal (world_from_sensor) to which the robot is on its way, see TriedViews::goal_ahead, if it can still be
+  /// reached.
+  [[nodiscard]] std::optional<Pose> goal_ahead() const;
   /// Stores how following the last plan ended.
   void report(GoalResult result) { tried_.report(result); }
   /// Replaces the memory of tried views, see TriedViews::recall.

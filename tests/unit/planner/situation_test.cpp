@@ -82,6 +82,28 @@ TEST(Situation, ACrackThatNoBodyFitsIntoIsNotUnreachable) {
   EXPECT_GT(end->leftover.unreachable, 0U);
 }
 
+TEST(Situation, AGoalAheadThatCanNoLongerBeReachedIsNone) {
+  OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 6}});
+  for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  Situation situation(robot_with(round_about(), 0.25));
+  situation.sync(map, in_the_first_room());
+  ASSERT_FALSE(situation.survey().targets.empty());
+  Plan plan;
+  plan.goal.pose = in_the_first_room();
+  plan.goal.pose.translation().y() += 0.6;
+  plan.path = {in_the_first_room(), plan.goal.pose};
+  plan.sought = {situation.survey().targets.front().unknown};
+  ASSERT_TRUE(situation.remember(plan, {}));
+  map.confirm();
+  situation.sync(map, in_the_first_room());
+  ASSERT_TRUE(situation.goal_ahead());
+  EXPECT_EQ(situation.goal_ahead()->matrix(), plan.goal.pose.matrix());
+  map.set(map.frame().cell_of(plan.goal.pose.translation()), Occupancy::Occupied);
+  situation.sync(map, in_the_first_room());
+  EXPECT_TRUE(situation.tried().goal_ahead());
+  EXPECT_FALSE(situation.goal_ahead());
+}
+
 TEST(Situation, ARoomThatIsKnownIsExplored) {
   const OccupancyMap map = two_rooms({});
   Situation situation(robot_with(round_about(), 0.25));

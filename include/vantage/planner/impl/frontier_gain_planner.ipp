@@ -33,7 +33,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan)
       best = std::move(candidate);
     }
   };
-  if (const std::optional<Pose> goal = situation().tried().goal_ahead()) {
+  if (const std::optional<Pose> goal = situation().goal_ahead()) {
     consider(targets_seen_from(situation().surveyed(), *goal, plan.statistics.ray_operations));
   }
   const auto aimed = [&] {

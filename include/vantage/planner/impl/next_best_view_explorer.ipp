@@ -5,6 +5,7 @@
 #include <utility>
 #include <vantage/planner/next_best_view_explorer.hpp>
 #include <vantage/raytrace/evaluate_view.hpp>
+#include <vantage/view/view_utility.hpp>
 #include <vector>
 
 #include <vantage/geometry/impl/dice.hpp>
@@ -12,6 +13,7 @@
 #include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage {
+
 VANTAGE_INLINE NextBestViewExplorer::NextBestViewExplorer(const PlannerSetup& setup,
                                                           const NextBestViewExplorerOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
@@ -28,15 +30,14 @@ VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan
   struct Drawn {
     View view;
     double nearness = 0.0;         // eq. 5
-    std::uint64_t operations = 0;  // cells on the rays
+    std::uint64_t operations = 0;  // not counted here
   };
   constexpr std::size_t kFinalists = 20;  // views that are evaluated with all rays
   Dice dice(situation().setup().seed, map.revision());
   std::vector<Drawn> drawn;
-  const auto add = [&](const Pose& pose) {
-    drawn.push_back({{pose}, 1.0 / (1.0 + platform.distance_m(situation().current(), pose))});
-  };
-  if (const std::optional<Pose> goal = situation().tried().goal_ahead()) {
+  const auto near = nearness([&](const Pose& pose) { return platform.distance_m(situation().current(), pose); });
+  const auto add = [&](const Pose& pose) { drawn.push_back({{pose}, near(pose)}); };
+  if (const std::optional<Pose> goal = situation().goal_ahead()) {
     add(*goal);
   }
   for (std::size_t i = 0; i < options_.hypotheses; ++i) {

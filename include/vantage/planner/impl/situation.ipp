@@ -301,6 +301,13 @@ VANTAGE_INLINE bool Situation::remember(const Plan& plan, std::vector<VoxelIndex
   return false;
 }
 
+VANTAGE_INLINE std::optional<Pose> Situation::goal_ahead() const {
+  const std::optional<Pose> goal = tried_.goal_ahead();
+  const bool can_be_reached =
+      goal && reachable().contains(map_->frame().cell_of(goal->translation())) && platform().admits(*map_, *goal);
+  return can_be_reached ? goal : std::nullopt;
+}
+
 VANTAGE_INLINE const FollowingCaster& Situation::looking() const {
   if (!looking_follows_) {
     looking_.follow(*map_, setup_.sensor);
