@@ -28,6 +28,7 @@
 #include "contract/changing_world.hpp"
 #include "contract/real_building.hpp"
 #include "contract/slow_audit.hpp"
+#include "support/every_planner.hpp"
 #include "support/real_data.hpp"
 #include "support/sanitized.hpp"
 
@@ -564,8 +565,6 @@ TEST(ExplorationContractCase, WallsThatAreMappedTwiceCutOff) {
   }
 }
 
-std::vector<std::string> planners() { return {planner_names().begin(), planner_names().end()}; }
-
 std::vector<Host> hosts() {
   std::vector<Host> all;
   for (std::uint32_t i = 0; i < kHosts; ++i) {
@@ -582,21 +581,19 @@ std::vector<Host> hosts_in_real_buildings() {
 }
 
 std::string name_of_pair(const ::testing::TestParamInfo<std::tuple<std::string, Host>>& pair) {
-  std::string name = std::get<0>(pair.param) + "_" + name_of(std::get<1>(pair.param));
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
+  return test::test_name(std::get<0>(pair.param) + "_" + name_of(std::get<1>(pair.param)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, ExplorationContract,
-                         ::testing::Combine(::testing::ValuesIn(planners()), ::testing::ValuesIn(hosts())),
+                         ::testing::Combine(::testing::ValuesIn(test::every_planner()), ::testing::ValuesIn(hosts())),
                          name_of_pair);
 INSTANTIATE_TEST_SUITE_P(Every, ExplorationContractInRealBuildings,
-                         ::testing::Combine(::testing::ValuesIn(planners()),
+                         ::testing::Combine(::testing::ValuesIn(test::every_planner()),
                                             ::testing::ValuesIn(hosts_in_real_buildings())),
                          name_of_pair);
 
 TEST(ExplorationContractSuite, HoldsEveryPlannerToEveryHostInEveryKindOfWorld) {
-  EXPECT_EQ(planners().size(), 6U);
+  EXPECT_EQ(test::every_planner().size(), 6U);
   EXPECT_EQ(hosts().size(), kHosts);
   std::set<std::tuple<Building, std::size_t, double, bool>> kinds;
   for (std::uint32_t number = 0; number < 90; ++number) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contract/cell_world.hpp"
+#include "support/every_planner.hpp"
 #include "support/sanitized.hpp"
 
 namespace vantage {
@@ -375,10 +376,8 @@ std::vector<ContractCase> settings() {
 
 INSTANTIATE_TEST_SUITE_P(Every, PlannerContract, ::testing::ValuesIn(settings()),
                          [](const ::testing::TestParamInfo<ContractCase>& setting) {
-                           std::string name =
-                               setting.param.planner + (setting.param.narrow ? "_camera" : "_all_round");
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
+                           return test::test_name(setting.param.planner +
+                                                  (setting.param.narrow ? "_camera" : "_all_round"));
                          });
 
 TEST(MakePlanner, ListsWhatThereIsWhenAskedForWhatThereIsNot) {

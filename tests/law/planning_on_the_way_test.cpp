@@ -4,16 +4,15 @@
 // ever.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <memory>
 #include <numbers>
 #include <string>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/ground_robot.hpp>
-#include <vector>
 
 #include "contract/cell_world.hpp"
+#include "support/every_planner.hpp"
 
 namespace vantage {
 namespace {
@@ -89,14 +88,7 @@ TEST_P(PlanningOnTheWay, AfterTwoCells) { expect_as_from_goal_to_goal(GetParam()
 // A host that plans at a fixed rate.
 TEST_P(PlanningOnTheWay, AfterAFewCentimetres) { expect_as_from_goal_to_goal(GetParam(), 4, 0.03); }
 
-INSTANTIATE_TEST_SUITE_P(Every, PlanningOnTheWay,
-                         ::testing::ValuesIn(std::vector<std::string>(planner_names().begin(),
-                                                                      planner_names().end())),
-                         [](const ::testing::TestParamInfo<std::string>& planner) {
-                           std::string name = planner.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Every, PlanningOnTheWay, ::testing::ValuesIn(test::every_planner()), test::name_of_planner);
 
 }  // namespace
 }  // namespace vantage

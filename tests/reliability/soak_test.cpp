@@ -21,6 +21,7 @@
 
 #include "contract/asked_goals.hpp"
 #include "contract/changing_world.hpp"
+#include "support/every_planner.hpp"
 
 namespace vantage {
 namespace {
@@ -152,14 +153,7 @@ TEST_P(Soak, MemoryAndTimeStayAsTheyAreAndNoGoalComesAgainAndAgain) {
   }
 }
 
-std::vector<std::string> planners() { return {planner_names().begin(), planner_names().end()}; }
-
-INSTANTIATE_TEST_SUITE_P(Every, Soak, ::testing::ValuesIn(planners()),
-                         [](const ::testing::TestParamInfo<std::string>& planner) {
-                           std::string name = planner.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Every, Soak, ::testing::ValuesIn(test::every_planner()), test::name_of_planner);
 
 }  // namespace
 }  // namespace vantage
