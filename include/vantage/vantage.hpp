@@ -16,6 +16,7 @@
 #include <vantage/frontier/frontier_voids.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
+#include <vantage/frontier/void_cluster_tracker.hpp>
 #include <vantage/frontier/void_clusters.hpp>
 #include <vantage/frontier/void_tiles.hpp>
 #include <vantage/frontier/void_tracker.hpp>

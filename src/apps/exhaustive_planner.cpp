@@ -60,7 +60,7 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
   }
   UnknownSightOptions options = kLikeFrontierVoid;
   options.reports_no_return = setup_.sensor.reports_no_return;
-  const UnknownSight sight(map, voids, options);
+  const UnknownSight sight(map, BrickSet(voids), options);
   const RayCaster caster(map);
   std::vector<Weighed> views;
   for (const Pose& pose : exhaustive_poses(*arm_, map)) {

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vantage/compiler.hpp>
+#include <vantage/frontier/void_tiles.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/voxel.hpp>
+#include <vantage/geometry/voxel_table.hpp>
 #include <vantage/map/brick_grid.hpp>
 #include <vector>
 
@@ -40,25 +43,41 @@ struct VoidCluster {
   double score = 0.0;    ///< fit of the ellipsoid, see FitScore
 };
 
-/// A partition of the void cells into clusters.
+/// A partition of void cells into clusters.
 class VoidClusters {
  public:
   /// The cluster number of a cell that is not a void cell.
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
+  /// The clusters of the void cells of one tile (VoidTiles).
+  using Tile = std::pair<VoxelIndex, std::shared_ptr<const VoidClusters>>;
+
+  /// No clusters.
   VoidClusters() = default;
   /// Takes the clusters and the cluster number of each cell: an index into `clusters`, or kNone.
   VoidClusters(std::vector<VoidCluster> clusters, BrickGrid<std::uint32_t> numbers)
       : clusters_(std::move(clusters)), numbers_(std::move(numbers)) {}
+  /// Joins the clusters of tiles, which are numbered in this order.
+  explicit VoidClusters(std::span<const Tile> tiles);
 
   /// The clusters, in the order of their creation.
   [[nodiscard]] const std::vector<VoidCluster>& clusters() const { return clusters_; }
   /// The cluster that holds a cell, as an index into `clusters()`; kNone if the cell is not a void cell.
-  [[nodiscard]] std::uint32_t number_at(const VoxelIndex& cell) const { return numbers_[cell]; }
+  [[nodiscard]] std::uint32_t number_at(const VoxelIndex& cell) const {
+    if (joined_.empty()) {
+      return numbers_[cell];
+    }
+    const std::size_t* const at = at_.find(VoidTiles::of_cell(cell));
+    const std::uint32_t number = at == nullptr ? kNone : joined_[*at].clusters->numbers_[cell];
+    return number == kNone ? kNone : joined_[*at].first + number;
+  }
 
-  /// Calls `visit(VoxelIndex)` for every void cell.
+  /// Calls `visit(VoxelIndex)` for every cell of a cluster.
   template <class Visit>
-  void for_each_cell(Visit&& visit) const {
+  void for_each_cell(const Visit& visit) const {
+    for (const Joined& joined : joined_) {
+      joined.clusters->for_each_cell(visit);
+    }
     for (std::size_t brick = 0; brick < numbers_.bricks(); ++brick) {
       for (std::size_t offset = 0; offset < Brick::kCells; ++offset) {
         if (numbers_.values(brick)[offset] != kNone) {
@@ -69,8 +88,15 @@ class VoidClusters {
   }
 
  private:
+  struct Joined {
+    std::shared_ptr<const VoidClusters> clusters;
+    std::uint32_t first;  // what is added to their numbers
+  };
+
   std::vector<VoidCluster> clusters_;
-  BrickGrid<std::uint32_t> numbers_{kNone};
+  BrickGrid<std::uint32_t> numbers_{kNone};  // empty if tiles were joined
+  std::vector<Joined> joined_;
+  VoxelTable<std::size_t> at_;  // index in `joined_`, by tile
 };
 
 /// Clusters void cells by region growing. A region starts at a random cell that has no cluster yet. It grows by one

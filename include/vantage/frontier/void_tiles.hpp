@@ -32,6 +32,13 @@ class VoidTiles {
   [[nodiscard]] static VoxelBox bricks_of(const VoxelIndex& tile) {
     return {{tile.x * 8, tile.y * 8, tile.z * 8}, {tile.x * 8 + 8, tile.y * 8 + 8, tile.z * 8 + 8}};
   }
+  /// The tile of a cell.
+  [[nodiscard]] static VoxelIndex of_cell(const VoxelIndex& cell) { return Brick::of_cell(Brick::of_cell(cell)); }
+  /// The cells of a tile.
+  [[nodiscard]] static VoxelBox cells_of(const VoxelIndex& tile) {
+    const VoxelBox bricks = bricks_of(tile);
+    return {Brick::cells_of(bricks.lo).lo, Brick::cells_of(bricks.hi).lo};
+  }
 
  private:
   BrickSet held_;  // bricks of the map

@@ -61,11 +61,10 @@ class VoidTracker {
   [[nodiscard]] bool contains(const VoxelIndex& cell) const;
   /// All void cells in raster order (z, then y, then x), as `void_cells`.
   [[nodiscard]] std::vector<VoxelIndex> cells() const;
-  /// The void cells behind a frontier, in no particular order: those that are connected, through faces of void cells,
-  /// with a void cell beside one of the cells of `frontier`. Others are enclosed by known cells. Only the cells of
-  /// bricks that overlap a box of `near` are returned, so the cost need not follow the volume of the hull.
-  [[nodiscard]] std::vector<VoxelIndex> cells_behind(std::span<const VoxelIndex> frontier,
-                                                     std::span<const VoxelBox> near);
+  /// The void cells behind a frontier: those that are connected, through faces of void cells, with a void cell beside
+  /// one of the cells of `frontier`. Others are enclosed by known cells. Only the cells of tiles (VoidTiles) that
+  /// overlap a box of `near` are returned, so the cost need not follow the volume of the hull.
+  [[nodiscard]] BrickSet cells_behind(std::span<const VoxelIndex> frontier, std::span<const VoxelBox> near);
 
  private:
   // A brick of the map.

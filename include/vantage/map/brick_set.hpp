@@ -5,9 +5,11 @@
 #include <bit>
 #include <cstddef>
 #include <deque>
+#include <span>
 #include <vantage/compiler.hpp>
 #include <vantage/map/brick.hpp>
 #include <vantage/map/brick_directory.hpp>
+#include <vector>
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -15,6 +17,15 @@ namespace VANTAGE_EXPORT vantage {
 /// written to, not with the bounding box.
 class BrickSet {
  public:
+  /// An empty set.
+  BrickSet() = default;
+  /// A set of these cells.
+  explicit BrickSet(std::span<const VoxelIndex> cells) {
+    for (const VoxelIndex& cell : cells) {
+      insert(cell);
+    }
+  }
+
   /// Whether the set holds a cell.
   [[nodiscard]] bool contains(const VoxelIndex& cell) const {
     const BrickPlane* plane = find(Brick::of_cell(cell));
@@ -56,6 +67,15 @@ class BrickSet {
     for (const Stored& stored : bricks_) {
       visit(stored.address, stored.cells);
     }
+  }
+  /// The cells, brick by brick in order of the first write.
+  [[nodiscard]] std::vector<VoxelIndex> cells() const {
+    std::vector<VoxelIndex> cells;
+    for (const Stored& stored : bricks_) {
+      for_each_offset(stored.cells,
+                      [&](std::size_t offset) { cells.push_back(Brick::cell_at(stored.address, offset)); });
+    }
+    return cells;
   }
   /// The number of cells in the set.
   [[nodiscard]] std::size_t size() const {

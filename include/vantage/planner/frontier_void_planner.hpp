@@ -7,6 +7,7 @@
 #include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
+#include <vantage/frontier/void_cluster_tracker.hpp>
 #include <vantage/frontier/void_tracker.hpp>
 #include <vantage/map/following.hpp>
 #include <vantage/planner/frontier_planner.hpp>
@@ -21,6 +22,9 @@ namespace VANTAGE_EXPORT vantage {
 struct FrontierVoidStrategy {
   /// The frontier cells through which a void is observed.
   FrontierShare share = FrontierShare::TouchingCells;
+  /// True: voids are clustered tile by tile, see VoidClusterTracker. False: all together, at a cost that follows the
+  /// volume of the voids.
+  bool in_tiles = true;
   VoidSampling sampling = {};  ///< how views are drawn
   /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
   /// alone count (eq. 3).
@@ -48,6 +52,7 @@ struct FrontierVoidStrategy {
   /// Blocked.
   [[nodiscard]] static FrontierVoidStrategy faithful() {
     return {.share = FrontierShare::WholeClusters,
+            .in_tiles = false,
             .sampling = {.place_spacing_m = 0.0, .aimed = false},
             .cost_per_m = 0.0,
             .finalists = std::numeric_limits<std::size_t>::max(),
@@ -97,9 +102,10 @@ struct VoidSearch {
 ///                 ->  the view that observes most distinct void cells, by ray casting (eq. 3)
 ///
 /// Only frontier cells that the shared survey finds observable are used, and only void cells that are as near to one
-/// of them as the sensor's range: a view sees no others, and the hull may be far larger. So the search ends when
-/// everything observable is seen, and the leftover is reported by cause. docs/frontier_void.md lists where each
-/// equation is implemented. (Dornhege & Kleiner 2011.)
+/// of them as the sensor's range: a view sees no others, and the hull may be far larger. If there are very many of
+/// these frontier cells, those far away are used only when no view of a void behind the nearest ones is found. So the
+/// search ends when everything observable is seen, and the leftover is reported by cause. docs/frontier_void.md lists
+/// where each equation is implemented. (Dornhege & Kleiner 2011.)
 class FrontierVoidPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.
@@ -122,13 +128,15 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
   [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays,
                                                          std::uint64_t& operations) const;
-  [[nodiscard]] std::vector<double> search_places(PlanStatistics& statistics);
+  [[nodiscard]] std::optional<ChosenView> view_of_voids(std::size_t most_targets, Plan& plan);
+  [[nodiscard]] std::vector<double> search_places(std::size_t most_targets, PlanStatistics& statistics);
   [[nodiscard]] double discounted(double utility, double way_m) const;
   [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
 
   FrontierVoidOptions options_;
   VoidSearch search_;
   Following<VoidTracker> void_cells_;
+  VoidClusterTracker clusters_;
   OccupancyMap::Revision clustered_ = 0;  // of the map of `search_.voids` and `sight_`
   std::vector<VoxelBox> near_;            // where these were searched
   std::optional<UnknownSight> sight_;     // none: the voids are yet to be clustered

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/brick_grid.hpp>
+#include <vantage/map/brick_set.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
@@ -43,7 +43,7 @@ class UnknownSight {
  public:
   /// `wanted` must be unknown cells of the map, which must outlive this object and not change. Throws
   /// std::invalid_argument, which names the invalid option.
-  UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted, const UnknownSightOptions& options);
+  UnknownSight(const OccupancyMap& map, const BrickSet& wanted, const UnknownSightOptions& options);
 
   /// The wanted cells that a view may observe, in raster order. Cells whose centre is closer than the sensor's
   /// minimum range are passed but not returned. `caster` must show the same map in the same state. Adds the number of

@@ -101,13 +101,13 @@ VoxelBox random_box(std::mt19937& engine) {
   return {lo, lo + VoxelIndex{3, 3, 3}};
 }
 
-// The bricks that hold a cell of a box.
-std::set<VoxelIndex> bricks_of(const std::vector<VoxelBox>& boxes) {
-  std::set<VoxelIndex> bricks;
+// The tiles that hold a cell of a box.
+std::set<VoxelIndex> tiles_of(const std::vector<VoxelBox>& boxes) {
+  std::set<VoxelIndex> tiles;
   for (const VoxelBox& box : boxes) {
-    for_each_cell(box, [&](const VoxelIndex& cell) { bricks.insert(Brick::of_cell(cell)); });
+    for_each_cell(box, [&](const VoxelIndex& cell) { tiles.insert({cell.x >> 6, cell.y >> 6, cell.z >> 6}); });
   }
-  return bricks;
+  return tiles;
 }
 
 // Compares with a flood through void cells, one by one.
@@ -138,15 +138,17 @@ TEST(VoidTracker, KnowsTheVoidCellsBehindAFrontier) {
       for (std::size_t next = 0; next < expected.size(); ++next) {
         meet_beside(VoxelIndex(expected[next]));
       }
-      std::vector<VoxelIndex> behind = tracker.cells_behind(frontier, kEverywhere);
+      std::vector<VoxelIndex> behind = tracker.cells_behind(frontier, kEverywhere).cells();
       std::sort(behind.begin(), behind.end());
       ASSERT_EQ(behind, std::vector<VoxelIndex>(met.begin(), met.end())) << "world " << world << ", step " << step;
       behind_count += behind.size();
       enclosed += tracker.cell_count() - behind.size();
       const std::vector<VoxelBox> near{random_box(engine)};
-      const std::set<VoxelIndex> bricks = bricks_of(near);
-      std::erase_if(met, [&](const VoxelIndex& cell) { return bricks.count(Brick::of_cell(cell)) == 0; });
-      behind = tracker.cells_behind(frontier, near);
+      const std::set<VoxelIndex> tiles = tiles_of(near);
+      std::erase_if(met, [&](const VoxelIndex& cell) {
+        return tiles.count({cell.x >> 6, cell.y >> 6, cell.z >> 6}) == 0;
+      });
+      behind = tracker.cells_behind(frontier, near).cells();
       std::sort(behind.begin(), behind.end());
       ASSERT_EQ(behind, std::vector<VoxelIndex>(met.begin(), met.end())) << "world " << world << ", step " << step;
       near_count += behind.size();
@@ -210,7 +212,7 @@ TEST(VoidTracker, FindsWhatLiesBetweenPartsFarApart) {
         for (std::size_t next = 0; next < reached.size(); ++next) {
           reach_beside(VoxelIndex(reached[next]));
         }
-        std::vector<VoxelIndex> behind = tracker.cells_behind(frontier, kEverywhere);
+        std::vector<VoxelIndex> behind = tracker.cells_behind(frontier, kEverywhere).cells();
         std::sort(behind.begin(), behind.end());
         std::sort(reached.begin(), reached.end());
         ASSERT_TRUE(behind == reached) << "world " << world << ", step " << step;

@@ -200,7 +200,7 @@ TEST(FrontierVoidPlanner, ClustersOnlyWhatAViewCanSee) {
   FrontierVoidPlanner planner(robot.setup());
   const Plan plan = planner.plan(map, robot.pose);
   ASSERT_EQ(plan.outcome, Outcome::Move) << plan.reason;
-  const std::int32_t reach = 40 + Brick::kSide + 32;  // the range, a brick, and the cells that share a box
+  const std::int32_t reach = 40 + 64 + 32;  // the range, a tile, and the cells that share a box
   std::size_t clustered = 0;
   planner.search().voids.for_each_cell([&](const VoxelIndex& cell) {
     ++clustered;

@@ -31,7 +31,7 @@ TEST(UnknownSight, OpaqueItIsTheFirstCellOfEachRay) {
     const OccupancyMap map = test::hollow_map(engine, 0.1);
     const std::vector<VoxelIndex> wanted = void_cells(map);
     const RayCaster caster(map);
-    const UnknownSight sight(map, wanted, {});
+    const UnknownSight sight(map, BrickSet(wanted), {});
     const ViewRays rays(camera(round % 2 == 0 ? 0.0 : 0.4));
     for (int view = 0; view < 5; ++view) {
       const Pose pose = pose_looking({0.05, 0.05, 0.05}, angle(engine), 0.4 * angle(engine));
@@ -68,7 +68,7 @@ struct Corridor {
   [[nodiscard]] std::vector<SightedCell> look(const UnknownSightOptions& options, double min_range_m = 0.0) {
     const ViewRays ray({Eigen::Vector3f::UnitZ()}, 1, 1, 3.0, min_range_m);
     operations = 0;
-    return UnknownSight(map, wanted, options)
+    return UnknownSight(map, BrickSet(wanted), options)
         .look(RayCaster(map), pose_looking({0.05, 0.05, 0.05}, 0.0), ray, operations);
   }
 

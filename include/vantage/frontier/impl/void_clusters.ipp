@@ -348,6 +348,14 @@ VoidClusters clusters_of(Numbers numbers, const VoxelFrame& frame, const VoidClu
 
 }  // namespace detail
 
+VANTAGE_INLINE VoidClusters::VoidClusters(std::span<const Tile> tiles) {
+  for (const auto& [address, clusters] : tiles) {
+    at_.place(address) = joined_.size();
+    joined_.push_back({clusters, static_cast<std::uint32_t>(clusters_.size())});
+    clusters_.insert(clusters_.end(), clusters->clusters_.begin(), clusters->clusters_.end());
+  }
+}
+
 VANTAGE_INLINE VoidClusters cluster_void_cells(std::span<const VoxelIndex> cells, const VoxelFrame& frame,
                                                const VoidClusterOptions& options) {
   detail::require_option(options.min_score > 0.0, "VoidClusterOptions::min_score", options.min_score, "> 0");

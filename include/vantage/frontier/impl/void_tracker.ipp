@@ -243,8 +243,8 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells() const {
   return cells;
 }
 
-VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const VoxelIndex> frontier,
-                                                                 std::span<const VoxelBox> near) {
+VANTAGE_INLINE BrickSet VoidTracker::cells_behind(std::span<const VoxelIndex> frontier,
+                                                  std::span<const VoxelBox> near) {
   std::vector<VoxelIndex> starts;
   for (const VoxelIndex& cell : frontier) {
     for (const VoxelIndex& step : kFaceNeighbours) {
@@ -259,12 +259,18 @@ VANTAGE_INLINE std::vector<VoxelIndex> VoidTracker::cells_behind(std::span<const
   connected_->connect(
       starts, [&](const VoxelIndex& tile, std::span<BrickPlane> bricks) { fill(whole, tile, bricks); },
       [&](const VoxelIndex& brick, const BrickPlane& cells) { (void)behind_.assign(brick, cells); });
-  std::vector<VoxelIndex> cells;
+  VoxelTable<std::optional<bool>> is_near;  // by tile
+  BrickSet cells;
   behind_.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& behind) {
-    if (std::any_of(near.begin(), near.end(), [box = Brick::cells_of(brick)](const VoxelBox& one) {
-          return !detail::box_overlap(one, box).empty();
-        })) {
-      detail::append(behind, brick, cells);
+    const VoxelIndex tile = Brick::of_cell(brick);
+    std::optional<bool>& near_here = is_near.place(tile);
+    if (!near_here) {
+      near_here = std::any_of(near.begin(), near.end(), [box = VoidTiles::cells_of(tile)](const VoxelBox& one) {
+        return !detail::box_overlap(one, box).empty();
+      });
+    }
+    if (*near_here) {
+      (void)cells.assign(brick, behind);
     }
   });
   return cells;

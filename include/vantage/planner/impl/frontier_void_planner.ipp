@@ -20,7 +20,9 @@
 namespace vantage {
 namespace detail {
 
-inline constexpr std::size_t kMostVectors = 200'000;  // see utility_vectors
+inline constexpr std::size_t kMostVectors = 50'000;  // see utility_vectors
+// Targets that are considered at once, the nearest ones, if far ones count less: views are discounted by distance.
+inline constexpr std::size_t kNearTargets = 20'000;
 // Views of targets that are tested before the planner concludes that no view sees a void.
 inline constexpr std::size_t kProofViews = 50;
 
@@ -54,6 +56,26 @@ inline std::vector<VoxelBox> boxes_around(std::span<const VoxelIndex> frontier, 
   return grown;
 }
 
+// The targets nearest to a position, in the same order.
+inline std::vector<FrontierTarget> nearest_targets(const FrontierSurvey& survey, const VoxelFrame& frame,
+                                                   const Eigen::Vector3d& here, std::size_t most) {
+  if (survey.targets.size() <= most) {
+    return survey.targets;
+  }
+  std::vector<std::pair<double, std::size_t>> by_distance;
+  by_distance.reserve(survey.targets.size());
+  for (std::size_t i = 0; i < survey.targets.size(); ++i) {
+    by_distance.emplace_back((frame.centre_of(survey.targets[i].frontier) - here).squaredNorm(), i);
+  }
+  const auto end = by_distance.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(by_distance.begin(), end, by_distance.end());
+  std::sort(by_distance.begin(), end, [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<FrontierTarget> nearest;
+  nearest.reserve(most);
+  std::for_each(by_distance.begin(), end, [&](const auto& one) { nearest.push_back(survey.targets[one.second]); });
+  return nearest;
+}
+
 // At least one cell.
 inline double least_cells(double volume_m3, double cell_m) {
   return std::max(1.0, std::ceil(volume_m3 / std::pow(cell_m, 3)));
@@ -65,6 +87,7 @@ VANTAGE_INLINE FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setu
     : FrontierPlanner(setup, options.survey), options_(options) {
   detail::frontier_void_settings().validate(options);
   options_.clusters.seed = setup.seed;
+  clusters_ = VoidClusterTracker(options_.clusters);
 }
 
 VANTAGE_INLINE void FrontierVoidPlanner::prepare(Plan& plan) {
@@ -85,15 +108,11 @@ VANTAGE_INLINE void FrontierVoidPlanner::clear_search() {
 
 VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
   const OccupancyMap& map = situation().map();
-  const std::vector<double> values = search_places(plan.statistics);
-  const VoidViews of_voids(situation().surveyed(), search_.voids, plan.statistics.ray_operations);
-  std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids, options_.strategy.sampling,
-                                          options_.views, situation().setup().seed);
-  const std::vector<Pose> near = of_voids.near(options_.strategy.near_views);
-  views.insert(views.end(), near.begin(), near.end());
-  std::optional<ChosenView> choice = best_of(views, plan);
-  if (!choice) {
-    choice = best_of(of_voids.of_targets(std::min(options_.views, detail::kProofViews)), plan);
+  const std::size_t all = situation().survey().targets.size();
+  const std::size_t near = options_.strategy.cost_per_m > 0.0 ? std::min(detail::kNearTargets, all) : all;
+  std::optional<ChosenView> choice = view_of_voids(near, plan);
+  if (!choice && near < all) {
+    choice = view_of_voids(all, plan);
   }
   if (choice) {
     search_.view = choice->view.view.pose;
@@ -113,21 +132,38 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan)
   return choice;
 }
 
+// The best view of voids behind the nearest of the targets.
+VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::view_of_voids(std::size_t most_targets, Plan& plan) {
+  const std::vector<double> values = search_places(most_targets, plan.statistics);
+  const VoidViews of_voids(situation().surveyed(), search_.voids, plan.statistics.ray_operations);
+  std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids, options_.strategy.sampling,
+                                          options_.views, situation().setup().seed);
+  const std::vector<Pose> near = of_voids.near(options_.strategy.near_views);
+  views.insert(views.end(), near.begin(), near.end());
+  std::optional<ChosenView> choice = best_of(views, plan);
+  return choice ? std::move(choice)
+                : best_of(of_voids.of_targets(std::min(options_.views, detail::kProofViews)), plan);
+}
+
 // IV-A and IV-B: void clusters, frontier clusters and their combination. Algorithm 1, over the reachable cells: the
 // places. Returns what each place counts.
-VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(PlanStatistics& statistics) {
+VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(std::size_t most_targets,
+                                                                      PlanStatistics& statistics) {
   const OccupancyMap& map = situation().map();
   const RangeSensor& sensor = situation().sensor();
   const FrontierVoidStrategy& strategy = options_.strategy;
+  const Eigen::Vector3d here = situation().current().translation();
   clear_search();
-  for (const FrontierTarget& target : situation().survey().targets) {
+  for (const FrontierTarget& target :
+       detail::nearest_targets(situation().survey(), map.frame(), here, most_targets)) {
     search_.frontier.push_back(target.frontier);
   }
   std::vector<VoxelBox> near = detail::boxes_around(search_.frontier, map.frame().cells_up_to(sensor.max_range_m));
   if (!sight_ || near != near_) {  // else a view in this map was refused, and only the targets have changed
     near_ = std::move(near);
-    const std::vector<VoxelIndex> cells = void_cells_->cells_behind(situation().frontier().cells(), near_);
-    search_.voids = cluster_void_cells(cells, map.frame(), options_.clusters);
+    const BrickSet cells = void_cells_->cells_behind(situation().frontier().cells(), near_);
+    search_.voids = strategy.in_tiles ? clusters_.update(cells, map.frame())
+                                      : cluster_void_cells(cells.cells(), map.frame(), options_.clusters);
     clustered_ = map.revision();
     sight_.emplace(
         map, cells,
@@ -139,7 +175,6 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(PlanStatis
                          utility_vectors(search_.voids, search_.frontier_voids, map.frame(), detail::kMostVectors),
                          sensor.min_range_m, sensor.max_range_m);
   statistics.ray_operations += utility.operations;
-  const Eigen::Vector3d here = situation().current().translation();
   std::vector<double> values;
   for (const auto& [cell, value] : utility.cells) {
     search_.places.push_back(cell);

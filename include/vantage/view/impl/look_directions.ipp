@@ -10,6 +10,7 @@
 
 #include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/geometry/impl/spread_directions.hpp>
+#include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage::detail {
@@ -23,16 +24,21 @@ inline constexpr double kSightM = 4.0;
 inline constexpr double kOpaqueBesideSurface = 0.5;
 
 // The unknown cells in a box with half-side `range_m` around the position.
-inline std::vector<VoxelIndex> unknown_cells_around(const OccupancyMap& map, const Eigen::Vector3d& position,
-                                                    double range_m) {
+inline BrickSet unknown_cells_around(const OccupancyMap& map, const Eigen::Vector3d& position, double range_m) {
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
   const VoxelBox near{map.frame().cell_of(position - range),
                       map.frame().cell_of(position + range) + VoxelIndex{1, 1, 1}};
-  std::vector<VoxelIndex> cells;
-  for_each_cell(box_overlap(near, map.bounds()), [&](const VoxelIndex& cell) {
-    if (map.at(cell) == Occupancy::Unknown && map.in_region(cell)) {
-      cells.push_back(cell);
+  const VoxelBox box = box_overlap(near, map.bounds());
+  const VoxelIndex one{1, 1, 1};
+  BrickSet cells;
+  for_each_cell({Brick::of_cell(box.lo), Brick::of_cell(box.hi - one) + one}, [&](const VoxelIndex& brick) {
+    BrickPlane unknown = plane_of(brick, box);
+    if (const Brick* const known = map.find_brick(brick)) {
+      for (std::size_t word = 0; word < Brick::kWords; ++word) {
+        unknown[word] &= ~known->known[word];
+      }
     }
+    (void)cells.assign(brick, unknown);
   });
   return cells;
 }

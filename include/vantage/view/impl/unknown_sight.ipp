@@ -126,22 +126,21 @@ class UnknownSight::Chances {
   VoxelFrame frame_;
 };
 
-VANTAGE_INLINE UnknownSight::UnknownSight(const OccupancyMap& map, std::span<const VoxelIndex> wanted,
+VANTAGE_INLINE UnknownSight::UnknownSight(const OccupancyMap& map, const BrickSet& wanted,
                                           const UnknownSightOptions& options)
-    : map_(&map), frame_(map.frame()), options_(options), bounds_(map.bounds()), box_(detail::box_around(wanted)) {
+    : map_(&map), frame_(map.frame()), options_(options), bounds_(map.bounds()) {
   detail::require_option(options.opaque_share > 0.0 && options.opaque_share <= 1.0,
                          "UnknownSightOptions::opaque_share", options.opaque_share, "in (0, 1]");
   detail::require_option(options.opaque_beside_surface > 0.0 && options.opaque_beside_surface <= 1.0,
                          "UnknownSightOptions::opaque_beside_surface", options.opaque_beside_surface, "in (0, 1]");
-  BrickGrid<Content>::Values* values_here = nullptr;  // cells mostly come brick by brick
-  VoxelIndex here;
-  for (const VoxelIndex& cell : wanted) {
-    if (const VoxelIndex brick = Brick::of_cell(cell); values_here == nullptr || brick != here) {
-      here = brick;
-      values_here = &contents_.values(contents_.store(brick));
+  wanted.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) {
+    if (!detail::any(cells)) {
+      return;
     }
-    (*values_here)[Brick::offset_of(cell)] = Content::Wanted;
-  }
+    box_ = detail::box_around(box_, Brick::cells_of(brick));
+    BrickGrid<Content>::Values& values = contents_.values(contents_.store(brick));
+    for_each_offset(cells, [&](std::size_t offset) { values[offset] = Content::Wanted; });
+  });
   const auto occupied_in = [&map](const VoxelIndex& brick) {
     const Brick* const known = map.find_brick(brick);
     return known == nullptr ? BrickPlane{} : known->occupied;
