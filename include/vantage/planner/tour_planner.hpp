@@ -49,9 +49,8 @@ struct TourOptions {
 ///    the mean one until a cell is seen. So a view that shows little waits, unless it is on the way.
 /// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
 ///
-/// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, the tour leads over the middles of the
-/// parts, and ends at the first place that sees a cell of the first one. It sees much in passing, so the legs behind
-/// the first count half.
+/// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, and the tour leads over one place for
+/// each part, the nearest that sees a cell of it. It sees much in passing, so the legs behind the first count half.
 ///
 /// A leg takes the longer of moving and turning. The first leaves from the motion that the robot is in: with a motion
 /// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.

@@ -122,65 +122,41 @@ inline std::vector<VoxelIndex> cells_of_first(const std::vector<std::size_t>& to
   return cells;
 }
 
-// The target of a site that is seen soonest: from the nearest of the survey's viewpoints, or its middle from a place
-// around it, if the robot could go there and on to the middle in less. A viewpoint may lie on the far side, where the
-// robot was when it was found.
-inline FrontierTarget seen_soonest(const Situation& situation, const FrontierSite& site, const BlockWays& ways,
-                                   const std::vector<double>& from_start, std::uint64_t& operations) {
-  const ReachableSpace& reachable = situation.reachable();
-  const auto way_to = [&](const VoxelIndex& place) { return ways.length_to(place, *reachable.start(), from_start); };
-  FrontierTarget soonest = site.middle;
-  double least_m = BlockWays::kNoWay;
-  for (const FrontierTarget& target : site.targets) {
-    if (const double way_m = way_to(target.viewpoint); way_m < least_m) {
-      least_m = way_m;
-      soonest = target;
-    }
-  }
-  const VoxelIndex& unknown = site.middle.unknown;
-  const Eigen::Vector3d middle = situation.map().frame().centre_of(unknown);
-  for (const VoxelIndex& place :
-       places_around(situation, middle, reachable.position_in(site.middle.viewpoint).z(), 1)) {
-    if (!reachable.contains(place) || situation.tried().rests(place) ||
-        situation.tried().tried_from(unknown, place)) {
-      continue;
-    }
-    const Eigen::Vector3d position = reachable.position_in(place);
-    const Eigen::Vector3d line = middle - position;
-    const double way_m = way_to(place) + line.norm();
-    if (way_m < least_m &&
-        sees(situation.map(), situation.sensor(), situation.platform().facing(position, line), unknown, operations)) {
-      least_m = way_m;
-      soonest = {site.middle.frontier, unknown, place};
-    }
-  }
-  return soonest;
+// The target of a site that is seen from the nearest place.
+inline const FrontierTarget& nearest_target(const Situation& situation, const FrontierSite& site,
+                                            const BlockWays& ways, const std::vector<double>& from_start) {
+  const VoxelIndex start = *situation.reachable().start();
+  std::vector<double> way_m(site.targets.size());
+  std::transform(site.targets.begin(), site.targets.end(), way_m.begin(),
+                 [&](const FrontierTarget& target) { return ways.length_to(target.viewpoint, start, from_start); });
+  return site.targets[static_cast<std::size_t>(std::min_element(way_m.begin(), way_m.end()) - way_m.begin())];
 }
 
-// For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over their
-// middles is enough, and ends at the first place that sees a cell of the first part.
+// For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over one
+// place for each part is enough: the nearest one that sees a cell of it. Others may lie on the far side, where the
+// robot was when they were found.
 inline ChosenView first_sight(const Situation& situation, const NearestSites& nearest, TourCost cost,
                               const Eigen::Vector3d& velocity_m_s, const BlockWays& ways, Plan& plan) {
   const std::vector<FrontierSite>& sites = nearest.sites;
-  std::vector<FrontierTarget> wanted;
-  std::vector<TourView> middles;
+  std::vector<const FrontierTarget*> targets;
+  std::vector<TourView> views;
   for (const FrontierSite& site : sites) {
-    wanted.push_back(seen_soonest(situation, site, ways, nearest.lengths, plan.statistics.ray_operations));
-    middles.push_back({wanted.back().viewpoint, Pose::Identity(), {}});
+    targets.push_back(&nearest_target(situation, site, ways, nearest.lengths));
+    views.push_back({targets.back()->viewpoint, Pose::Identity(), {}});
   }
-  plan.statistics.views_scored += middles.size();
-  TourLegs legs(situation, cost, velocity_m_s, ways, nearest.lengths, middles);
-  std::vector<std::size_t> all(middles.size());
+  plan.statistics.views_scored += views.size();
+  TourLegs legs(situation, cost, velocity_m_s, ways, nearest.lengths, views);
+  std::vector<std::size_t> all(views.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const FrontierTarget& first = wanted[ordered(all, situation, middles, legs).front()];
-  ChosenView chosen{.view = view_of_target(situation.surveyed(), first, plan.statistics.ray_operations),
-                    .way = GridPaths(situation.reachable()).to(first.viewpoint)};
+  const FrontierTarget& wanted = *targets[ordered(all, situation, views, legs).front()];
+  ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
+                    .way = GridPaths(situation.reachable()).to(wanted.viewpoint)};
   // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
   TargetView& view = chosen.view;
   chosen.reason = "the first of " + std::to_string(sites.size()) + " places of a tour, a view of " +
                   std::to_string(view.unknown.size()) + " unknown cells";
-  std::erase(view.unknown, first.unknown);
-  view.hoped = std::exchange(view.unknown, {first.unknown});
+  std::erase(view.unknown, wanted.unknown);
+  view.hoped = std::exchange(view.unknown, {wanted.unknown});
   return chosen;
 }
 

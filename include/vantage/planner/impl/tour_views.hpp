@@ -34,10 +34,6 @@ struct TourViews {
   TourViews(const Situation& situation, const std::vector<FrontierSite>& sites, std::uint64_t& operations);
 };
 
-/// Places on rings around a position, at a height, reachable or not, on a lattice of `step` cells.
-[[nodiscard]] std::vector<VoxelIndex> places_around(const Situation& situation, const Eigen::Vector3d& middle,
-                                                    double height_m, std::int32_t step);
-
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)

@@ -44,34 +44,26 @@ inline Eigen::Vector3d middle_of_unknown(const FrontierSite& site, const VoxelFr
   return sum / static_cast<double>(site.targets.size());
 }
 
-VANTAGE_INLINE std::vector<VoxelIndex> places_around(const Situation& situation, const Eigen::Vector3d& middle,
-                                                     double height_m, std::int32_t step) {
-  const double range_m = std::min(kFurthestRangeM, counted_range_m(situation.map(), situation.sensor()));
-  std::vector<VoxelIndex> places;
-  for (const double share : kRings) {
-    for (const auto& [x, y] : kRing) {
-      const VoxelIndex cell = situation.map().frame().cell_of(
-          {middle.x() + share * range_m * x, middle.y() + share * range_m * y, height_m});
-      places.push_back({lattice_at(cell.x, step), lattice_at(cell.y, step), cell.z});
-    }
-  }
-  return places;
-}
-
 inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::vector<FrontierSite>& sites,
                                          const std::vector<Eigen::Vector3d>& middles) {
   const ReachableSpace& reachable = situation.reachable();
   const VoxelFrame& frame = situation.map().frame();
   const std::int32_t step = std::max(1, frame.cells_up_to(kLatticeM));
+  const double range_m = std::min(kFurthestRangeM, counted_range_m(situation.map(), situation.sensor()));
   std::vector<VoxelIndex> places{*reachable.start()};
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const FrontierTarget& middle = sites[i].middle;
     places.push_back(middle.viewpoint);
     places.push_back(middle.frontier);
-    if (i < kPartsWithPlaces) {
-      const std::vector<VoxelIndex> around =
-          places_around(situation, middles[i], reachable.position_in(middle.viewpoint).z(), step);
-      places.insert(places.end(), around.begin(), around.end());
+    const double height_m = reachable.position_in(middle.viewpoint).z();
+    for (const double share : kRings) {
+      const double radius_m = share * range_m;
+      for (std::size_t way = 0; way < (i < kPartsWithPlaces ? kRing.size() : 0); ++way) {
+        const auto& [x, y] = kRing[way];
+        const VoxelIndex cell =
+            frame.cell_of({middles[i].x() + radius_m * x, middles[i].y() + radius_m * y, height_m});
+        places.push_back({lattice_at(cell.x, step), lattice_at(cell.y, step), cell.z});
+      }
     }
   }
   sort_unique(places);
