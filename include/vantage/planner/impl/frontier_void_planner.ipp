@@ -109,10 +109,11 @@ VANTAGE_INLINE void FrontierVoidPlanner::clear_search() {
 VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
   const OccupancyMap& map = situation().map();
   const std::size_t all = situation().survey().targets.size();
-  const std::size_t near = options_.strategy.cost_per_m > 0.0 ? std::min(detail::kNearTargets, all) : all;
-  std::optional<ChosenView> choice = view_of_voids(near, plan);
-  if (!choice && near < all) {
-    choice = view_of_voids(all, plan);
+  std::size_t most = options_.strategy.cost_per_m > 0.0 ? std::min(detail::kNearTargets, all) : all;
+  std::optional<ChosenView> choice = view_of_voids(most, plan);
+  while (!choice && most < all) {
+    most = std::min(4 * most, all);
+    choice = view_of_voids(most, plan);
   }
   if (choice) {
     search_.view = choice->view.view.pose;
