@@ -22,8 +22,8 @@ namespace VANTAGE_EXPORT vantage {
 struct FrontierVoidStrategy {
   /// The frontier cells through which a void is observed.
   FrontierShare share = FrontierShare::TouchingCells;
-  /// True: voids are clustered tile by tile, see VoidClusterTracker. False: all together, at a cost that follows the
-  /// volume of the voids.
+  /// True: voids are clustered tile by tile, see VoidClusterTracker, at a cost that follows what has changed. False:
+  /// all together, at a cost that follows the volume of the voids.
   bool in_tiles = true;
   VoidSampling sampling = {};  ///< how views are drawn
   /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
@@ -67,7 +67,8 @@ struct FrontierVoidStrategy {
   /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
   /// when no view sees a void.
   [[nodiscard]] static FrontierVoidStrategy searching() {
-    return {.sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
+    return {.in_tiles = false,
+            .sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
             .cost_per_m = 0.0,
             .finalists = 30,
             .sought_chance = 0.0,
