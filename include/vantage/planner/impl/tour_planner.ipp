@@ -132,6 +132,23 @@ inline const FrontierTarget& nearest_target(const Situation& situation, const Fr
   return site.targets[static_cast<std::size_t>(std::min_element(way_m.begin(), way_m.end()) - way_m.begin())];
 }
 
+// The target to which the robot is on its way, if it is still among these sites.
+inline const FrontierTarget* target_ahead(const Situation& situation, const std::vector<FrontierSite>& sites) {
+  const std::optional<Pose> goal = situation.goal_ahead();
+  if (!goal) {
+    return nullptr;
+  }
+  const VoxelIndex place = situation.map().frame().cell_of(goal->translation());
+  for (const FrontierSite& site : sites) {
+    for (const FrontierTarget& target : site.targets) {
+      if (target.viewpoint == place) {
+        return &target;
+      }
+    }
+  }
+  return nullptr;
+}
+
 // For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over one
 // place for each part is enough: the nearest one that sees a cell of it. Others may lie on the far side, where the
 // robot was when they were found.
@@ -148,7 +165,16 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
   TourLegs legs(situation, cost, velocity_m_s, ways, nearest.lengths, views);
   std::vector<std::size_t> all(views.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const FrontierTarget& wanted = *targets[ordered(all, situation, views, legs).front()];
+  const FrontierTarget* first = targets[ordered(all, situation, views, legs).front()];
+  // A robot that plans on its way turns to another target only if that is nearer, so it cannot turn to and fro.
+  if (const FrontierTarget* const ahead = target_ahead(situation, sites)) {
+    const VoxelIndex start = *situation.reachable().start();
+    const auto way_m = [&](const FrontierTarget& target) {
+      return ways.length_to(target.viewpoint, start, nearest.lengths);
+    };
+    first = way_m(*first) < way_m(*ahead) ? first : ahead;
+  }
+  const FrontierTarget& wanted = *first;
   ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
                     .way = GridPaths(situation.reachable()).to(wanted.viewpoint)};
   // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
