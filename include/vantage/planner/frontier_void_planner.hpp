@@ -62,7 +62,7 @@ struct FrontierVoidStrategy {
   }
   /// For a robot for which metres matter and views do not: finishes nearby voids before it moves on.
   [[nodiscard]] static FrontierVoidStrategy travelling() {
-    return {.cost_per_m = 100.0, .along_way = true, .near_views = 20};
+    return {.in_tiles = false, .cost_per_m = 100.0, .along_way = true, .near_views = 20};
   }
   /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
   /// when no view sees a void.
