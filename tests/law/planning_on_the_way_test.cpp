@@ -88,6 +88,15 @@ TEST_P(PlanningOnTheWay, AfterTwoCells) { expect_as_from_goal_to_goal(GetParam()
 // A host that plans at a fixed rate.
 TEST_P(PlanningOnTheWay, AfterAFewCentimetres) { expect_as_from_goal_to_goal(GetParam(), 4, 0.03); }
 
+// A viewpoint may be on the far side of what it sees, where the robot was when it was found. A tour over such places
+// leads around the blocks between the drifts.
+TEST(TourOfDrifts, IsHardlyLongerThanTheNearestFrontierFirst) {
+  const Exploration tour = explore("tour", 6, kLimitM);
+  const Exploration nearest = explore("nearest-frontier", 6, kLimitM);
+  EXPECT_EQ(tour.last.outcome, Outcome::Explored) << tour.last.reason;
+  EXPECT_LE(tour.gone_m, 1.3 * nearest.gone_m) << nearest.gone_m;
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, PlanningOnTheWay, ::testing::ValuesIn(test::every_planner()), test::name_of_planner);
 
 }  // namespace
