@@ -56,24 +56,25 @@ inline std::vector<VoxelBox> boxes_around(std::span<const VoxelIndex> frontier, 
   return grown;
 }
 
-// The targets nearest to a position, in the same order.
-inline std::vector<FrontierTarget> nearest_targets(const FrontierSurvey& survey, const VoxelFrame& frame,
-                                                   const Eigen::Vector3d& here, std::size_t most) {
-  if (survey.targets.size() <= most) {
-    return survey.targets;
+// The frontier cells of the targets nearest to a position, in the same order.
+inline std::vector<VoxelIndex> nearest_frontier(std::span<const FrontierTarget> targets, const VoxelFrame& frame,
+                                                const Eigen::Vector3d& here, std::size_t most) {
+  std::vector<std::pair<double, std::size_t>> nearest;
+  nearest.reserve(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    nearest.emplace_back((frame.centre_of(targets[i].frontier) - here).squaredNorm(), i);
   }
-  std::vector<std::pair<double, std::size_t>> by_distance;
-  by_distance.reserve(survey.targets.size());
-  for (std::size_t i = 0; i < survey.targets.size(); ++i) {
-    by_distance.emplace_back((frame.centre_of(survey.targets[i].frontier) - here).squaredNorm(), i);
+  if (most < nearest.size()) {
+    std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(most), nearest.end());
+    nearest.resize(most);
+    std::sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   }
-  const auto end = by_distance.begin() + static_cast<std::ptrdiff_t>(most);
-  std::nth_element(by_distance.begin(), end, by_distance.end());
-  std::sort(by_distance.begin(), end, [](const auto& a, const auto& b) { return a.second < b.second; });
-  std::vector<FrontierTarget> nearest;
-  nearest.reserve(most);
-  std::for_each(by_distance.begin(), end, [&](const auto& one) { nearest.push_back(survey.targets[one.second]); });
-  return nearest;
+  std::vector<VoxelIndex> cells;
+  cells.reserve(nearest.size());
+  for (const auto& [distance, i] : nearest) {
+    cells.push_back(targets[i].frontier);
+  }
+  return cells;
 }
 
 // At least one cell.
@@ -155,10 +156,7 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(std::size_
   const FrontierVoidStrategy& strategy = options_.strategy;
   const Eigen::Vector3d here = situation().current().translation();
   clear_search();
-  for (const FrontierTarget& target :
-       detail::nearest_targets(situation().survey(), map.frame(), here, most_targets)) {
-    search_.frontier.push_back(target.frontier);
-  }
+  search_.frontier = detail::nearest_frontier(situation().survey().targets, map.frame(), here, most_targets);
   std::vector<VoxelBox> near = detail::boxes_around(search_.frontier, map.frame().cells_up_to(sensor.max_range_m));
   if (!sight_ || near != near_) {  // else a view in this map was refused, and only the targets have changed
     near_ = std::move(near);

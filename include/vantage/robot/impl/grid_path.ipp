@@ -147,13 +147,6 @@ std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, He
   return {};
 }
 
-// The goals as a set.
-inline BrickSet marked(std::span<const VoxelIndex> goals) {
-  BrickSet set;
-  std::for_each(goals.begin(), goals.end(), [&](const VoxelIndex& goal) { set.insert(goal); });
-  return set;
-}
-
 // Removes corners: from each kept pose, a straight admitted motion leads to a corner far ahead, found by doubling and
 // halving the stride. Empty if a single step is not admitted.
 inline std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platform,
@@ -186,7 +179,7 @@ inline std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platf
 }  // namespace detail
 
 VANTAGE_INLINE std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals) const {
-  const BrickSet wanted = detail::marked(goals);
+  const BrickSet wanted(goals);
   std::vector<detail::Met> met;
   return detail::search(
       space_, [&](const VoxelIndex& cell, std::uint32_t) { return wanted.contains(cell); },
@@ -196,7 +189,7 @@ VANTAGE_INLINE std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const Vox
 VANTAGE_INLINE NearGoals GridPaths::nearest_within(std::span<const VoxelIndex> goals, double detour_m,
                                                    double cell_m) const {
   NearGoals near;
-  const BrickSet wanted = detail::marked(goals);
+  const BrickSet wanted(goals);
   const double detour = std::min(1000.0 * detour_m / cell_m, 4e9);
   double furthest = 5e9;
   std::vector<detail::Met> met;
