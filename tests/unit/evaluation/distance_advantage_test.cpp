@@ -69,10 +69,7 @@ TEST(DistanceAdvantage, IsThatOfAllCellsOneByOne) {
   constexpr int kCases = 20;
   for (int seed = 0; seed < kCases; ++seed) {
     const std::vector<VoxelIndex> cells = rooms(engine);
-    BrickSet set;
-    for (const VoxelIndex& cell : cells) {
-      set.insert(cell);
-    }
+    const BrickSet set(cells);
     detail::BlockWays ways(VoxelFrame{kCellM}, 4);
     ways.follow([&](const VoxelIndex& brick) {
       const BrickPlane* const plane = set.find(brick);

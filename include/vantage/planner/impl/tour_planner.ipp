@@ -32,11 +32,13 @@ inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
 
 // The nearest sites, nearest first, and the ways from the start to them and to what is near to them.
 struct NearestSites {
+  const BlockWays& ways;
+  VoxelIndex start;
   std::vector<FrontierSite> sites;
   std::vector<double> lengths;  // see BlockWays::lengths_from
 
-  NearestSites(const Situation& situation, const TourOptions& options, const BlockWays& ways) {
-    const VoxelIndex start = *situation.reachable().start();
+  NearestSites(const Situation& situation, const TourOptions& options, const BlockWays& all_ways)
+      : ways(all_ways), start(*situation.reachable().start()) {
     std::vector<FrontierSite> all = detail::frontier_sites(
         situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
     std::vector<VoxelIndex> places(all.size());
@@ -46,14 +48,25 @@ struct NearestSites {
     std::vector<std::pair<double, std::size_t>> near;
     near.reserve(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      near.emplace_back(ways.length_to(places[i], start, lengths), i);
+      near.emplace_back(way_m(places[i]), i);
     }
     std::sort(near.begin(), near.end());
     near.resize(std::min(near.size(), options.most_sites));
     sites.reserve(near.size());
-    for (const auto& [way_m, i] : near) {
+    for (const auto& [length_m, i] : near) {
       sites.push_back(std::move(all[i]));
     }
+  }
+
+  // The length of the way from the start.
+  [[nodiscard]] double way_m(const VoxelIndex& place) const { return ways.length_to(place, start, lengths); }
+  // The target of a site that is seen from the nearest place.
+  [[nodiscard]] const FrontierTarget& nearest_target(const FrontierSite& site) const {
+    std::vector<double> ways_m(site.targets.size());
+    std::transform(site.targets.begin(), site.targets.end(), ways_m.begin(),
+                   [this](const FrontierTarget& target) { return way_m(target.viewpoint); });
+    const auto least = std::min_element(ways_m.begin(), ways_m.end()) - ways_m.begin();
+    return site.targets[static_cast<std::size_t>(least)];
   }
 };
 
@@ -122,16 +135,6 @@ inline std::vector<VoxelIndex> cells_of_first(const std::vector<std::size_t>& to
   return cells;
 }
 
-// The target of a site that is seen from the nearest place.
-inline const FrontierTarget& nearest_target(const Situation& situation, const FrontierSite& site,
-                                            const BlockWays& ways, const std::vector<double>& from_start) {
-  const VoxelIndex start = *situation.reachable().start();
-  std::vector<double> way_m(site.targets.size());
-  std::transform(site.targets.begin(), site.targets.end(), way_m.begin(),
-                 [&](const FrontierTarget& target) { return ways.length_to(target.viewpoint, start, from_start); });
-  return site.targets[static_cast<std::size_t>(std::min_element(way_m.begin(), way_m.end()) - way_m.begin())];
-}
-
 // The target to which the robot is on its way, if it is still among these sites.
 inline const FrontierTarget* target_ahead(const Situation& situation, const std::vector<FrontierSite>& sites) {
   const std::optional<Pose> goal = situation.goal_ahead();
@@ -153,26 +156,23 @@ inline const FrontierTarget* target_ahead(const Situation& situation, const std:
 // place for each part is enough: the nearest one that sees a cell of it. Others may lie on the far side, where the
 // robot was when they were found.
 inline ChosenView first_sight(const Situation& situation, const NearestSites& nearest, TourCost cost,
-                              const Eigen::Vector3d& velocity_m_s, const BlockWays& ways, Plan& plan) {
+                              const Eigen::Vector3d& velocity_m_s, Plan& plan) {
   const std::vector<FrontierSite>& sites = nearest.sites;
   std::vector<const FrontierTarget*> targets;
   std::vector<TourView> views;
   for (const FrontierSite& site : sites) {
-    targets.push_back(&nearest_target(situation, site, ways, nearest.lengths));
+    targets.push_back(&nearest.nearest_target(site));
     views.push_back({targets.back()->viewpoint, Pose::Identity(), {}});
   }
   plan.statistics.views_scored += views.size();
-  TourLegs legs(situation, cost, velocity_m_s, ways, nearest.lengths, views);
+  TourLegs legs(situation, cost, velocity_m_s, nearest.ways, nearest.lengths, views);
   std::vector<std::size_t> all(views.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const FrontierTarget* first = targets[ordered(all, situation, views, legs).front()];
   // A robot that plans on its way turns to another target only if that is nearer, so it cannot turn to and fro.
-  if (const FrontierTarget* const ahead = target_ahead(situation, sites)) {
-    const VoxelIndex start = *situation.reachable().start();
-    const auto way_m = [&](const FrontierTarget& target) {
-      return ways.length_to(target.viewpoint, start, nearest.lengths);
-    };
-    first = way_m(*first) < way_m(*ahead) ? first : ahead;
+  const FrontierTarget* const ahead = target_ahead(situation, sites);
+  if (ahead != nullptr && nearest.way_m(ahead->viewpoint) <= nearest.way_m(first->viewpoint)) {
+    first = ahead;
   }
   const FrontierTarget& wanted = *first;
   ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
@@ -188,13 +188,13 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
 
 // For a sensor that must be aimed: views are chosen for what they show.
 inline ChosenView first_view(const Situation& situation, const NearestSites& nearest, const TourOptions& options,
-                             const Eigen::Vector3d& velocity_m_s, const BlockWays& ways, Plan& plan) {
+                             const Eigen::Vector3d& velocity_m_s, Plan& plan) {
   const TourViews choice(situation, nearest.sites, plan.statistics.ray_operations);
   plan.statistics.views_scored += choice.views.size();
   if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
     return nearest_view(situation, plan.statistics.ray_operations);
   }
-  TourLegs legs(situation, options.cost, velocity_m_s, ways, nearest.lengths, choice.views);
+  TourLegs legs(situation, options.cost, velocity_m_s, nearest.ways, nearest.lengths, choice.views);
   CoverTourProblem problem;
   problem.per_view = legs.of_stop();
   problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
@@ -243,8 +243,8 @@ VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const detail::NearestSites nearest(situation(), options_, *ways_);
   const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation().current().translation());
   ChosenView chosen = situation().sensor().looks_all_around()
-                          ? detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, *ways_, plan)
-                          : detail::first_view(situation(), nearest, options_, velocity_m_s, *ways_, plan);
+                          ? detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, plan)
+                          : detail::first_view(situation(), nearest, options_, velocity_m_s, plan);
   if (const std::optional<MotionModel>& motion = situation().setup().motion) {
     if (std::optional<std::vector<Pose>> path = path_to(chosen.view.view.pose, chosen.way)) {
       motion_->follow(*path, *motion);
