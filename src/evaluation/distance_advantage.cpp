@@ -31,7 +31,7 @@ std::vector<double> distance_advantages(const BlockWays& ways, const VoxelIndex&
 }
 
 std::optional<ChosenView> DistanceAdvantagePeer::choose(Plan& plan) {
-  const BlockWays& through = ways();
+  const BlockWays& through = situation().ways();
   const VoxelIndex start = *situation().reachable().start();
   const std::vector<ViewedSite> parts = sites(through.lengths_from(start));
   std::vector<VoxelIndex> places;

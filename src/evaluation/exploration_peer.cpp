@@ -26,25 +26,12 @@ FrontierSite thinned(const FrontierSite& site) {
 
 }  // namespace
 
-const BlockWays& ExplorationPeer::ways() {
-  const VoxelFrame& frame = situation().map().frame();
-  if (!ways_ || ways_->frame().size_m != frame.size_m) {
-    ways_.emplace(frame, frame.size_m < 0.15 ? 8 : 4);
-  }
-  ways_->follow([&space = situation().reachable()](const VoxelIndex& brick) {
-    const BrickPlane* const cells = space.find(brick);
-    return cells == nullptr ? BrickPlane{} : *cells;
-  });
-  velocity_m_s_ = motion_.velocity_at(situation().current().translation());
-  return *ways_;
-}
-
 std::vector<ViewedSite> ExplorationPeer::sites(const std::vector<double>& from_start) const {
   const VoxelIndex start = *situation().reachable().start();
   std::vector<ViewedSite> all;
   for (FrontierSite& site :
        frontier_sites(situation().survey().targets, std::max(1, situation().map().frame().cells_up_to(kSiteM)))) {
-    const double way_m = ways_->length_to(site.middle.viewpoint, start, from_start);
+    const double way_m = situation().ways().length_to(site.middle.viewpoint, start, from_start);
     all.push_back({.site = std::move(site), .way_m = way_m, .unknown = {}, .views = {}});
   }
   std::stable_sort(all.begin(), all.end(),

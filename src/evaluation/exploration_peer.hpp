@@ -36,26 +36,24 @@ class ExplorationPeer : public FrontierPlanner {
   /// Largest extent of a part of the frontier, metres.
   static constexpr double kSiteM = 2.0;
 
-  /// Ways through the reachable space as it is now.
-  [[nodiscard]] const BlockWays& ways();
   /// The parts of the frontier, the nearest by way first, without views.
   [[nodiscard]] std::vector<ViewedSite> sites(const std::vector<double>& from_start) const;
   /// Samples views of a part and keeps those that show nearly as much as the best, at most `most`.
   void sample_views(ViewedSite& site, std::size_t most, Plan& plan) const;
   /// Costs of tours over views, in seconds; the references must outlive it.
   [[nodiscard]] TourLegs legs(const std::vector<double>& from_start, const std::vector<TourView>& views) const {
-    return {situation(), TourCost::Time, velocity_m_s_, *ways_, from_start, views};
+    return {situation(), TourCost::Time, velocity_m_s(), situation().ways(), from_start, views};
   }
   /// Takes this view, until half of the cells that it sees are known, those in the middle of the image first.
   [[nodiscard]] ChosenView taking(const TourView& view, const std::vector<VoxelIndex>& unknown);
   /// The velocity of the robot if it follows the path of the last plan; zero without a motion model in the setup.
-  [[nodiscard]] const Eigen::Vector3d& velocity_m_s() const { return velocity_m_s_; }
+  [[nodiscard]] Eigen::Vector3d velocity_m_s() const {
+    return motion_.velocity_at(situation().current().translation());
+  }
 
  private:
   std::string_view name_;
-  std::optional<BlockWays> ways_;
   EstimatedMotion motion_;
-  Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace vantage::detail

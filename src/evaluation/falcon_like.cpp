@@ -51,7 +51,7 @@ std::vector<std::size_t> coverage_path(const Zones& zones, const std::map<std::s
 
 std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
   const VoxelIndex start = *situation().reachable().start();
-  const std::vector<double> from_start = ways().lengths_from(start);
+  const std::vector<double> from_start = situation().ways().lengths_from(start);
   std::vector<ViewedSite> parts = sites(from_start);
   const Zones zones = zones_of(situation());
   // A part belongs to the zone of its unknown cells, because it may be seen from afar.

@@ -89,7 +89,7 @@ ChosenView RefiningPeer::refined(const std::vector<ViewedSite>& parts, const std
 }
 
 std::optional<ChosenView> FuelLikePeer::choose(Plan& plan) {
-  const std::vector<double> from_start = ways().lengths_from(*situation().reachable().start());
+  const std::vector<double> from_start = situation().ways().lengths_from(*situation().reachable().start());
   std::vector<ViewedSite> parts = sites(from_start);
   look_at(parts, plan);
   std::vector<TourView> best;

@@ -37,7 +37,7 @@ std::vector<std::size_t> coarse_places(const std::vector<ViewedSite>& parts, dou
 }
 
 std::optional<ChosenView> TareLikePeer::choose(Plan& plan) {
-  const std::vector<double> from_start = ways().lengths_from(*situation().reachable().start());
+  const std::vector<double> from_start = situation().ways().lengths_from(*situation().reachable().start());
   const std::vector<ViewedSite> parts = sites(from_start);
   std::vector<FrontierSite> near;
   for (std::size_t i = 0; i < parts.size() && parts[i].way_m <= kHorizonM && near.size() < kMostNear; ++i) {

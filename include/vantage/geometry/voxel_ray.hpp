@@ -79,15 +79,16 @@ class VoxelRay {
     if (steps_ < 0) {
       return;
     }
-    std::size_t axis = 0;
-    if (faces_[1].next < faces_[axis].next) {
-      axis = 1;
-    }
-    if (faces_[2].next < faces_[axis].next) {
-      axis = 2;
-    }
-    cell_[axis] += sign_[axis];
-    faces_[axis].next += faces_[axis].delta;
+    // No computed indices, so that a loop keeps its state in registers.
+    const bool y_before_x = faces_[1].next < faces_[0].next;
+    const bool is_z = faces_[2].next < (y_before_x ? faces_[1].next : faces_[0].next);
+    cross(0, !is_z && !y_before_x);
+    cross(1, !is_z && y_before_x);
+    cross(2, is_z);
+  }
+  void cross(std::size_t axis, bool is_next) {
+    cell_[axis] += is_next ? sign_[axis] : 0;
+    faces_[axis].next += is_next ? faces_[axis].delta : 0;
   }
 
   std::array<std::int32_t, 3> cell_{};
@@ -117,15 +118,14 @@ bool VoxelRay::all_from_the_end(Holds&& holds) const {
     if (left == 0) {
       return true;
     }
-    std::size_t axis = 2;
-    if (latest[1] > latest[axis]) {
-      axis = 1;
+    const bool y_after_z = latest[1] > latest[2];
+    const bool is_x = latest[0] > (y_after_z ? latest[1] : latest[2]);
+    const std::array<bool, 3> is_latest{is_x, !is_x && y_after_z, !is_x && !y_after_z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t before = latest[axis] == faces_[axis].next ? kNone : latest[axis] - faces_[axis].delta;
+      cell[axis] -= is_latest[axis] ? sign_[axis] : 0;
+      latest[axis] = is_latest[axis] ? before : latest[axis];
     }
-    if (latest[0] > latest[axis]) {
-      axis = 0;
-    }
-    cell[axis] -= sign_[axis];
-    latest[axis] = latest[axis] == faces_[axis].next ? kNone : latest[axis] - faces_[axis].delta;
   }
 }
 

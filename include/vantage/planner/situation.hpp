@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,10 @@
 #include <vantage/view/target_view.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vector>
+
+namespace vantage::detail {
+class BlockWays;
+}  // namespace vantage::detail
 
 namespace VANTAGE_EXPORT vantage {
 
@@ -92,6 +97,12 @@ class Situation {
   /// Casts the rays of the sensor through the map of the last `sync`. The first call after a `sync` updates it, which
   /// has a cost; later calls may come from several threads.
   [[nodiscard]] const FollowingCaster& looking() const;
+  /// Lengths of ways through the reachable space, on blocks of cells. The first call after a `sync` updates them.
+  [[nodiscard]] const detail::BlockWays& ways() const;
+  /// A way through the reachable space from its start to `goal`, both included. Empty if there is none. The shortest
+  /// one, unless the goal is more than 300 cells away: then the shortest from each eighth block to the next, of a way
+  /// over blocks. So the cost follows the way, not the space around it.
+  [[nodiscard]] std::vector<VoxelIndex> way_to(const VoxelIndex& goal) const;
   /// A plan that contains the counts of the survey and no choice.
   [[nodiscard]] Plan open_plan() const;
 
@@ -115,6 +126,8 @@ class Situation {
   FrontierSurvey survey_;
   mutable FollowingCaster looking_;
   mutable bool looking_follows_ = false;  // whether looking_ is up to date with the map of the last sync
+  mutable std::shared_ptr<detail::BlockWays> ways_;  // shared, because the type is incomplete here
+  mutable bool ways_follow_ = false;
   double sync_ms_ = 0.0;
 };
 

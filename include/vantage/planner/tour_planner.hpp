@@ -11,7 +11,6 @@
 #include <vantage/robot/motion_model.hpp>
 
 namespace vantage::detail {
-class BlockWays;
 class EstimatedMotion;
 }  // namespace vantage::detail
 
@@ -76,9 +75,7 @@ class TourPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
 
   TourOptions options_;
-  // Shared, because the types are incomplete here.
-  std::shared_ptr<detail::BlockWays> ways_;  // made with the first plan
-  std::shared_ptr<detail::EstimatedMotion> motion_;
+  std::shared_ptr<detail::EstimatedMotion> motion_;  // shared, because the type is incomplete here
 };
 
 }  // namespace vantage

@@ -24,7 +24,9 @@ struct NearGoals {
 class GridPaths {
  public:
   /// Paths from the start of `space`, which must outlive this object.
-  explicit GridPaths(const ReachableSpace& space) : space_(space) {}
+  explicit GridPaths(const ReachableSpace& space) : space_(space), start_(space.start()) {}
+  /// Paths from a reachable cell of `space`.
+  GridPaths(const ReachableSpace& space, const VoxelIndex& start) : space_(space), start_(start) {}
 
   /// The path to the nearest of `goals`, both ends included (Dijkstra). Empty if no goal is reachable.
   [[nodiscard]] std::vector<VoxelIndex> to_nearest(std::span<const VoxelIndex> goals) const;
@@ -36,6 +38,7 @@ class GridPaths {
 
  private:
   const ReachableSpace& space_;
+  std::optional<VoxelIndex> start_;
 };
 
 /// Converts a path of cells to poses (world_from_sensor): from `from` through cell centres to `to`. Corners that a

@@ -63,6 +63,8 @@ class BlockWays {
   /// The length of the way to the centre of `cell`, by the result of `lengths_from(from)`.
   [[nodiscard]] double length_to(const VoxelIndex& cell, const VoxelIndex& from,
                                  const std::vector<double>& lengths) const;
+  /// A way from cell to cell: both, and between them the middle cell of each piece on the way. Empty if there is none.
+  [[nodiscard]] std::vector<VoxelIndex> way(const VoxelIndex& from, const VoxelIndex& to) const;
 
  private:
   static constexpr std::size_t kWays = 6;  // the directions of kFaceNeighbours
@@ -91,6 +93,8 @@ class BlockWays {
   void add_piece(const VoxelIndex& brick, const BrickPlane& cells) const;
   void make_pieces(const Read& read) const;
   [[nodiscard]] Piece first_in(const VoxelIndex& block) const;
+  // The cell nearest to the centroid.
+  [[nodiscard]] VoxelIndex middle_of(const Node& piece) const;
   // How many of these cells each piece holds.
   [[nodiscard]] std::vector<std::uint32_t> counted_by_piece(std::span<const VoxelIndex> cells) const;
   template <class Visit>

@@ -289,4 +289,43 @@ VANTAGE_INLINE double BlockWays::length_to(const VoxelIndex& cell, const VoxelIn
   return std::max(straight_m, shortest_m);
 }
 
+VANTAGE_INLINE VoxelIndex BlockWays::middle_of(const Node& piece) const {
+  std::pair<double, VoxelIndex> nearest{kNoWay, {}};
+  for_each_offset(piece.cells, [&](std::size_t offset) {
+    const VoxelIndex cell = Brick::cell_at(piece.brick, offset);
+    const double off_m2 = (frame_.centre_of(cell) - piece.centre_m).squaredNorm();
+    nearest = off_m2 < nearest.first ? std::pair(off_m2, cell) : nearest;
+  });
+  return nearest.second;
+}
+
+// Goes from each piece to the next one on the way that gave it its length. That is nearer to `to`.
+VANTAGE_INLINE std::vector<VoxelIndex> BlockWays::way(const VoxelIndex& from, const VoxelIndex& to) const {
+  const std::vector<double> left = lengths_from(to, std::span(&from, 1), 1);
+  if (length_to(from, to, left) == kNoWay) {
+    return {};
+  }
+  const Piece last = piece_of(to);
+  std::vector<VoxelIndex> cells{from};
+  for (Piece at = piece_of(from); at != last;) {
+    std::pair<double, double> least{kNoWay, kNoWay};  // with the link to it; without
+    Piece next = last;
+    for (const Link& link : links(at)) {
+      const double beyond_m = link.to == last ? 0.0 : left.at(link.to);
+      const double link_m =
+          link.to == last ? (pieces_[at].centre_m - frame_.centre_of(to)).norm() : kUnitM * link.length;
+      if (const std::pair length(link_m + beyond_m, beyond_m); length < least) {
+        least = length;
+        next = link.to;
+      }
+    }
+    at = next;
+    if (at != last) {
+      cells.push_back(middle_of(pieces_[at]));
+    }
+  }
+  cells.push_back(to);
+  return cells;
+}
+
 }  // namespace vantage::detail

@@ -29,7 +29,7 @@ VANTAGE_INLINE std::optional<std::vector<Pose>> FrontierPlanner::path_to(const P
   }
   std::vector<VoxelIndex> shortest;
   if (way.empty()) {
-    shortest = GridPaths(situation_.reachable()).to(map.frame().cell_of(view.translation()));
+    shortest = situation_.way_to(map.frame().cell_of(view.translation()));
     way = shortest;
   }
   auto path = way.empty() ? std::nullopt : poses_along(map, situation_.platform(), situation_.current(), way, view);

@@ -10,8 +10,10 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/brick_set.hpp>
 #include <vantage/planner/situation.hpp>
+#include <vantage/robot/grid_path.hpp>
 #include <vantage/view/target_view.hpp>
 
+#include <vantage/planner/impl/block_ways.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/view/impl/frontier_survey_settings.hpp>
 
@@ -23,6 +25,13 @@ inline const PlannerSetup& valid(const PlannerSetup& setup, const FrontierSurvey
   detail::frontier_survey_settings().validate(options);
   return setup;
 }
+
+// A goal further away is far: the search for the shortest way would meet most of a large space.
+inline constexpr double kFarCells = 300.0;
+inline constexpr std::size_t kBlocksAtOnce = 8;
+
+// Blocks of about a metre.
+inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
 
 inline std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
@@ -59,6 +68,7 @@ VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current
 }
 
 VANTAGE_INLINE void Situation::find_targets() {
+  ways_follow_ = false;
   survey_ = surveyor_.survey(*map_, current_, tried_, frontier_->cells());
   if (survey_.targets.empty() && tried_.try_resting_again()) {
     survey_ = surveyor_.survey(*map_, current_, tried_, frontier_->cells());
@@ -306,6 +316,37 @@ VANTAGE_INLINE std::optional<Pose> Situation::goal_ahead() const {
   const bool can_be_reached =
       goal && reachable().contains(map_->frame().cell_of(goal->translation())) && platform().admits(*map_, *goal);
   return can_be_reached ? goal : std::nullopt;
+}
+
+VANTAGE_INLINE const detail::BlockWays& Situation::ways() const {
+  const VoxelFrame& frame = map_->frame();
+  if (!ways_ || ways_->frame().size_m != frame.size_m) {
+    ways_ = std::make_shared<detail::BlockWays>(frame, detail::side_for(frame.size_m));
+  }
+  if (!std::exchange(ways_follow_, true)) {
+    ways_->follow([&space = reachable()](const VoxelIndex& brick) {
+      const BrickPlane* const cells = space.find(brick);
+      return cells == nullptr ? BrickPlane{} : *cells;
+    });
+  }
+  return *ways_;
+}
+
+VANTAGE_INLINE std::vector<VoxelIndex> Situation::way_to(const VoxelIndex& goal) const {
+  const ReachableSpace& space = reachable();
+  if (!space.start() || (map_->frame().centre_of(goal) - map_->frame().centre_of(*space.start())).norm() <=
+                            detail::kFarCells * map_->resolution_m()) {
+    return GridPaths(space).to(goal);
+  }
+  const std::vector<VoxelIndex> blocks = ways().way(*space.start(), goal);
+  std::vector<VoxelIndex> way;
+  for (std::size_t at = 0; at + 1 < blocks.size();) {
+    const std::size_t next = std::min(at + detail::kBlocksAtOnce, blocks.size() - 1);
+    const std::vector<VoxelIndex> part = GridPaths(space, blocks[at]).to(blocks[next]);
+    way.insert(way.end(), part.begin() + (at == 0 ? 0 : 1), part.end());
+    at = next;
+  }
+  return way;
 }
 
 VANTAGE_INLINE const FollowingCaster& Situation::looking() const {

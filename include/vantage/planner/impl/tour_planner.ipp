@@ -27,9 +27,6 @@ namespace detail {
 // Views at the front of a tour that are chosen anew for a shorter tour.
 inline constexpr std::size_t kRefined = 3;
 
-// Blocks of about a metre.
-inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
-
 // The nearest sites, nearest first, and the ways from the start to them and to what is near to them.
 struct NearestSites {
   const BlockWays& ways;
@@ -37,8 +34,8 @@ struct NearestSites {
   std::vector<FrontierSite> sites;
   std::vector<double> lengths;  // see BlockWays::lengths_from
 
-  NearestSites(const Situation& situation, const TourOptions& options, const BlockWays& all_ways)
-      : ways(all_ways), start(*situation.reachable().start()) {
+  NearestSites(const Situation& situation, const TourOptions& options)
+      : ways(situation.ways()), start(*situation.reachable().start()) {
     std::vector<FrontierSite> all = detail::frontier_sites(
         situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
     std::vector<VoxelIndex> places(all.size());
@@ -232,15 +229,7 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 }
 
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
-  const VoxelFrame& frame = situation().map().frame();
-  if (!ways_ || ways_->frame().size_m != frame.size_m) {
-    ways_ = std::make_shared<detail::BlockWays>(frame, detail::side_for(frame.size_m));
-  }
-  ways_->follow([&space = situation().reachable()](const VoxelIndex& brick) {
-    const BrickPlane* const cells = space.find(brick);
-    return cells == nullptr ? BrickPlane{} : *cells;
-  });
-  const detail::NearestSites nearest(situation(), options_, *ways_);
+  const detail::NearestSites nearest(situation(), options_);
   const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation().current().translation());
   ChosenView chosen = situation().sensor().looks_all_around()
                           ? detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, plan)

@@ -89,20 +89,20 @@ struct Met {
   std::uint32_t before;  // number of the cell before it
 };
 
-// Best-first search from the start of the space until `is_goal(cell, cost)`. `heuristic` must not overestimate.
+// Best-first search from `start` until `is_goal(cell, cost)`. `heuristic` must not overestimate.
 // `met` receives the cells that it meets, by number.
 template <class IsGoal, class Heuristic>
-std::vector<VoxelIndex> search(const ReachableSpace& space, IsGoal&& is_goal, Heuristic&& heuristic,
-                               std::vector<Met>& met) {
+std::vector<VoxelIndex> search(const ReachableSpace& space, const std::optional<VoxelIndex>& start,
+                               IsGoal&& is_goal, Heuristic&& heuristic, std::vector<Met>& met) {
   using Entry = std::pair<std::uint32_t, std::uint32_t>;  // cost + heuristic, number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   MetCells number_of(space);
-  if (!space.start()) {
+  if (!start) {
     return {};
   }
-  number_of(*space.start()) = 0;
-  met.push_back({*space.start(), 0, kNoCell});
-  open.emplace(heuristic(*space.start()), 0U);
+  number_of(*start) = 0;
+  met.push_back({*start, 0, kNoCell});
+  open.emplace(heuristic(*start), 0U);
   std::array<std::uint32_t*, 27> numbers{};
   OpenNeighbours around{};
   around[place_of({0, 0, 0})] = true;
@@ -182,7 +182,7 @@ VANTAGE_INLINE std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const Vox
   const BrickSet wanted(goals);
   std::vector<detail::Met> met;
   return detail::search(
-      space_, [&](const VoxelIndex& cell, std::uint32_t) { return wanted.contains(cell); },
+      space_, start_, [&](const VoxelIndex& cell, std::uint32_t) { return wanted.contains(cell); },
       [](const VoxelIndex&) { return 0U; }, met);
 }
 
@@ -194,7 +194,7 @@ VANTAGE_INLINE NearGoals GridPaths::nearest_within(std::span<const VoxelIndex> g
   double furthest = 5e9;
   std::vector<detail::Met> met;
   (void)detail::search(
-      space_,
+      space_, start_,
       [&](const VoxelIndex& cell, std::uint32_t cost) {
         if (cost > furthest) {
           return true;
@@ -216,7 +216,7 @@ VANTAGE_INLINE std::vector<VoxelIndex> GridPaths::to(const VoxelIndex& goal) con
   }
   std::vector<detail::Met> met;
   return detail::search(
-      space_, [&](const VoxelIndex& cell, std::uint32_t) { return cell == goal; },
+      space_, start_, [&](const VoxelIndex& cell, std::uint32_t) { return cell == goal; },
       [&](const VoxelIndex& cell) { return detail::bound(cell, goal); }, met);
 }
 

@@ -67,18 +67,18 @@ class UnknownSight::Chances {
  public:
   Chances(const VoxelBox& box, const Eigen::Vector3d& sensor, double min_range_m, const VoxelFrame& frame)
       : best_(box, 0),
-        row_length_(static_cast<std::size_t>(box.extent().x)),
-        raised_(best_.size() / row_length_, 0),
+        raised_(static_cast<std::size_t>(box.extent().y) * static_cast<std::size_t>(box.extent().z), 0),
         sensor_(sensor),
         min_range_m_(min_range_m),
         frame_(frame) {}
 
   void raise(const VoxelIndex& cell, double chance) {
     if (best_.contains(cell)) {
-      const std::size_t offset = best_.offset_of(cell);
-      std::uint16_t& best = best_.values()[offset];
-      best = std::max(best, static_cast<std::uint16_t>(std::lround(chance * kWhole)));
-      raised_[offset / row_length_] = 1;
+      std::uint16_t& best = best_.values()[best_.offset_of(cell)];
+      best = std::max(best, static_cast<std::uint16_t>(chance * kWhole + 0.5));
+      const VoxelBox& box = best_.box();
+      const auto rows = static_cast<std::size_t>(box.hi.y - box.lo.y);
+      raised_[static_cast<std::size_t>(cell.z - box.lo.z) * rows + static_cast<std::size_t>(cell.y - box.lo.y)] = 1;
     }
   }
   // Surfaces within the minimum range give no return.
@@ -107,7 +107,8 @@ class UnknownSight::Chances {
   static constexpr double kWhole = 65535.0;
 
   void append_row(std::size_t row, std::vector<SightedCell>& seen) const {
-    for (std::size_t i = row * row_length_; i < (row + 1) * row_length_; ++i) {
+    const std::size_t length = best_.size() / raised_.size();
+    for (std::size_t i = row * length; i < (row + 1) * length; ++i) {
       if (best_.values()[i] == 0) {
         continue;
       }
@@ -119,7 +120,6 @@ class UnknownSight::Chances {
   }
 
   VoxelGrid<std::uint16_t> best_;
-  std::size_t row_length_;
   std::vector<std::uint8_t> raised_;  // per row along x: whether a cell has a probability
   Eigen::Vector3d sensor_;
   double min_range_m_;
