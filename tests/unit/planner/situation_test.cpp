@@ -7,12 +7,14 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vantage/robot/free_flyer.hpp>
+#include <vantage/robot/grid_path.hpp>
 #include <vector>
 
 namespace vantage {
@@ -102,6 +104,60 @@ TEST(Situation, AGoalAheadThatCanNoLongerBeReachedIsNone) {
   situation.sync(map, in_the_first_room());
   EXPECT_TRUE(situation.tried().goal_ahead());
   EXPECT_FALSE(situation.goal_ahead());
+}
+
+// A long hall with blocks in the way. The exact search is the oracle.
+TEST(Situation, AWayIsTheShortestOrNearlySoIfTheGoalIsFar) {
+  std::mt19937 engine(23);
+  std::size_t near = 0;
+  std::size_t far = 0;
+  double longer = 0.0;
+  for (int world = 0; world < 4; ++world) {
+    OccupancyMap map({.resolution_m = 0.2});
+    for_each_cell({{0, 0, 0}, {420, 60, 5}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+    for (int block = 0; block < 36; ++block) {
+      const VoxelIndex lo{static_cast<std::int32_t>(10 + engine() % 390), static_cast<std::int32_t>(engine() % 50),
+                          0};
+      for_each_cell({lo, lo + VoxelIndex{8, 22, 5}}, [&](const VoxelIndex& cell) {
+        if (cell.y < 60) {
+          map.set(cell, Occupancy::Occupied);
+        }
+      });
+    }
+    Situation situation(robot_with(round_about(), 0.25));
+    situation.sync(map, pose_looking({1.0, 6.0, 0.5}, 0.0));
+    const GridPaths exact(situation.reachable());
+    const auto length_of = [&](const std::vector<VoxelIndex>& way) {
+      double sum = 0.0;
+      for (std::size_t i = 1; i < way.size(); ++i) {
+        sum += (map.frame().centre_of(way[i]) - map.frame().centre_of(way[i - 1])).norm();
+      }
+      return sum;
+    };
+    for (int i = 0; i < 25; ++i) {
+      const VoxelIndex goal = situation.reachable().cell(engine() % situation.reachable().size());
+      const std::vector<VoxelIndex> way = situation.way_to(goal);
+      const std::vector<VoxelIndex> shortest = exact.to(goal);
+      ASSERT_FALSE(way.empty());
+      EXPECT_EQ(way.front(), *situation.reachable().start());
+      EXPECT_EQ(way.back(), goal);
+      for (std::size_t at = 1; at < way.size(); ++at) {
+        const VoxelIndex step = way[at] - way[at - 1];
+        EXPECT_EQ(std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}), 1);
+        EXPECT_TRUE(situation.reachable().contains(way[at]));
+      }
+      const bool is_far =
+          (map.frame().centre_of(goal) - map.frame().centre_of(*situation.reachable().start())).norm() > 60.0;
+      ++(is_far ? far : near);
+      longer += is_far ? length_of(way) / length_of(shortest) : 0.0;
+      EXPECT_TRUE(is_far || way == shortest);
+    }
+    EXPECT_TRUE(situation.way_to({9, 9, 90}).empty());
+    EXPECT_TRUE(situation.way_to({900, 9, 2}).empty());
+  }
+  EXPECT_GT(near, 30U);
+  EXPECT_GT(far, 10U);
+  EXPECT_LT(longer / static_cast<double>(far), 1.05);
 }
 
 TEST(Situation, ARoomThatIsKnownIsExplored) {

@@ -97,12 +97,17 @@ class SightMemory {
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
   // The number of the blocks of a brick, stored if necessary.
   BrickDirectory::Number store(const VoxelIndex& brick);
+  // Makes the blocks of a brick, stored if necessary, the last ones.
+  void turn_to(const VoxelIndex& brick);
+  // Whether any of these cells may be reachable.
+  [[nodiscard]] bool may_hold_places(const VoxelBox& cells);
   // The answer of a cell, a new one if there is none. Valid until the next call.
   [[nodiscard]] Answer& answer_of(const VoxelIndex& cell);
   void touch(const VoxelIndex& brick);
   [[nodiscard]] bool stands(const Answer& answer) const;
   static std::uint64_t bit_of(std::size_t offset) { return std::uint64_t{1} << (offset & 63U); }
 
+  static constexpr std::size_t kRemembered = 4096;  // bricks and boxes of the searches of one survey
   static constexpr VoxelIndex kNoBrick{std::numeric_limits<std::int32_t>::max(), 0, 0};
 
   double cell_size_m_ = 0.0;
@@ -116,10 +121,19 @@ class SightMemory {
   std::deque<BrickBlocks> bricks_;
   BrickTree places_;               // bricks with reachable cells, resting or not
   std::vector<VoxelBox> resting_;  // TriedViews::resting of the last follow
-  // The brick of the last is_clear since `follow`; no block moves while others are stored.
-  BrickBlocks* last_blocks_ = nullptr;
-  VoxelIndex last_brick_ = kNoBrick;
-  BrickDirectory::Number last_number_ = BrickDirectory::kNone;
+  // A brick of an is_clear since `follow`; no block moves while others are stored.
+  struct Visited {
+    VoxelIndex brick = kNoBrick;
+    BrickDirectory::Number number = BrickDirectory::kNone;
+    BrickBlocks* blocks = nullptr;
+  };
+  Visited last_;
+  std::vector<Visited> visited_;  // by hash of the brick
+  struct Asked {
+    VoxelBox bricks;
+    bool may_hold = false;
+  };
+  std::vector<Asked> asked_boxes_;  // by hash of the box, since `follow`
   std::uint32_t survey_ = 0;
   VoxelBox touched_;  // around the bricks that were written for this survey, as far as a search looks
   bool all_changed_ = true;
@@ -130,24 +144,22 @@ class SightMemory {
 };
 
 inline bool SightMemory::is_clear(const VoxelIndex& cell) {
-  if (const VoxelIndex brick = Brick::of_cell(cell); brick != last_brick_) {
-    last_brick_ = brick;
-    last_number_ = store(brick);  // stored even if unknown, so that a later change is noticed
-    last_blocks_ = &bricks_[last_number_];
+  if (const VoxelIndex brick = Brick::of_cell(cell); brick != last_.brick) {
+    turn_to(brick);  // stored even if unknown, so that a later change is noticed
   }
   const std::size_t offset = Brick::offset_of(cell);
   const std::size_t word = offset >> 6U;
-  Block& block = last_blocks_->blocks[word];
+  Block& block = last_.blocks->blocks[word];
   if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
-    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_number_ * Brick::kWords + word));
+    asked_->looked_at.push_back(static_cast<std::uint32_t>(last_.number * Brick::kWords + word));
   }
   return (block.clear & bit_of(offset)) != 0;
 }
 
 inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {
   const VoxelIndex brick = Brick::of_cell(cell);
-  const BrickBlocks* blocks = last_blocks_;
-  if (brick != last_brick_) {
+  const BrickBlocks* blocks = last_.blocks;
+  if (brick != last_.brick) {
     const BrickDirectory::Number number = directory_.find(brick);
     blocks = number == BrickDirectory::kNone ? nullptr : &bricks_[number];
   }
@@ -170,7 +182,7 @@ std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& cell, std::
   answer.viewpoint = tree_->first(
       cell,
       [&](const VoxelBox& cells) {
-        const bool may_hold = places_.touches(cells);
+        const bool may_hold = may_hold_places(cells);
         if (!may_hold) {
           answer.without_places.push_back(cells);
         }

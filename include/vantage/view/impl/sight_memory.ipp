@@ -36,8 +36,9 @@ VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const Reachable
     all_changed_ = !map_.is(map);
   }
   asked_ = nullptr;
-  last_blocks_ = nullptr;
-  last_brick_ = kNoBrick;
+  last_ = {};
+  visited_.assign(kRemembered, {});
+  asked_boxes_.assign(kRemembered, {});
   ++survey_;
   touched_ = {};
   follow_clear(map);
@@ -109,6 +110,25 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
       for_each_cell(Brick::over(box), update);
     }
   }
+}
+
+VANTAGE_INLINE void SightMemory::turn_to(const VoxelIndex& brick) {
+  Visited& visited = visited_[std::hash<VoxelIndex>{}(brick) % kRemembered];
+  if (visited.brick != brick) {
+    const BrickDirectory::Number number = store(brick);
+    visited = {brick, number, &bricks_[number]};
+  }
+  last_ = visited;
+}
+
+VANTAGE_INLINE bool SightMemory::may_hold_places(const VoxelBox& cells) {
+  const VoxelBox bricks = Brick::over(cells);
+  const std::hash<VoxelIndex> hash;
+  Asked& asked = asked_boxes_[(hash(bricks.lo) + 7 * hash(bricks.hi)) % kRemembered];
+  if (asked.bricks != bricks) {
+    asked = {bricks, places_.touches(cells)};
+  }
+  return asked.may_hold;
 }
 
 VANTAGE_INLINE BrickDirectory::Number SightMemory::store(const VoxelIndex& brick) {

@@ -56,16 +56,24 @@ VANTAGE_INLINE AccumulatedUtility accumulate_utility(const OccupancyMap& map, co
   const double furthest_m = std::min(max_range_m, frame.box_of(map.bounds()).extent().norm() + frame.size_m);
   AccumulatedUtility utility;
   BrickGrid<std::uint64_t> sums(0);
+  BrickGrid<std::uint64_t>::Writer sum_of(sums);
+  VoxelIndex brick;  // that a ray is in, and its reachable cells; null if it has none
+  const BrickPlane* places = nullptr;
   for (const UtilityVector& vector : vectors) {
     const Eigen::Vector3d from = frame.centre_of(vector.frontier);
     for (const VoxelIndex& cell : VoxelRay(frame, from, from + furthest_m * vector.direction)) {
       ++utility.operations;
-      if (!reachable.contains(cell)) {
+      if (const VoxelIndex in = Brick::of_cell(cell); in != brick || places == nullptr) {
+        brick = in;
+        places = reachable.find(brick);
+      }
+      const std::size_t offset = Brick::offset_of(cell);
+      if (places == nullptr || ((*places)[offset >> 6U] >> (offset & 63U) & 1U) == 0) {
         if (!map.is_clear(cell)) {
           break;
         }
       } else if ((frame.centre_of(cell) - from).squaredNorm() >= min_range_m * min_range_m) {
-        sums[cell] += vector.utility;
+        sum_of(cell) += vector.utility;
       }
     }
   }
