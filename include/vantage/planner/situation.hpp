@@ -83,6 +83,8 @@ class Situation {
   [[nodiscard]] const ReachableSpace& reachable() const { return surveyor_.reachable(); }
   /// Frontier cells and their clusters.
   [[nodiscard]] const FrontierTracker& frontier() const { return *frontier_; }
+  /// All frontier cells in raster order.
+  [[nodiscard]] const std::vector<VoxelIndex>& frontier_cells() const { return frontier_cells_; }
   /// The memory of tried views.
   [[nodiscard]] const TriedViews& tried() const { return tried_; }
   /// The goal (world_from_sensor) to which the robot is on its way, see TriedViews::goal_ahead, if it can still be
@@ -121,11 +123,12 @@ class Situation {
   const OccupancyMap* map_ = nullptr;
   Pose current_ = Pose::Identity();
   Following<FrontierTracker> frontier_;
+  std::vector<VoxelIndex> frontier_cells_;  // of the last sync
   TriedViews tried_;
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;
   mutable FollowingCaster looking_;
-  mutable bool looking_follows_ = false;  // whether looking_ is up to date with the map of the last sync
+  mutable bool looking_follows_ = false;             // whether looking_ is up to date with the map of the last sync
   mutable std::shared_ptr<detail::BlockWays> ways_;  // shared, because the type is incomplete here
   mutable bool ways_follow_ = false;
   double sync_ms_ = 0.0;

@@ -162,7 +162,7 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(std::size_
   std::vector<VoxelBox> near = detail::boxes_around(search_.frontier, map.frame().cells_up_to(sensor.max_range_m));
   if (!sight_ || near != near_) {  // else a view in this map was refused, and only the targets have changed
     near_ = std::move(near);
-    const BrickSet cells = void_cells_->cells_behind(situation().frontier().cells(), near_);
+    const BrickSet cells = void_cells_->cells_behind(situation().frontier_cells(), near_);
     search_.voids = strategy.in_tiles ? clusters_.update(cells, map.frame())
                                       : cluster_void_cells(cells.cells(), map.frame(), options_.clusters);
     clustered_ = map.revision();

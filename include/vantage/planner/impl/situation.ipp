@@ -58,6 +58,7 @@ VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current
   detail::Stopwatch watch;
   current_ = orthonormalised(current);
   frontier_.follow(map);
+  frontier_cells_ = frontier_->cells();
   map_ = &map;
   looking_follows_ = false;
   if (tried_.review(map, current_)) {
@@ -69,9 +70,9 @@ VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current
 
 VANTAGE_INLINE void Situation::find_targets() {
   ways_follow_ = false;
-  survey_ = surveyor_.survey(*map_, current_, tried_, frontier_->cells());
+  survey_ = surveyor_.survey(*map_, current_, tried_, frontier_cells_);
   if (survey_.targets.empty() && tried_.try_resting_again()) {
-    survey_ = surveyor_.survey(*map_, current_, tried_, frontier_->cells());
+    survey_ = surveyor_.survey(*map_, current_, tried_, frontier_cells_);
   }
 }
 
@@ -81,7 +82,7 @@ VANTAGE_INLINE void Situation::note_what_was_in_vain() {
   const VoxelIndex here = map_->frame().cell_of(current_.translation());
   const double furthest_m = std::min(sensor().max_range_m, 0.5 * sensor().resolving_range_m(map_->resolution_m()));
   std::uint64_t operations = 0;
-  for (const VoxelIndex& cell : frontier_->cells()) {
+  for (const VoxelIndex& cell : frontier_cells_) {
     if ((map_->frame().centre_of(cell) - current_.translation()).norm() > furthest_m) {
       continue;
     }
@@ -190,8 +191,7 @@ VANTAGE_INLINE bool Situation::stands_beside_unknown() const {
       return box.distance_to(reachable().position_in(place)) < near_m;
     });
   };
-  const std::vector<VoxelIndex> frontier = frontier_->cells();
-  return std::any_of(frontier.begin(), frontier.end(), [&](const VoxelIndex& cell) {
+  return std::any_of(frontier_cells_.begin(), frontier_cells_.end(), [&](const VoxelIndex& cell) {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
       return map_->in_region(cell + step) && map_->at(cell + step) == Occupancy::Unknown && is_near(cell + step);
     });
@@ -288,7 +288,7 @@ VANTAGE_INLINE std::optional<VoxelIndex> Situation::viewpoint_among(std::vector<
   }
   std::sort(places.begin(), places.end(), RasterOrder{});
   FrontierSurveyor surveyor(setup_.platform, setup_.sensor, options_);
-  const FrontierSurvey survey = surveyor.survey_from(places, *map_, tried_, frontier_->cells());
+  const FrontierSurvey survey = surveyor.survey_from(places, *map_, tried_, frontier_cells_);
   return survey.targets.empty() ? std::nullopt : std::optional(survey.targets.front().viewpoint);
 }
 

@@ -64,7 +64,8 @@ class SightMemory {
   template <class Passes, class Serves>
   [[nodiscard]] std::optional<VoxelIndex> look_around(const VoxelIndex& cell, std::uint32_t about, bool anew,
                                                       const Passes& passes, const Serves& serves);
-  /// Deletes the answers that may differ and were not requested since the last `follow`.
+  /// Deletes the answers that may differ and were not requested since the last `follow`, if there are now twice as
+  /// many answers as after the last deletion.
   void forget_others();
 
  private:
@@ -140,6 +141,7 @@ class SightMemory {
   std::uint32_t question_ = 0;
   Answer* asked_ = nullptr;  // the answer being searched; null outside of a search
   std::vector<Answer> answers_;
+  std::size_t kept_answers_ = 0;       // by the last deletion
   VoxelTable<std::uint32_t> numbers_;  // of the answers, by cell
 };
 
@@ -176,7 +178,11 @@ std::optional<VoxelIndex> SightMemory::look_around(const VoxelIndex& cell, std::
   if (answer.about == about && (asked_before || (!anew && stands(answer)))) {
     return answer.viewpoint;
   }
-  answer = {.cell = cell, .about = about, .found = survey_, .asked = survey_};
+  answer.may_stand = false;
+  answer.about = about;
+  answer.found = survey_;
+  answer.looked_at.clear();
+  answer.without_places.clear();
   asked_ = &answer;
   ++question_;
   answer.viewpoint = tree_->first(

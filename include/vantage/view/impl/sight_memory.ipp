@@ -51,6 +51,7 @@ VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const Reachable
 
 VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count) {
   answers_.clear();
+  kept_answers_ = 0;
   numbers_.clear();
   cell_size_m_ = 0.0;  // starts again if the next lines throw
   tree_.emplace(map.frame(), is_level_ ? level_directions(direction_count) : spread_directions(direction_count),
@@ -179,6 +180,9 @@ VANTAGE_INLINE SightMemory::Answer& SightMemory::answer_of(const VoxelIndex& cel
 }
 
 VANTAGE_INLINE void SightMemory::forget_others() {
+  if (answers_.size() <= 2 * kept_answers_) {
+    return;
+  }
   if (std::erase_if(answers_,
                     [&](const Answer& answer) { return answer.asked != survey_ && may_differ(answer.cell); }) > 0) {
     numbers_.clear();
@@ -186,6 +190,7 @@ VANTAGE_INLINE void SightMemory::forget_others() {
       numbers_.place(answer.cell, static_cast<std::uint32_t>(&answer - answers_.data()));
     }
   }
+  kept_answers_ = answers_.size();
 }
 
 }  // namespace vantage::detail
