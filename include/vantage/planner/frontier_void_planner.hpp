@@ -35,7 +35,8 @@ struct FrontierVoidStrategy {
   /// Additional candidates, at most this many, from the nearest places that see a void through its frontier, >= 0.
   /// Places and directions are drawn by the size of voids, which misses the small ones.
   std::size_t near_views = 0;
-  /// All views are first ranked with a sixteenth of the rays, and this many of the best again with all rays, >= 1.
+  /// All views are first ranked with a sixteenth of the rays, and this many of the best again with a quarter
+  /// of them, >= 1. The chosen one is looked at with all rays, as are all views if there are no more than this.
   std::size_t finalists = 5;
   /// UnknownSightOptions::opaque_share for void cells, in (0, 1]. With 1, only the first void cell of a ray counts.
   double opaque_share = 0.05;
@@ -121,8 +122,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   struct Candidate {
     View view;  // its utility is the expected number of void cells
     double value = 0.0;
-    std::uint64_t operations = 0;        // cells on its rays
-    std::vector<SightedCell> seen = {};  // by all rays; empty, and found again, if there are many candidates
+    std::uint64_t operations = 0;  // cells on its rays
   };
 
   void clear_search();
