@@ -35,9 +35,11 @@ struct FrontierVoidStrategy {
   /// Additional candidates, at most this many, from the nearest places that see a void through its frontier, >= 0.
   /// Places and directions are drawn by the size of voids, which misses the small ones.
   std::size_t near_views = 0;
-  /// All views are first ranked with a sixteenth of the rays, and this many of the best again with a quarter
-  /// of them, >= 1. The chosen one is looked at with all rays, as are all views if there are no more than this.
+  /// If there are more views than this, all are first ranked with a sixteenth of the rays, and this many of the best
+  /// again with a quarter of them, or with all if `all_rays`. >= 1. The chosen view is always looked at with all
+  /// rays.
   std::size_t finalists = 5;
+  bool all_rays = false;  ///< ranks the finalists with all rays
   /// UnknownSightOptions::opaque_share for void cells, in (0, 1]. With 1, only the first void cell of a ray counts.
   double opaque_share = 0.05;
   double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface, in (0, 1]
@@ -72,6 +74,7 @@ struct FrontierVoidStrategy {
             .sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
             .cost_per_m = 0.0,
             .finalists = 30,
+            .all_rays = true,
             .sought_chance = 0.0,
             .beyond_voids = false};
   }

@@ -205,10 +205,10 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{{pose}}; });
   const Eigen::Vector3d here = situation().current().translation();
   const FollowingCaster& looking = situation().looking();
+  const bool few_rays = views.size() > options_.strategy.finalists && !options_.strategy.all_rays;
   detail::rank_views(
       looking, situation().setup().threads, candidates, options_.strategy.finalists,
-      views.size() > options_.strategy.finalists ? looking.medium_rays() : looking.rays(),
-      plan.statistics.ray_operations,
+      few_rays ? looking.medium_rays() : looking.rays(), plan.statistics.ray_operations,
       [&](Candidate& candidate, const ViewRays& rays) {
         View& view = candidate.view;
         view.utility = detail::expected(void_cells_seen(view.pose, rays, candidate.operations));
