@@ -35,11 +35,10 @@ struct FrontierVoidStrategy {
   /// Additional candidates, at most this many, from the nearest places that see a void through its frontier, >= 0.
   /// Places and directions are drawn by the size of voids, which misses the small ones.
   std::size_t near_views = 0;
-  /// If there are more views than this, all are first ranked with a sixteenth of the rays, and this many of the best
-  /// again with a quarter of them, or with all if `all_rays`. >= 1. The chosen view is always looked at with all
-  /// rays.
+  /// If there are more views than this, all are first ranked with a sixteenth of the rays, this many of the best
+  /// again with a quarter, and `best` of these with all. >= 1.
   std::size_t finalists = 5;
-  bool all_rays = false;  ///< ranks the finalists with all rays
+  std::size_t best = 2;  ///< finalists that are ranked with all rays, >= 1
   /// UnknownSightOptions::opaque_share for void cells, in (0, 1]. With 1, only the first void cell of a ray counts.
   double opaque_share = 0.05;
   double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface, in (0, 1]
@@ -74,7 +73,7 @@ struct FrontierVoidStrategy {
             .sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
             .cost_per_m = 0.0,
             .finalists = 30,
-            .all_rays = true,
+            .best = 30,
             .sought_chance = 0.0,
             .beyond_voids = false};
   }
@@ -125,7 +124,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   struct Candidate {
     View view;  // its utility is the expected number of void cells
     double value = 0.0;
-    std::uint64_t operations = 0;  // cells on its rays
+    std::uint64_t operations = 0;        // cells on its rays
+    std::vector<SightedCell> seen = {};  // with all rays; empty if there are many candidates
   };
 
   void clear_search();

@@ -25,6 +25,8 @@ inline constexpr std::size_t kMostVectors = 50'000;  // see utility_vectors
 inline constexpr std::size_t kNearTargets = 20'000;
 // Views of targets that are tested before the planner concludes that no view sees a void.
 inline constexpr std::size_t kProofViews = 50;
+// Of so many views it is kept what they see. So memory does not grow with the number of views.
+inline constexpr std::size_t kRememberedViews = 10;
 
 inline std::string volume(double cells, double cell_m) {
   const double litres = cells * std::pow(10.0 * cell_m, 3);
@@ -205,19 +207,23 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{{pose}}; });
   const Eigen::Vector3d here = situation().current().translation();
   const FollowingCaster& looking = situation().looking();
-  const bool few_rays = views.size() > options_.strategy.finalists && !options_.strategy.all_rays;
   detail::rank_views(
-      looking, situation().setup().threads, candidates, options_.strategy.finalists,
-      few_rays ? looking.medium_rays() : looking.rays(), plan.statistics.ray_operations,
+      looking, situation().setup().threads, candidates, options_.strategy.finalists, options_.strategy.best,
+      plan.statistics.ray_operations,
       [&](Candidate& candidate, const ViewRays& rays) {
         View& view = candidate.view;
-        view.utility = detail::expected(void_cells_seen(view.pose, rays, candidate.operations));
+        std::vector<SightedCell> seen = void_cells_seen(view.pose, rays, candidate.operations);
+        view.utility = detail::expected(seen);
         candidate.value = discounted(view.utility, (view.pose.translation() - here).norm());
+        if (&rays == &looking.rays() && candidates.size() <= detail::kRememberedViews) {
+          candidate.seen = std::move(seen);
+        }
       },
       [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
   const double least = detail::least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
   std::optional<ChosenView> best;
   double best_value = 0.0;
+  std::vector<SightedCell> best_sees;
   for (const Candidate& candidate : candidates) {
     if (best && candidate.value <= best_value) {
       break;  // the discounted value along a path is at most that of the straight line
@@ -236,13 +242,15 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
       view.view.utility = candidate.view.utility;
       best = ChosenView{std::move(view), std::move(*path)};
       best_value = value;
+      best_sees = candidate.seen;
     }
   }
   if (best) {
-    const std::vector<SightedCell> seen =
-        void_cells_seen(best->view.view.pose, looking.rays(), plan.statistics.ray_operations);
-    best->view.view.utility = detail::expected(seen);
-    for (const SightedCell& one : seen) {
+    if (best_sees.empty()) {
+      best_sees = void_cells_seen(best->view.view.pose, looking.rays(), plan.statistics.ray_operations);
+      best->view.view.utility = detail::expected(best_sees);
+    }
+    for (const SightedCell& one : best_sees) {
       (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
     }
     plan.candidates.clear();

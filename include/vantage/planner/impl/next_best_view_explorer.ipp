@@ -54,7 +54,7 @@ VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan
   const VoxelBox everywhere = map.region() ? *map.region() : map.bounds().grown(1);
   const FollowingCaster& looking = situation().looking();
   detail::rank_views(
-      looking, situation().setup().threads, drawn, kFinalists, looking.rays(), plan.statistics.ray_operations,
+      looking, situation().setup().threads, drawn, kFinalists, kFinalists, plan.statistics.ray_operations,
       [&](Drawn& candidate, const ViewRays& rays) {
         const ViewEvaluation seen = evaluate_view(looking.caster(), candidate.view.pose, rays, everywhere);
         candidate.view.utility = static_cast<double>(seen.unknown) * candidate.nearness;

@@ -83,7 +83,7 @@ VANTAGE_INLINE std::optional<Look> LookDirections::best(const FollowingCaster& l
     return std::nullopt;
   }
   rank_views(
-      looking, threads, looks, kFinalists, looking.rays(), operations_,
+      looking, threads, looks, kFinalists, kFinalists, operations_,
       [&](Look& look, const ViewRays& rays) { count_expected_cells(look, looking.caster(), rays); },
       [](const Look& a, const Look& b) {
         return a.cells != b.cells ? a.cells > b.cells : a.seen.unknown.size() > b.seen.unknown.size();
