@@ -152,6 +152,29 @@ TEST(FrontierVoidPlanner, TakesTheBestByItsWay) {
   EXPECT_GE(compared, 15U);
 }
 
+// A robot that plans on its way weighs its goal against the views that it draws anew. So it does not turn to and fro.
+TEST(FrontierVoidPlanner, WeighsTheGoalAheadAgain) {
+  Robot robot;
+  FrontierVoidPlanner planner(robot.setup());
+  std::size_t weighed = 0;
+  Plan plan = planner.plan(robot.map, robot.pose);
+  for (int step = 0; step < 40 && plan.outcome == Outcome::Move; ++step) {
+    const Pose goal = plan.goal.pose;
+    const Eigen::Vector3d way = plan.path[1].translation() - robot.pose.translation();
+    const bool is_on_its_way = way.norm() > 0.5;
+    robot.pose = is_on_its_way ? robot.pose : goal;
+    if (is_on_its_way) {
+      robot.pose.translation() += 0.4 * way.normalized();
+    }
+    robot.look();
+    plan = planner.plan(robot.map, robot.pose);
+    const bool knows = std::any_of(plan.candidates.begin(), plan.candidates.end(),
+                                   [&](const View& view) { return view.pose.matrix() == goal.matrix(); });
+    weighed += is_on_its_way && knows ? 1U : 0U;
+  }
+  EXPECT_GT(weighed, 2U);
+}
+
 TEST(FrontierVoidPlanner, FinishesWhatLiesNear) {
   Robot robot;
   FrontierVoidPlanner planner(robot.setup(), {.strategy = FrontierVoidStrategy::travelling()});

@@ -144,6 +144,11 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::view_of_voids(std:
                                           options_.views, situation().setup().seed);
   const std::vector<Pose> near = of_voids.near(options_.strategy.near_views);
   views.insert(views.end(), near.begin(), near.end());
+  // Where far views count less, the goal ahead gains with every step. So a robot that plans on its way does not turn
+  // to and fro.
+  if (const auto goal = situation().goal_ahead(); goal && options_.strategy.cost_per_m > 0.0) {
+    views.push_back(*goal);
+  }
   std::optional<ChosenView> choice = best_of(views, plan);
   return choice ? std::move(choice)
                 : best_of(of_voids.of_targets(std::min(options_.views, detail::kProofViews)), plan);
