@@ -63,7 +63,8 @@ class BlockWays {
   /// The length of the way to the centre of `cell`, by the result of `lengths_from(from)`.
   [[nodiscard]] double length_to(const VoxelIndex& cell, const VoxelIndex& from,
                                  const std::vector<double>& lengths) const;
-  /// A way from cell to cell: both, and between them the middle cell of each piece on the way. Empty if there is none.
+  /// A way from cell to cell: both, and between them the middle cell of each piece on the way. Empty if there is
+  /// none.
   [[nodiscard]] std::vector<VoxelIndex> way(const VoxelIndex& from, const VoxelIndex& to) const;
 
  private:

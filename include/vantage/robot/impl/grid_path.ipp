@@ -92,8 +92,8 @@ struct Met {
 // Best-first search from `start` until `is_goal(cell, cost)`. `heuristic` must not overestimate.
 // `met` receives the cells that it meets, by number.
 template <class IsGoal, class Heuristic>
-std::vector<VoxelIndex> search(const ReachableSpace& space, const std::optional<VoxelIndex>& start,
-                               IsGoal&& is_goal, Heuristic&& heuristic, std::vector<Met>& met) {
+std::vector<VoxelIndex> search(const ReachableSpace& space, const std::optional<VoxelIndex>& start, IsGoal&& is_goal,
+                               Heuristic&& heuristic, std::vector<Met>& met) {
   using Entry = std::pair<std::uint32_t, std::uint32_t>;  // cost + heuristic, number
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   MetCells number_of(space);
