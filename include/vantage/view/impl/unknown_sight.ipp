@@ -75,7 +75,7 @@ class UnknownSight::Chances {
   void raise(const VoxelIndex& cell, double chance) {
     if (best_.contains(cell)) {
       std::uint16_t& best = best_.values()[best_.offset_of(cell)];
-      best = std::max(best, static_cast<std::uint16_t>(chance * kWhole + 0.5));
+      best = std::max(best, static_cast<std::uint16_t>(std::lrint(chance * kWhole)));
       const VoxelBox& box = best_.box();
       const auto rows = static_cast<std::size_t>(box.hi.y - box.lo.y);
       raised_[static_cast<std::size_t>(cell.z - box.lo.z) * rows + static_cast<std::size_t>(cell.y - box.lo.y)] = 1;
