@@ -42,14 +42,11 @@ class ExplorationPeer : public FrontierPlanner {
   void sample_views(ViewedSite& site, std::size_t most, Plan& plan) const;
   /// Costs of tours over views, in seconds; the references must outlive it.
   [[nodiscard]] TourLegs legs(const std::vector<double>& from_start, const std::vector<TourView>& views) const {
-    return {situation(), TourCost::Time, velocity_m_s(), situation().ways(), from_start, views};
+    const Eigen::Vector3d velocity_m_s = motion_.velocity_at(situation().current().translation());
+    return {situation(), TourCost::Time, velocity_m_s, situation().ways(), from_start, views};
   }
   /// Takes this view, until half of the cells that it sees are known, those in the middle of the image first.
   [[nodiscard]] ChosenView taking(const TourView& view, const std::vector<VoxelIndex>& unknown);
-  /// The velocity of the robot if it follows the path of the last plan; zero without a motion model in the setup.
-  [[nodiscard]] Eigen::Vector3d velocity_m_s() const {
-    return motion_.velocity_at(situation().current().translation());
-  }
 
  private:
   std::string_view name_;

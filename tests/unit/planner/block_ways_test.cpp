@@ -42,10 +42,7 @@ std::set<VoxelIndex> random_rooms(std::mt19937& engine, std::int32_t height) {
 
 // Leads through these cells from now on.
 void follow(BlockWays& ways, const std::set<VoxelIndex>& cells) {
-  BrickSet set;
-  for (const VoxelIndex& cell : cells) {
-    set.insert(cell);
-  }
+  BrickSet set(std::vector<VoxelIndex>(cells.begin(), cells.end()));
   ways.follow([set = std::move(set)](const VoxelIndex& brick) {
     const BrickPlane* const plane = set.find(brick);
     return plane == nullptr ? BrickPlane{} : *plane;
@@ -87,6 +84,24 @@ std::map<VoxelIndex, double> fine_lengths(const std::set<VoxelIndex>& cells, con
   return lengths;
 }
 
+// Ways through random rooms, in a plane or not, on blocks of either size, and the lengths from one cell as they are.
+struct RoomsWithWays {
+  RoomsWithWays(std::mt19937& engine, int seed)
+      : cells(random_rooms(engine, seed % 2 == 0 ? 1 : 7)),
+        list(cells.begin(), cells.end()),
+        side(seed % 4 < 2 ? 4 : 8),
+        ways(ways_of(cells, side)),
+        from(list[engine() % list.size()]),
+        fine(fine_lengths(cells, from)) {}
+
+  std::set<VoxelIndex> cells;
+  std::vector<VoxelIndex> list;
+  std::int32_t side;
+  BlockWays ways;
+  VoxelIndex from;
+  std::map<VoxelIndex, double> fine;
+};
+
 TEST(BlockWays, DoNotLeakThroughWallsAndAreAboutAsLongAsThoseOverCells) {
   std::mt19937 engine(5);
   std::size_t joined = 0;
@@ -94,12 +109,8 @@ TEST(BlockWays, DoNotLeakThroughWallsAndAreAboutAsLongAsThoseOverCells) {
   double sum = 0.0;
   double fine_sum = 0.0;
   for (int seed = 0; seed < 12; ++seed) {
-    const std::set<VoxelIndex> cells = random_rooms(engine, seed % 2 == 0 ? 1 : 7);
-    const std::vector<VoxelIndex> list(cells.begin(), cells.end());
-    const BlockWays ways = ways_of(cells, seed % 4 < 2 ? 4 : 8);
-    const VoxelIndex from = list[engine() % list.size()];
+    const auto [cells, list, side, ways, from, fine] = RoomsWithWays(engine, seed);
     const std::vector<double> lengths = ways.lengths_from(from);
-    const std::map<VoxelIndex, double> fine = fine_lengths(cells, from);
     for (int i = 0; i < 50; ++i) {
       const VoxelIndex to = list[engine() % list.size()];
       const double length = ways.length_to(to, from, lengths);
@@ -216,12 +227,7 @@ TEST(BlockWays, LeadFromBlockToBlockWhereOneLeadsOverCells) {
   double sum = 0.0;
   double fine_sum = 0.0;
   for (int seed = 0; seed < 16; ++seed) {
-    const std::set<VoxelIndex> cells = random_rooms(engine, seed % 2 == 0 ? 1 : 7);
-    const std::vector<VoxelIndex> list(cells.begin(), cells.end());
-    const std::int32_t side = seed % 4 < 2 ? 4 : 8;
-    const BlockWays ways = ways_of(cells, side);
-    const VoxelIndex from = list[engine() % list.size()];
-    const std::map<VoxelIndex, double> fine = fine_lengths(cells, from);
+    const auto [cells, list, side, ways, from, fine] = RoomsWithWays(engine, seed);
     for (int i = 0; i < 50; ++i) {
       const VoxelIndex to = i == 0 ? from : list[engine() % list.size()];
       const std::vector<VoxelIndex> way = ways.way(from, to);

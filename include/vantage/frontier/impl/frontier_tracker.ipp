@@ -17,10 +17,6 @@ namespace detail {
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-inline bool has(const BrickPlane& plane, std::size_t offset) {
-  return (plane[offset >> 6U] >> (offset & 63U) & 1U) != 0;
-}
-
 inline void join(BrickPlane& plane, const BrickPlane& other) {
   for (std::size_t word = 0; word < Brick::kWords; ++word) {
     plane[word] |= other[word];

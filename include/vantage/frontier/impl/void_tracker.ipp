@@ -221,7 +221,7 @@ VANTAGE_INLINE bool VoidTracker::contains(const VoxelIndex& cell) const {
   const VoxelIndex brick = Brick::of_cell(cell);
   if (const Stored* const stored = find(brick)) {
     const std::size_t offset = Brick::offset_of(cell);
-    return (stored->voids[offset >> 6U] >> (offset & 63U) & 1U) != 0;
+    return detail::has(stored->voids, offset);
   }
   return !hull_.empty() && tiles_.contains(Brick::of_cell(brick)) &&
          std::all_of(planes_.begin(), planes_.end(), [&](const LatticeHull::Plane& plane) {
@@ -250,7 +250,7 @@ VANTAGE_INLINE BrickSet VoidTracker::cells_behind(std::span<const VoxelIndex> fr
     for (const VoxelIndex& step : kFaceNeighbours) {
       const Stored* const brick = find(Brick::of_cell(cell + step));
       const std::size_t offset = Brick::offset_of(cell + step);
-      if (brick == nullptr || (brick->voids[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
+      if (brick == nullptr || detail::has(brick->voids, offset)) {
         starts.push_back(cell + step);
       }
     }

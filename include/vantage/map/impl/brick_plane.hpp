@@ -15,6 +15,11 @@
 
 namespace vantage::detail {
 
+/// Whether a plane holds the cell at this offset, see Brick::offset_of.
+inline bool has(const BrickPlane& plane, std::size_t offset) {
+  return (plane[offset >> 6U] >> (offset & 63U) & 1U) != 0;
+}
+
 /// The bit layout of a sub-brick (4 x 4 x 4 cells, x fastest) along one axis. Cells at coordinate 3 lie `3 * stride`
 /// bits above those at coordinate 0.
 struct Axis {

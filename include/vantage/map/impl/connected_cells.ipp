@@ -160,7 +160,7 @@ VANTAGE_INLINE void ConnectedCells::search(std::span<const VoxelIndex> starts, c
     const std::size_t at = in_tile(brick);
     const std::size_t offset = Brick::offset_of(start);
     for (std::size_t part = tile.first[at]; part < tile.first[at + 1]; ++part) {
-      if ((tile.parts[part].cells[offset >> 6U] >> (offset & 63U) & 1U) != 0) {
+      if (has(tile.parts[part].cells, offset)) {
         reach({number, tile.parts[part].group});
       }
     }

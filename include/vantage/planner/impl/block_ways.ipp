@@ -188,7 +188,7 @@ VANTAGE_INLINE const std::vector<BlockWays::Link>& BlockWays::links(Piece piece)
 VANTAGE_INLINE BlockWays::Piece BlockWays::piece_of(const VoxelIndex& cell) const {
   const std::size_t offset = Brick::offset_of(cell);
   Piece piece = first_in(block_of(cell));
-  while (piece != kNone && (pieces_[piece].cells[offset >> 6U] >> (offset & 63U) & 1U) == 0) {
+  while (piece != kNone && !has(pieces_[piece].cells, offset)) {
     piece = pieces_[piece].next;
   }
   return piece;

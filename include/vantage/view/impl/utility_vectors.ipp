@@ -9,6 +9,7 @@
 #include <vantage/map/brick_grid.hpp>
 #include <vantage/view/utility_vectors.hpp>
 
+#include <vantage/map/impl/brick_plane.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
@@ -67,8 +68,7 @@ VANTAGE_INLINE AccumulatedUtility accumulate_utility(const OccupancyMap& map, co
         brick = in;
         places = reachable.find(brick);
       }
-      const std::size_t offset = Brick::offset_of(cell);
-      if (places == nullptr || ((*places)[offset >> 6U] >> (offset & 63U) & 1U) == 0) {
+      if (places == nullptr || !detail::has(*places, Brick::offset_of(cell))) {
         if (!map.is_clear(cell)) {
           break;
         }
