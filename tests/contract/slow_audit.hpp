@@ -116,14 +116,12 @@ struct LookedAt {
   std::vector<VoxelIndex> left;
   for (const VoxelIndex& cell : unknown) {
     const Eigen::Vector3d centre = frame.centre_of(cell);
-    const auto is_clear = [&](const VoxelIndex& other) {
-      return other == cell || (map.at(other) == Occupancy::Free && !map.contested(other));
-    };
+    const auto is_free = [&](const VoxelIndex& other) { return other == cell || map.at(other) == Occupancy::Free; };
     const auto sought = looked.sought.find(cell);
     const auto is_seen_from = [&](const VoxelIndex& place) {
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
-      const auto in_sight = [&](const Eigen::Vector3d& point) { return touches_only(frame, from, point, is_clear); };
+      const auto in_sight = [&](const Eigen::Vector3d& point) { return touches_only(frame, from, point, is_free); };
       return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
              platform.admits(map, facing) &&
              (in_sight(centre) ||

@@ -69,13 +69,13 @@ class ViewpointSearch {
   // Searches backwards from a frontier cell for a viewpoint that sees a part of one of its unknown neighbours.
   std::optional<FrontierTarget> look_back_from(const VoxelIndex& frontier) {
     std::vector<VoxelIndex> steps;
-    std::uint32_t about = 0;
-    bool any_tried = false;
+    std::uint32_t about = through_contested_ ? 1U << kFaceNeighbours.size() : 0;
+    bool anew = through_contested_;
     for (std::size_t i = 0; i < kFaceNeighbours.size(); ++i) {
       if (is_sought(frontier + kFaceNeighbours[i])) {
         steps.push_back(kFaceNeighbours[i]);
         about |= 1U << i;
-        any_tried = any_tried || tried_.tried(frontier + kFaceNeighbours[i]);
+        anew = anew || tried_.tried(frontier + kFaceNeighbours[i]);
       }
     }
     if (steps.empty()) {
@@ -86,7 +86,7 @@ class ViewpointSearch {
                           [&](const VoxelIndex& step) { return sees_a_part(cell, frontier + step); });
     };
     const std::optional<VoxelIndex> viewpoint = memory_.look_around(
-        frontier, about, any_tried, [&](const VoxelIndex& cell) { return passes(cell); },
+        frontier, about, anew, [&](const VoxelIndex& cell) { return passes(cell); },
         [&](const VoxelIndex& cell) { return seen_from(cell) != steps.end(); });
     return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
                      : std::nullopt;
@@ -120,6 +120,8 @@ class ViewpointSearch {
     });
     return place ? std::optional(FrontierTarget{before, first, *place}) : std::nullopt;
   }
+  // From now on, contested cells do not end a line of sight.
+  void look_through_contested() { through_contested_ = true; }
   [[nodiscard]] std::uint64_t operations() const { return operations_; }
 
  private:
@@ -144,7 +146,9 @@ class ViewpointSearch {
     }
     return std::nullopt;
   }
-  bool clear(const VoxelIndex& cell) const { return memory_.is_clear(cell); }
+  bool clear(const VoxelIndex& cell) const {
+    return through_contested_ ? map_.at(cell) == Occupancy::Free : memory_.is_clear(cell);
+  }
   bool passes(const VoxelIndex& cell) {
     ++operations_;
     return clear(cell);
@@ -219,6 +223,7 @@ class ViewpointSearch {
   const TriedViews& tried_;
   detail::SightMemory& memory_;
   std::vector<VoxelIndex> places_;  // all reachable cells, listed when they are first needed
+  bool through_contested_ = false;
   std::uint64_t operations_ = 0;
 };
 
@@ -257,15 +262,22 @@ void take_seen(std::vector<VoxelIndex>& hidden, std::vector<FrontierTarget>& tar
 }
 
 // The sampled rays may miss a viewpoint, so Explored requires that all pairs are tested, if they are not too many.
-inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidden, FrontierSurvey& survey) {
+inline void take_any_seen(ViewpointSearch& search, bool through_contested, std::vector<VoxelIndex>& hidden,
+                          FrontierSurvey& survey) {
   std::size_t pairs = kExhaustivePairs;
-  take_seen(hidden, survey.targets, [&](const VoxelIndex& cell) {
+  const auto try_all = [&](const VoxelIndex& cell) {
     return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, pairs); });
-  });
+  };
+  take_seen(hidden, survey.targets, try_all);
   const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden, pairs) : std::nullopt;
   if (past) {
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);
+  }
+  if (survey.targets.empty() && through_contested) {
+    search.look_through_contested();
+    take_seen(hidden, survey.targets, [&](const VoxelIndex& cell) { return search.look_back_from(cell); });
+    take_seen(hidden, survey.targets, try_all);
   }
   survey.exhausted = pairs > 0;
 }
@@ -311,14 +323,14 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey(const OccupancyMap& map, 
                                                        const TriedViews& tried,
                                                        const std::vector<VoxelIndex>& frontier) {
   reachable_.follow(map, *platform_, current);
-  return find_targets(map, tried, frontier);
+  return find_targets(map, tried, frontier, true);
 }
 
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::survey_from(const std::vector<VoxelIndex>& places,
                                                             const OccupancyMap& map, const TriedViews& tried,
                                                             const std::vector<VoxelIndex>& frontier) {
   reachable_ = ReachableSpace(map.frame(), places);
-  return find_targets(map, tried, frontier);
+  return find_targets(map, tried, frontier, false);
 }
 
 // The findings for all frontier cells: those of the last survey where they still hold, else those of
@@ -343,7 +355,8 @@ std::vector<FrontierSurveyor::Finding> FrontierSurveyor::find_each(const TriedVi
 }
 
 VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap& map, const TriedViews& tried,
-                                                             const std::vector<VoxelIndex>& frontier) {
+                                                             const std::vector<VoxelIndex>& frontier,
+                                                             bool through_contested) {
   memory_->follow(map, reachable_, tried, detail::furthest_m(map, sensor_), options_.sight_directions);
   FrontierSurvey survey;
   survey.frontier_cells = frontier.size();
@@ -374,7 +387,7 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
   memory_->forget_others();
   findings_ = std::move(findings);
   if (survey.targets.empty()) {
-    detail::take_any_seen(search, hidden, survey);
+    detail::take_any_seen(search, through_contested, hidden, survey);
   }
   if (!sensor_.reports_no_return) {
     survey.targets = detail::surfaces_first(map, std::move(survey.targets));
