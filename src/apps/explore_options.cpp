@@ -63,7 +63,7 @@ void add_motion_options(CLI::App& command, ExploreRequest& request) {
   option("--max-acceleration", request.max_acceleration_m_s2, "M/S2", "Speeding up, braking and in corners");
   option("--max-yaw-rate", request.max_yaw_rate_deg_s, "DEG/S", "How fast it turns");
   option("--max-yaw-acceleration", request.max_yaw_acceleration_deg_s2, "DEG/S2", "Unlimited unless given");
-  option("--scan-rate", request.scan_rate_hz, "HZ", "Scans a second, while it moves and turns");
+  option("--scan-rate", request.scan_rate_hz, "HZ", "Scans a second; --max-views is an hour of them unless given");
   option("--planning-latency", request.planning_latency_s, "S",
          "From a scan until the plan made from it takes effect")
       ->default_str("0.05");

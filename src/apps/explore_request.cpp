@@ -96,7 +96,7 @@ void check_cell_count(const Box& region, double resolution_m) {
   if (!(cells <= kMostCells)) {
     std::ostringstream message;
     message << "--resolution " << resolution_m << " makes " << cells << " cells of the region, must be at most "
-            << kMostCells;
+            << kMostCells << "; a mesh whose unit is not the metre needs --scale";
     throw std::invalid_argument(message.str());
   }
 }

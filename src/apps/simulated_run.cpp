@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <vantage/evaluation/exploration_peers.hpp>
@@ -72,6 +73,16 @@ std::unique_ptr<ExplorationPlanner> planner_of(const ExploreRequest& request, co
   const Settings settings = settings_of(request);
   const auto peers = exploration_peer_names();
   if (std::find(peers.begin(), peers.end(), request.planner) == peers.end()) {
+    const auto& planners = planner_names();
+    if (std::find(planners.begin(), planners.end(), request.planner) == planners.end()) {
+      std::string names;
+      for (const auto& known : {std::span<const std::string_view>(planners), peers}) {
+        for (const std::string_view name : known) {
+          names += (names.empty() ? "" : ", ") + std::string(name);
+        }
+      }
+      throw std::invalid_argument("there is no planner '" + request.planner + "'; there are: " + names);
+    }
     return make_planner(request.planner, setup, settings);
   }
   if (!settings.empty()) {

@@ -112,6 +112,9 @@ void ExplorationRun::check_start(const Pose& start) const {
     refuse("is outside the region");
   }
   if (!platform_->admits(truth_.map(), start)) {
+    if (platform_->admits(truth_.map(), platform_->facing(start.translation(), optical_axis(start)))) {
+      refuse("has an orientation that the robot cannot take");
+    }
     refuse("is in or too near a wall or the edge of the region for the robot's body");
   }
 }

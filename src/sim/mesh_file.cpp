@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
@@ -196,6 +197,13 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
   const TriangleMesh mesh = placed_parts(path, *triangulated(path, importer));
   if (mesh.triangles.empty()) {
     refuse(path, "holds no triangles");
+  }
+  const auto has_area = [&mesh](const auto& corners) {
+    const Eigen::Vector3f& a = mesh.vertices[corners[0]];
+    return (mesh.vertices[corners[1]] - a).cross(mesh.vertices[corners[2]] - a).norm() > 0.0F;
+  };
+  if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), has_area)) {
+    refuse(path, "holds no triangle with an area");
   }
   Pose z_up = Pose::Identity();
   if (options.up ? *options.up == MeshFileOptions::Up::Y : is_read_with_y_up(path)) {
