@@ -40,7 +40,8 @@ class ViewpointSearch {
         memory_(memory) {}
 
   [[nodiscard]] bool is_sought(const VoxelIndex& cell) const {
-    return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown && !tried_.gave_up(cell);
+    const bool is_given_up = through_contested_ ? tried_.tried(cell) : tried_.gave_up(cell);  // one look is enough
+    return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown && !is_given_up;
   }
   // The first unknown neighbour of a frontier cell for which `find` returns a viewpoint.
   template <class Find>
@@ -175,12 +176,12 @@ class ViewpointSearch {
     return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) &&
            in_sight(viewpoint, unknown, frame_.centre_of(unknown)) && can_face(viewpoint, unknown);
   }
-  // As `serves`, also where a line to the centre of a face is clear.
+  // As `serves`, also where a line to the centre of a face is clear, unless it looks through contested cells.
   bool sees_a_part(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
     return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) && can_face(viewpoint, unknown) &&
            (in_sight(viewpoint, unknown, frame_.centre_of(unknown)) ||
             std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
-              return faces(viewpoint, unknown, step) && clear(unknown + step) &&
+              return !through_contested_ && faces(viewpoint, unknown, step) && clear(unknown + step) &&
                      in_sight(viewpoint, unknown, just_inside(unknown, step));
             }));
   }
