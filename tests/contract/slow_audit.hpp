@@ -95,7 +95,7 @@ struct LookedAt {
 /// Unknown neighbours of free cells whose centre the sensor could still see, or the centre of one of their faces
 /// without a contested cell on the line, from a place that was not the goal of a plan that sought them and is not
 /// like one from which they were in view, and that were not looked at in vain: not in view from two cells, and not in
-/// view or sought from four cells together.
+/// view or sought from four cells together, or two if only contested cells hide them.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {
@@ -119,12 +119,12 @@ struct LookedAt {
     const auto is_free = [&](const VoxelIndex& other) { return other == cell || map.at(other) == Occupancy::Free; };
     const auto is_surely_free = [&](const VoxelIndex& other) { return is_free(other) && !map.contested(other); };
     const auto sought = looked.sought.find(cell);
-    const auto is_seen_from = [&](const VoxelIndex& place) {
+    const auto is_seen_from = [&](const VoxelIndex& place, const auto& passes) {
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
       return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
              platform.admits(map, facing) &&
-             (touches_only(frame, from, centre, is_free) ||
+             (touches_only(frame, from, centre, passes) ||
               std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
                 const Eigen::Vector3d out(step.x, step.y, step.z);
                 return out.dot(from - centre) > 0.0 &&
@@ -133,7 +133,7 @@ struct LookedAt {
     };
     std::vector<VoxelIndex> viewpoints;
     std::copy_if(places.begin(), places.end(), std::back_inserter(viewpoints), [&](const VoxelIndex& place) {
-      return (sought == looked.sought.end() || !sought->second.contains(place)) && is_seen_from(place);
+      return (sought == looked.sought.end() || !sought->second.contains(place)) && is_seen_from(place, is_free);
     });
     if (viewpoints.empty()) {
       continue;
@@ -155,7 +155,11 @@ struct LookedAt {
                          [&](const VoxelIndex& other) { return alike(cell, place, other); });
     });
     const std::size_t goals = sought == looked.sought.end() ? 0 : sought->second.size();
-    if (!viewpoints.empty() && from_cells.size() < 2 && from_cells.size() + goals < 4) {
+    const bool is_in_clear_sight = std::any_of(viewpoints.begin(), viewpoints.end(), [&](const VoxelIndex& place) {
+      return is_seen_from(place, is_surely_free);
+    });
+    const std::size_t enough = is_in_clear_sight ? 4 : 2;
+    if (!viewpoints.empty() && from_cells.size() < 2 && from_cells.size() + goals < enough) {
       left.push_back(cell);
     }
   }

@@ -34,7 +34,7 @@ class ViewpointSearch {
         memory_(memory) {}
 
   [[nodiscard]] bool is_sought(const VoxelIndex& cell) const {
-    const bool is_given_up = through_contested_ ? tried_.tried(cell) : tried_.gave_up(cell);  // one look is enough
+    const bool is_given_up = through_contested_ ? tried_.tried_enough(cell) : tried_.gave_up(cell);
     return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown && !is_given_up;
   }
   // The first unknown neighbour of a frontier cell for which `find` returns a viewpoint.
