@@ -92,10 +92,10 @@ struct LookedAt {
   return 4 * square(a - b) <= std::min(square(a - unknown), square(b - unknown));
 }
 
-/// Unknown neighbours of free cells whose centre the sensor could still see, or the centre of one of their faces
-/// without a contested cell on the line, from a place that was not the goal of a plan that sought them and is not
-/// like one from which they were in view, and that were not looked at in vain: not in view from two cells, and not in
-/// view or sought from four cells together, or two if only contested cells hide them.
+/// Unknown neighbours of free cells whose centre, or the centre of one of whose faces, the sensor could still see,
+/// from a place that was not the goal of a plan that sought them and is not like one from which they were in view,
+/// and that were not looked at in vain: not in view from two cells, and not in view or sought from four cells
+/// together.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {
@@ -116,24 +116,25 @@ struct LookedAt {
   std::vector<VoxelIndex> left;
   for (const VoxelIndex& cell : unknown) {
     const Eigen::Vector3d centre = frame.centre_of(cell);
-    const auto is_free = [&](const VoxelIndex& other) { return other == cell || map.at(other) == Occupancy::Free; };
-    const auto is_surely_free = [&](const VoxelIndex& other) { return is_free(other) && !map.contested(other); };
+    const auto is_clear = [&](const VoxelIndex& other) {
+      return other == cell || (map.at(other) == Occupancy::Free && !map.contested(other));
+    };
     const auto sought = looked.sought.find(cell);
-    const auto is_seen_from = [&](const VoxelIndex& place, const auto& passes) {
+    const auto is_seen_from = [&](const VoxelIndex& place) {
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
+      const auto in_sight = [&](const Eigen::Vector3d& point) { return touches_only(frame, from, point, is_clear); };
       return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
              platform.admits(map, facing) &&
-             (touches_only(frame, from, centre, passes) ||
+             (in_sight(centre) ||
               std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
                 const Eigen::Vector3d out(step.x, step.y, step.z);
-                return out.dot(from - centre) > 0.0 &&
-                       touches_only(frame, from, centre + 0.49 * frame.size_m * out, is_surely_free);
+                return out.dot(from - centre) > 0.0 && in_sight(centre + 0.49 * frame.size_m * out);
               }));
     };
     std::vector<VoxelIndex> viewpoints;
     std::copy_if(places.begin(), places.end(), std::back_inserter(viewpoints), [&](const VoxelIndex& place) {
-      return (sought == looked.sought.end() || !sought->second.contains(place)) && is_seen_from(place, is_free);
+      return (sought == looked.sought.end() || !sought->second.contains(place)) && is_seen_from(place);
     });
     if (viewpoints.empty()) {
       continue;
@@ -155,11 +156,7 @@ struct LookedAt {
                          [&](const VoxelIndex& other) { return alike(cell, place, other); });
     });
     const std::size_t goals = sought == looked.sought.end() ? 0 : sought->second.size();
-    const bool is_in_clear_sight = std::any_of(viewpoints.begin(), viewpoints.end(), [&](const VoxelIndex& place) {
-      return is_seen_from(place, is_surely_free);
-    });
-    const std::size_t enough = is_in_clear_sight ? 4 : 2;
-    if (!viewpoints.empty() && from_cells.size() < 2 && from_cells.size() + goals < enough) {
+    if (!viewpoints.empty() && from_cells.size() < 2 && from_cells.size() + goals < 4) {
       left.push_back(cell);
     }
   }

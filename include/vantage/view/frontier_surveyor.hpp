@@ -44,8 +44,7 @@ class FrontierSurveyor {
   /// raster order (FrontierTracker, frontier_cells). Unknown cells that `tried` has given up are no targets.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                       const std::vector<VoxelIndex>& frontier);
-  /// As above, for a sensor that could be brought to each of `places`, at least one, and nowhere else. No line of
-  /// sight passes a contested cell.
+  /// As above, for a sensor that could be brought to each of `places`, at least one, and nowhere else.
   [[nodiscard]] FrontierSurvey survey_from(const std::vector<VoxelIndex>& places, const OccupancyMap& map,
                                            const TriedViews& tried, const std::vector<VoxelIndex>& frontier);
 
@@ -63,7 +62,7 @@ class FrontierSurveyor {
   [[nodiscard]] std::vector<Finding> find_each(const TriedViews& tried, const std::vector<VoxelIndex>& frontier,
                                                Search&& search);
   [[nodiscard]] FrontierSurvey find_targets(const OccupancyMap& map, const TriedViews& tried,
-                                            const std::vector<VoxelIndex>& frontier, bool through_contested);
+                                            const std::vector<VoxelIndex>& frontier);
 
   std::shared_ptr<const Platform> platform_;
   RangeSensor sensor_;

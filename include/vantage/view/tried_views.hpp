@@ -106,9 +106,6 @@ class TriedViews {
   [[nodiscard]] bool hoped_in_vain(const VoxelIndex& unknown, const VoxelIndex& place) const;
   /// Whether the evidence suffices to give the cell up.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
-  /// Whether it was looked at in vain from `patience` places, in clear sight or not: enough for a cell that may be
-  /// hidden by contested cells.
-  [[nodiscard]] bool tried_enough(const VoxelIndex& unknown) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.

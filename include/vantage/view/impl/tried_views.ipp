@@ -328,12 +328,6 @@ VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
          (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
 }
 
-VANTAGE_INLINE bool TriedViews::tried_enough(const VoxelIndex& unknown) const {
-  const Looks* looks = looks_at(unknown);
-  return looks != nullptr &&
-         looks->in_vain.size() + looks->missed.size() >= static_cast<std::size_t>(options_.patience);
-}
-
 // In cells.
 VANTAGE_INLINE double TriedViews::rest_reach() const { return std::max(options_.goal_tolerance_m / cell_m_, 1.0); }
 
