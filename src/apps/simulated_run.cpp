@@ -6,6 +6,8 @@
 #include <span>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
@@ -15,6 +17,18 @@
 
 namespace vantage::apps {
 namespace {
+
+bool is_among(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
 
 bool is_plan(const ExploreRequest& request) { return is_world_file(request, World::FileKind::Plan); }
 
@@ -71,24 +85,17 @@ std::unique_ptr<ExplorationPlanner> planner_of(const ExploreRequest& request, co
                            .threads = request.threads,
                            .motion = motion_of(request)};
   const Settings settings = settings_of(request);
-  const auto peers = exploration_peer_names();
-  if (std::find(peers.begin(), peers.end(), request.planner) == peers.end()) {
-    const auto& planners = planner_names();
-    if (std::find(planners.begin(), planners.end(), request.planner) == planners.end()) {
-      std::string names;
-      for (const auto& known : {std::span<const std::string_view>(planners), peers}) {
-        for (const std::string_view name : known) {
-          names += (names.empty() ? "" : ", ") + std::string(name);
-        }
-      }
-      throw std::invalid_argument("there is no planner '" + request.planner + "'; there are: " + names);
+  if (is_among(exploration_peer_names(), request.planner)) {
+    if (!settings.empty()) {
+      throw std::invalid_argument("the planner " + request.planner + " has no settings");
     }
-    return make_planner(request.planner, setup, settings);
+    return make_exploration_peer(request.planner, setup);
   }
-  if (!settings.empty()) {
-    throw std::invalid_argument("the planner " + request.planner + " has no settings");
+  if (!is_among(planner_names(), request.planner)) {
+    throw std::invalid_argument("there is no planner '" + request.planner +
+                                "'; there are: " + listed(planner_names()) + ", " + listed(exploration_peer_names()));
   }
-  return make_exploration_peer(request.planner, setup);
+  return make_planner(request.planner, setup, settings);
 }
 
 ExploredWorld explored_world(const ExploreRequest& request) {

@@ -138,6 +138,7 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
 TEST_F(Program, RefusesNamesThatDoNotExist) {
   expect_refused("--world room", "room");
   expect_refused("--world rooms --planner harmonious", "harmonious");
+  expect_refused("--world rooms --planner harmonious", "tour, distance-advantage");  // planners, then peers
   expect_refused("--world rooms --sensor kinekt", "kinekt");
   expect_refused("--world rooms --sensor /dev/zero", "/dev/zero: ");
   expect_refused(std::string(kTable) + "--set gain=3", "gain");
@@ -145,7 +146,7 @@ TEST_F(Program, RefusesNamesThatDoNotExist) {
   expect_refused("--world rooms --planner harmonic --set tolerance=small", "tolerance");
   expect_refused(std::string(kTable) + "--fast", "--fast");
   expect_refused("--planner harmonic", "--world");
-  EXPECT_EQ(refused_, 9);
+  EXPECT_EQ(refused_, 10);
 }
 
 TEST_F(Program, RefusesRegionsAndStarts) {
@@ -156,13 +157,15 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused(table + "--region 0,0,0,inf,1,1", "'inf'");
   expect_refused(table + "--region 50,50,0,51,51,1", "--region 50,50,0,51,51,1 holds nothing of the world");
   expect_refused("--world table --resolution 30", "no cell of 30 m");
+  expect_refused("--world table --resolution 0.0001", "needs --scale");
   expect_refused(table + "--start 0,0", "--start");
   expect_refused(table + "--start 0,0,high", "'high'");
   expect_refused(table + "--start 50,0,1", "--start 50,0,1");
   expect_refused(table + "--start 1.79,0,1", "start");
+  expect_refused("--world rooms --yaw-only --start 2,2,1,0,45", "an orientation that the robot cannot take");
   expect_refused(table + "--region -1,-1,0,1,1,2 --start 1.5,0,1", "--start 1.5,0,1");
   expect_refused(table + "--robot-radius 9", "fits nowhere");
-  EXPECT_EQ(refused_, 12);
+  EXPECT_EQ(refused_, 14);
 }
 
 TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
@@ -173,6 +176,8 @@ TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
   expect_refused("--world " + points + tail, points);
   const std::string nan = file("nan.ply", ply("0 0 0\nnan 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1));
   expect_refused("--world " + nan + tail, nan);
+  const std::string line = file("line.ply", ply("0 0 0\n1 0 0\n2 0 0\n", 3, "3 0 1 2\n", 1));
+  expect_refused("--world " + line + tail, line + ": holds no triangle with an area");
   const std::string text = file("text.ply", "this is no mesh\n");
   expect_refused("--world " + text + tail, text);
   const std::string empty = file("empty.bt", "");
@@ -185,7 +190,7 @@ TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
       file("range.json", R"({"width": 64, "height": 48, "fx": 60, "fy": 60, "max_range_m": -4})");
   expect_refused("--world table --sensor " + range, "max_range_m is -4");
   expect_refused("--world table --sensor /nowhere/sensor.json", "/nowhere/sensor.json");
-  EXPECT_EQ(refused_, 10);
+  EXPECT_EQ(refused_, 11);
 }
 
 TEST_F(Program, TimesARun) {
