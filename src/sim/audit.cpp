@@ -61,6 +61,12 @@ std::vector<VoxelIndex> places_within_reach(const OccupancyMap& map, const Platf
   return places;
 }
 
+// Whether two cells are one, or share a face, an edge or a corner.
+bool touch(const VoxelIndex& a, const VoxelIndex& b) {
+  const VoxelIndex d = a - b;
+  return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1;
+}
+
 // The cell faces that a segment crosses along one axis.
 struct Faces {
   std::int32_t step = 0;                                   // +1 or -1, to the next cell
@@ -144,14 +150,15 @@ class Auditor {
            is_free_line(map_, to, pose.translation());
   }
 
-  bool looked_at_in_vain(const VoxelIndex& unknown, std::span<const Pose> looked_from) const {
+  // The cells of the poses that had `unknown` in view.
+  std::set<VoxelIndex> looked_at_from(const VoxelIndex& unknown, std::span<const Pose> looked_from) const {
     std::set<VoxelIndex> from;
     for (const Pose& pose : looked_from) {
       if (map_.frame().addressable(pose.translation()) && had_in_view(unknown, pose)) {
         from.insert(map_.frame().cell_of(pose.translation()));
       }
     }
-    return from.size() >= 2;
+    return from;
   }
 
  private:
@@ -189,11 +196,22 @@ AuditResult audit(const OccupancyMap& map, const Platform& platform, const Range
   std::vector<Verdict> verdicts(unknown.size(), Verdict::Hidden);
   std::vector<VoxelIndex> seen_from(unknown.size());
   detail::share_work(unknown.size(), static_cast<std::size_t>(threads), [&](std::size_t i) {
-    const auto place = std::find_if(places.begin(), places.end(),
-                                    [&](const VoxelIndex& cell) { return auditor.could_observe(unknown[i], cell); });
+    const auto sees = [&](const VoxelIndex& place) { return auditor.could_observe(unknown[i], place); };
+    const auto first = std::find_if(places.begin(), places.end(), sees);
+    if (first == places.end()) {
+      return;
+    }
+    const std::set<VoxelIndex> from = auditor.looked_at_from(unknown[i], looked_from);
+    const auto differs = [&](const VoxelIndex& place) {
+      return std::none_of(from.begin(), from.end(), [&](const VoxelIndex& other) { return touch(place, other); });
+    };
+    const auto place =
+        from.size() >= 2
+            ? places.end()
+            : std::find_if(first, places.end(), [&](const VoxelIndex& cell) { return differs(cell) && sees(cell); });
+    verdicts[i] = place == places.end() ? Verdict::InVain : Verdict::Left;
     if (place != places.end()) {
       seen_from[i] = *place;
-      verdicts[i] = auditor.looked_at_in_vain(unknown[i], looked_from) ? Verdict::InVain : Verdict::Left;
     }
   });
   AuditResult result;

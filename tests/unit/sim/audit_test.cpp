@@ -93,6 +93,27 @@ TEST(Audit, TellsApartWhatWasLookedAtInVain) {
   EXPECT_EQ(in_vain({kInTheRoom, other}), 1U);
 }
 
+TEST(Audit, OneLookIsEnoughWhereNoOtherPlaceSeesTheCell) {
+  OccupancyMap map({.resolution_m = 0.1});
+  const auto corridor = [](std::int32_t x) { return VoxelIndex{x, 5, 5}; };
+  for_each_cell(VoxelBox{corridor(-1), corridor(20) + VoxelIndex{1, 1, 1}}.grown(1),
+                [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Occupied); });
+  for (std::int32_t x = 0; x < 20; ++x) {
+    map.set(corridor(x), Occupancy::Free);
+  }
+  map.set(corridor(20), Occupancy::Unknown);
+  const FreeFlyer robot({.radius_m = 0.05});
+  const Pose at_the_end = pose_looking(map.frame().centre_of(corridor(19)), 0.0);
+  const auto in_vain = [&](double range_m, const std::vector<Pose>& looked_from) {
+    const AuditResult found = audit(map, robot, audited_lidar(range_m), at_the_end, looked_from);
+    EXPECT_EQ(found.observable_left + found.looked_at_in_vain, 1U);
+    return found.looked_at_in_vain;
+  };
+  EXPECT_EQ(in_vain(0.25, {}), 0U);
+  EXPECT_EQ(in_vain(0.25, {at_the_end}), 1U) << "else it is seen from the cell beside this one only";
+  EXPECT_EQ(in_vain(0.35, {at_the_end}), 0U) << "the third cell sees it, too";
+}
+
 // Whether the straight line between two cell centres touches this cell, by its distances along the axes.
 bool line_touches(const VoxelIndex& a, const VoxelIndex& b, const VoxelIndex& cell) {
   double enter = 0.0;
