@@ -301,7 +301,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
   EXPECT_GT(level_in_part, 20U);
 }
 
-// Whether any place sees one of the unknown cells that are left, if only in part, by a line to every one of them.
+// Whether any place sees the centre of one of the unknown cells that are left, by a line to every one of them.
 bool any_place_sees_any_cell(const SurveyedWorld& world, const std::vector<VoxelIndex>& places) {
   const std::vector<VoxelIndex> frontier = frontier_cells(world.map);
   return std::any_of(frontier.begin(), frontier.end(), [&](const VoxelIndex& cell) {
@@ -309,7 +309,7 @@ bool any_place_sees_any_cell(const SurveyedWorld& world, const std::vector<Voxel
       const VoxelIndex unknown = cell + step;
       return world.map.in_region(unknown) && world.map.at(unknown) == Occupancy::Unknown &&
              !world.tried.gave_up(unknown) && std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
-               return serves(world, place, unknown) || sees_a_face(world, place, unknown);
+               return serves(world, place, unknown);
              });
     });
   });
@@ -355,7 +355,7 @@ TEST(FrontierSurvey, TakesCellsSeenInPart) {
   std::mt19937 engine(89);
   std::size_t seen_in_part = 0;
   std::size_t ended = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 40; ++i) {
     SurveyedWorld world = random_world(engine);
     world.map.set_log_odds(VoxelBox{{-3, -3, -3}, {4, 4, 4}}, 3.0);  // bars around the sensor
     world.map.set_log_odds(VoxelBox{{-2, -2, -2}, {3, 3, 3}}, -2.0);
@@ -373,27 +373,33 @@ TEST(FrontierSurvey, TakesCellsSeenInPart) {
         if (!world.map.in_region(unknown) || world.map.at(unknown) != Occupancy::Unknown) {
           continue;
         }
-        if (std::any_of(places.begin(), places.end(),
-                        [&](const VoxelIndex& place) { return serves(world, place, unknown); })) {
+        // Few are left, so that the survey can test every place for them.
+        if (engine() % 8 != 0 || std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
+              return serves(world, place, unknown);
+            })) {
           world.tried.in_vain(world.map, unknown, unknown + VoxelIndex{900, 0, 0});
           world.tried.in_vain(world.map, unknown, unknown - VoxelIndex{900, 0, 0});
-        } else if (!world.tried.gave_up(unknown)) {
+        } else {
           left.push_back(unknown);
         }
       }
     }
     const bool expected = std::any_of(left.begin(), left.end(), [&](const VoxelIndex& unknown) {
-      return std::any_of(places.begin(), places.end(),
-                         [&](const VoxelIndex& place) { return sees_a_face(world, place, unknown); });
+      return !world.tried.gave_up(unknown) && std::any_of(places.begin(), places.end(), [&](const VoxelIndex& place) {
+        return sees_a_face(world, place, unknown);
+      });
     });
     const FrontierSurvey survey =
         survey_frontiers(world.map, world.flyer, world.sensor, world.current, world.options, world.tried);
-    EXPECT_EQ(survey.targets.empty(), !expected) << "world " << i;
+    if (!expected) {  // it may find one that is seen past another then
+      ended += survey.targets.empty() ? 1U : 0U;
+      continue;
+    }
+    EXPECT_FALSE(survey.targets.empty()) << "world " << i;
     for (const FrontierTarget& target : survey.targets) {
       EXPECT_TRUE(sees_a_face(world, target.viewpoint, target.unknown)) << "world " << i;
     }
     seen_in_part += survey.targets.size();
-    ended += survey.targets.empty() ? 1U : 0U;
   }
   EXPECT_GT(seen_in_part, 40U);
   EXPECT_GT(ended, 2U);

@@ -18,7 +18,9 @@ namespace vantage {
 namespace detail {
 
 // Cells that one survey visits at most, about three seconds, if the sampled rays find no target.
-inline constexpr std::size_t kExhaustiveSteps = 100'000'000;
+inline constexpr std::size_t kMostSteps = 100'000'000;
+// The same for cells that can only be seen in part, or only past others, of which a look teaches little.
+inline constexpr std::size_t kMostStepsForParts = 1'000'000;
 
 // The range of the sensor, which may be unlimited, bounded by the extent of the known map.
 inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
@@ -61,11 +63,20 @@ void take_seen(std::vector<VoxelIndex>& hidden, std::vector<FrontierTarget>& tar
 
 // The sampled rays may miss a viewpoint, so Explored requires that all places are tested.
 inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidden, FrontierSurvey& survey) {
-  std::size_t steps = kExhaustiveSteps;
-  take_seen(hidden, survey.targets, [&](const VoxelIndex& cell) {
+  std::size_t steps = kMostSteps;
+  std::size_t steps_for_parts = kMostStepsForParts;
+  const auto try_all = [&](const VoxelIndex& cell) {
     return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, steps); });
-  });
-  const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden, steps) : std::nullopt;
+  };
+  const auto try_parts = [&](const VoxelIndex& cell) {
+    return search.first_seen(cell,
+                             [&](const VoxelIndex& unknown) { return search.try_parts(unknown, steps_for_parts); });
+  };
+  take_seen(hidden, survey.targets, try_all);
+  if (survey.targets.empty()) {
+    take_seen(hidden, survey.targets, try_parts);
+  }
+  const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden, steps_for_parts) : std::nullopt;
   if (past) {
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);

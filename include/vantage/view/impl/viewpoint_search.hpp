@@ -87,12 +87,13 @@ class ViewpointSearch {
     return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
                      : std::nullopt;
   }
-  // Tests every reachable cell until `steps` is used up.
+  // Tests every reachable cell, until `steps` is used up.
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& steps) {
-    return can_be_seen(unknown) ? first_place(
-                                      unknown, steps, [&](const VoxelIndex& cell) { return passes(cell); },
-                                      [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); })
-                                : std::nullopt;
+    return place_of_all(unknown, steps, [&](const VoxelIndex& cell) { return serves(cell, unknown); });
+  }
+  // The same for places that see a part.
+  std::optional<VoxelIndex> try_parts(const VoxelIndex& unknown, std::size_t& steps) {
+    return place_of_all(unknown, steps, [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); });
   }
   // The same for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
   // one, that becomes known.
@@ -127,6 +128,12 @@ class ViewpointSearch {
   bool can_be_seen(const VoxelIndex& unknown) const {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
                        [&](const VoxelIndex& step) { return clear(unknown + step); });
+  }
+  template <class Serves>
+  std::optional<VoxelIndex> place_of_all(const VoxelIndex& unknown, std::size_t& steps, Serves&& serves) {
+    return can_be_seen(unknown) ? first_place(
+                                      unknown, steps, [&](const VoxelIndex& cell) { return passes(cell); }, serves)
+                                : std::nullopt;
   }
   // A reachable cell in range that serves; none if there is none, or if `steps` is used up. A line of sight never
   // turns back along an axis. So only those cells are tested to which steps lead that are all away from `unknown`,
