@@ -18,9 +18,9 @@ namespace vantage {
 namespace detail {
 
 // Cells that one survey visits at most, about three seconds, if the sampled rays find no target.
-inline constexpr std::size_t kMostSteps = 100'000'000;
+inline constexpr std::size_t kMostSightSteps = 100'000'000;
 // The same for cells that can only be seen in part, or only past others, of which a look teaches little.
-inline constexpr std::size_t kMostStepsForParts = 1'000'000;
+inline constexpr std::size_t kMostSightStepsForParts = 1'000'000;
 
 // The range of the sensor, which may be unlimited, bounded by the extent of the known map.
 inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
@@ -63,8 +63,8 @@ void take_seen(std::vector<VoxelIndex>& hidden, std::vector<FrontierTarget>& tar
 
 // The sampled rays may miss a viewpoint, so Explored requires that all places are tested.
 inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidden, FrontierSurvey& survey) {
-  std::size_t steps = kMostSteps;
-  std::size_t steps_for_parts = kMostStepsForParts;
+  std::size_t steps = kMostSightSteps;
+  std::size_t steps_for_parts = kMostSightStepsForParts;
   const auto try_all = [&](const VoxelIndex& cell) {
     return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, steps); });
   };
