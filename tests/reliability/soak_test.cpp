@@ -125,7 +125,7 @@ class Soak : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Soak, MemoryAndTimeStayAsTheyAreAndNoGoalComesAgainAndAgain) {
   const char* const text = std::getenv("VANTAGE_SOAK_CYCLES");
-  const std::size_t cycles = text != nullptr ? std::strtoul(text, nullptr, 10) : 400;
+  const std::size_t cycles = text != nullptr ? std::strtoul(text, nullptr, 10) : 600;
   TirelessRobot robot(GetParam());
   robot.run(cycles);
   std::string bytes;

@@ -113,7 +113,7 @@ class ViewpointSearch {
     };
     const auto place = first_place(
         unknown, steps,
-        [&](const VoxelIndex& cell) { return passes(cell) || (beside.contains(cell) && is_sought(cell)); },
+        [&](const VoxelIndex& cell) { return map_.is_clear(cell) || (beside.contains(cell) && is_sought(cell)); },
         [&](const VoxelIndex& cell) {
           return open_towards(cell, unknown) &&
                  VoxelRay(frame_, frame_.centre_of(cell), frame_.centre_of(unknown)).all_from_the_end(passes_by) &&
@@ -131,9 +131,10 @@ class ViewpointSearch {
   }
   template <class Serves>
   std::optional<VoxelIndex> place_of_all(const VoxelIndex& unknown, std::size_t& steps, Serves&& serves) {
-    return can_be_seen(unknown) ? first_place(
-                                      unknown, steps, [&](const VoxelIndex& cell) { return passes(cell); }, serves)
-                                : std::nullopt;
+    return can_be_seen(unknown)
+               ? first_place(
+                     unknown, steps, [&](const VoxelIndex& cell) { return map_.is_clear(cell); }, serves)
+               : std::nullopt;
   }
   // A reachable cell in range that serves; none if there is none, or if `steps` is used up. A line of sight never
   // turns back along an axis. So only those cells are tested to which steps lead that are all away from `unknown`,
@@ -161,6 +162,7 @@ class ViewpointSearch {
             return std::nullopt;
           }
           --steps;
+          ++operations_;
           if (!met.insert(cell) || !towards_places.contains(frame_.centre_of(cell)) || !near_enough(cell, unknown) ||
               !passes_through(cell)) {
             continue;
