@@ -273,7 +273,7 @@ TEST(FrontierSurvey, FindsWhatLookingAlongEveryLineFinds) {
       }
     }
     if (expected.empty()) {
-      continue;  // in this case, the survey tests every pair
+      continue;  // in this case, the survey tests every place
     }
     ASSERT_EQ(survey.targets.size(), expected.size()) << "world " << i;
     for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -544,7 +544,7 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
         EXPECT_EQ(surveyor.reachable().cells(), ReachableSpace(world.map, *flyer, world.current).cells());
         ++compared;
         targets += expected.targets.size();
-        // The memory saves nothing if every pair is tested.
+        // The memory saves nothing if every place is tested.
         if (!expected.targets.empty()) {
           operations += survey.ray_operations;
           operations_from_nothing += expected.ray_operations;

@@ -17,8 +17,8 @@
 namespace vantage {
 namespace detail {
 
-// Cells that one survey visits at most, about three seconds, if the sampled rays find no target.
-inline constexpr std::size_t kMostSightSteps = 100'000'000;
+// Cells that one survey visits at most, in about a second, if the sampled rays find no target.
+inline constexpr std::size_t kMostSightSteps = 30'000'000;
 // The same for cells that can only be seen in part, or only past others, of which a look teaches little.
 inline constexpr std::size_t kMostSightStepsForParts = 1'000'000;
 
