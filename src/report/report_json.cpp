@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vantage/report/report_json.hpp>
 #include <vantage/version.hpp>
 #include <vector>
@@ -48,11 +49,20 @@ ordered_json times_json(const RunRecord& record) {
   return {{"insert", median_and_max(std::move(insert_ms))}, {"plan", median_and_max(std::move(plan_ms))}};
 }
 
-ordered_json cycle_json(const ViewRecord& view) {
+// After this view, of the points that any admitted pose could see.
+std::optional<double> seen_observable(const ViewRecord& view, const RunRecord& record) {
+  if (!view.seen_coverage || !record.seen_coverage || !record.seen_observable) {
+    return std::nullopt;
+  }
+  return *record.seen_coverage > 0.0 ? *view.seen_coverage * *record.seen_observable / *record.seen_coverage : 0.0;
+}
+
+ordered_json cycle_json(const ViewRecord& view, const RunRecord& record) {
   return {{"view", view.view},
           {"pose", pose_json(view.pose)},
           {"coverage", or_null(view.coverage)},
           {"seen_coverage", or_null(view.seen_coverage)},
+          {"seen_observable", or_null(seen_observable(view, record))},
           {"time_s", or_null(view.time_s)},
           {"path_length_m", view.path_length_m},
           {"insert_ms", view.insert_ms},
@@ -116,7 +126,7 @@ std::string report_json(const RunRecord& record) {
   text.erase(text.size() - 2);  // "\n}": the cycles follow, one per line
   text += ",\n  \"cycles\": [";
   for (std::size_t i = 0; i < record.views.size(); ++i) {
-    text += (i == 0 ? "\n    " : ",\n    ") + dump(cycle_json(record.views[i]));
+    text += (i == 0 ? "\n    " : ",\n    ") + dump(cycle_json(record.views[i], record));
   }
   text += record.views.empty() ? "]\n}\n" : "\n  ]\n}\n";
   return text;

@@ -490,6 +490,7 @@ TEST_F(Program, ReconstructsAnObjectOnTheTable) {
   EXPECT_GT(report["seen_coverage"], 0.7) << "the same";
   EXPECT_GT(report["seen_observable"], 0.9);
   EXPECT_LE(report["seen_observable"], 1.0);
+  EXPECT_NEAR(report["cycles"].back()["seen_observable"], report["seen_observable"], 1e-9);
   double seen = 0.0;
   for (const nlohmann::json& cycle : report["cycles"]) {
     EXPECT_GT(cycle["coverage"], 0.0);

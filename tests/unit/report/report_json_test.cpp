@@ -81,8 +81,9 @@ TEST(ReportJson, HoldsExactlyTheKeysOfTheContractInOrder) {
   EXPECT_EQ(keys_of(report["time_ms"]["plan"]), (std::vector<std::string>{"median", "max"}));
   ASSERT_EQ(report["cycles"].size(), 3U);
   EXPECT_EQ(keys_of(report["cycles"][0]),
-            (std::vector<std::string>{"view", "pose", "coverage", "seen_coverage", "time_s", "path_length_m",
-                                      "insert_ms", "plan_ms", "utility", "frontier_cells", "void_cells", "outcome"}));
+            (std::vector<std::string>{"view", "pose", "coverage", "seen_coverage", "seen_observable", "time_s",
+                                      "path_length_m", "insert_ms", "plan_ms", "utility", "frontier_cells",
+                                      "void_cells", "outcome"}));
 }
 
 TEST(ReportJson, SaysWhatTheRecordSays) {
