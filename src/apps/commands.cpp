@@ -26,7 +26,7 @@ struct MapRequest {
 void add_map_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("map", "Tell the size of an OctoMap file and its cells by kind");
   const auto request = std::make_shared<MapRequest>();
-  command->add_option("file", request->file, "The map, as OctoMap writes it")
+  command->add_option("FILE", request->file, "The map, as OctoMap writes it")
       ->required()
       ->type_name("FILE.bt|FILE.ot");
   command->add_option("--json", request->json, "The same as JSON; -: on stdout")->type_name("FILE|-");

@@ -347,30 +347,38 @@ void evaluate_objects(EvaluateRequest& request) {
 void add_evaluate_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("evaluate", "Print tables of planners beside their peers");
   command->require_subcommand(1);
-  command->footer(
-      "Examples:\n  vantage evaluate exploration --help\n"
-      "  vantage evaluate objects");
+  command->footer("Examples:\n  vantage evaluate exploration --help\n  vantage evaluate objects --help");
   add_evaluate_exploration_command(*command, exit_code);
   const auto request = std::make_shared<EvaluateRequest>();
   request->run.robot_radius_m = 0.05;
   request->run.max_views = 20;
   CLI::App* objects =
       command->add_subcommand("objects", "Share of objects seen after each view, and the length of the path");
-  objects
-      ->add_option("--objects", request->objects,
-                   "NAME[:SEED] of generated ones, FILE[@SCALE[,y]] of meshes; nine generated ones and four "
-                   "meshes of VANTAGE_DATA unless given")
+  const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
+    return objects->add_option(name, value, about)->type_name(type);
+  };
+  option("--objects", request->objects, "NAME[:SEED]|FILE[@SCALE[,y]];...",
+         "Generated ones, and meshes; nine generated ones and four meshes of VANTAGE_DATA unless given")
       ->delimiter(';');
-  objects->add_option("--planners", request->planners, "Names")->delimiter(',')->capture_default_str();
-  objects->add_option("--sensors", request->sensors, "Names; a name with + reports rays without return")
+  option("--planners", request->planners, "NAME,...", "next-best-view, or a peer of vantage reconstruct --planner")
       ->delimiter(',')
-      ->capture_default_str();
-  objects->add_option("--resolutions", request->resolutions_m, "Metres")->delimiter(',')->capture_default_str();
-  objects->add_option("--starts", request->starts, "First views of each")->capture_default_str();
-  objects->add_option("--results", request->results, "FILE that keeps every run; those in it are not run again");
-  objects->add_option("--max-views", request->run.max_views, "Scans after which a run ends")->capture_default_str();
+      ->default_str("next-best-view,evenly-spaced,random-views,oracle-greedy");
+  option("--sensors", request->sensors, "NAME,...", "A name with + reports rays without return")
+      ->delimiter(',')
+      ->default_str("vpl,vpl+,kinect,kinect+");
+  option("--resolutions", request->resolutions_m, "M,...", "Edges of the cells, metres")
+      ->delimiter(',')
+      ->default_str("0.01,0.005");
+  option("--starts", request->starts, "N", "First views of each")->capture_default_str();
+  option("--results", request->results, "FILE", "Keeps every run; those in it are not run again");
+  option("--max-views", request->run.max_views, "N", "Scans after which a run ends")->capture_default_str();
   objects->add_flag("--quick", request->quick, "One start, one sensor, 0.02 m");
   add_setting_option(*objects, request->run, "A setting of the planner next-best-view");
+  objects->footer(
+      "Examples:\n"
+      "  vantage evaluate objects --quick\n"
+      "  vantage evaluate objects --resolutions 0.01 --starts 2 --results runs.jsonl\n"
+      "  vantage evaluate objects --quick --objects 'mug:11;bunny.ply' --set view_price=8");
   objects->callback([request] { evaluate_objects(*request); });
 }
 

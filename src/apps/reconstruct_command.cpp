@@ -50,6 +50,7 @@ struct ReconstructRequest {
 };
 
 constexpr std::uint64_t kMostCandidates = 1'000'000;
+constexpr double kMostBodyCells = 100.0;  // radius; the time of a plan grows with its cube
 
 // The object at its place: as given, in the middle of the table, or where its file has it.
 TriangleMesh placed_object(const ReconstructRequest& request) {
@@ -148,6 +149,8 @@ int reconstruct(const ReconstructRequest& request) {
   if (shared.planner != "next-best-view" && !shared.settings.empty()) {
     throw std::invalid_argument("--set: --planner " + shared.planner + " has no settings");
   }
+  detail::require_option(shared.robot_radius_m <= kMostBodyCells * shared.resolution_m, "--robot-radius",
+                         shared.robot_radius_m, "at most 100 cells of --resolution");
   const RangeSensor sensor = sensor_of(shared);
   const TriangleMesh object = placed_object(request);
   if (shared.scale.value_or(1.0) == 1.0) {

@@ -57,7 +57,7 @@ void report(const ReportRequest& request) {
 void add_report_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("report", "Make the page and the report of a recorded run");
   const auto request = std::make_shared<ReportRequest>();
-  command->add_option("record", request->record, "As a run left it, finished or not")
+  command->add_option("RUN.record", request->record, "As a run left it, finished or not")
       ->required()
       ->type_name("RUN.record");
   command->add_option("--out", request->out, "Folder for report.html and report.json; must be given")

@@ -12,25 +12,27 @@
 namespace vantage {
 namespace {
 
+// How far the body reaches, with room for cells that it touches.
+double body_m(const ObjectSceneOptions& options) { return options.body_radius_m + 2.0 * options.resolution_m; }
+
 double fitting_radius_m(const Box& box, const RangeSensor& sensor, const ObjectSceneOptions& options) {
   const double reach_m = 0.5 * box.extent().norm();
   const double half_angle =
       std::min(0.5 * std::min(sensor.horizontal_angle_rad(), sensor.vertical_angle_rad()), std::asin(0.5));
   const double furthest_m = std::min(sensor.max_range_m - reach_m, sensor.resolving_range_m(options.resolution_m));
-  const double nearest_m = std::max(sensor.min_range_m, 0.1) + reach_m;
+  const double nearest_m = std::max({sensor.min_range_m, 0.1, body_m(options)}) + reach_m;
   const double radius_m = std::max(std::min(reach_m / std::sin(half_angle), furthest_m), nearest_m);
   return options.table ? std::min(radius_m, 1.5) : radius_m;
 }
 
 // Memory and time follow the region, so it holds no more than the views and the ways between them need.
 Box region_around(const ObjectScene& scene, const ObjectSceneOptions& options) {
-  const double body_m = options.body_radius_m + 2.0 * options.resolution_m;
   const double reach_m = *std::max_element(scene.radii_m.begin(), scene.radii_m.end()) +
-                         std::max(0.5 * scene.box.extent().norm(), body_m);
+                         std::max(0.5 * scene.box.extent().norm(), body_m(options));
   Box region{scene.box.centre().array() - reach_m, scene.box.centre().array() + reach_m};
   if (options.table && options.start) {
-    region.extend(*options.start - Eigen::Vector3d::Constant(body_m));
-    region.extend(*options.start + Eigen::Vector3d::Constant(body_m));
+    region.extend(*options.start - Eigen::Vector3d::Constant(body_m(options)));
+    region.extend(*options.start + Eigen::Vector3d::Constant(body_m(options)));
   }
   return region;
 }

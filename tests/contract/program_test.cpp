@@ -542,6 +542,7 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--method best", "'best', must be one of default, uniform, hierarchical");
   refused(object + "--candidates 0", "--candidates");
   refused(object + "--radius 0", "--radius");
+  refused(object + "--robot-radius 3", "--robot-radius is 3, must be at most 100 cells of --resolution");
   refused(object + "--resolution 1e-6", "--resolution");
   refused(object + "--gap -1", "--gap");
   refused(object + "--max-path 0", "--max-path");
@@ -549,7 +550,7 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--reference '" + file("points.txt", "1 2 three\n") + "'", "points.txt");
   refused(object + "--start 99,0,0", "start");
   refused(object + "--set gain=3", "gain");
-  EXPECT_EQ(refused_, 18);
+  EXPECT_EQ(refused_, 19);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ struct ObjectScene {
 /// Puts an object, given at its place in the world, into its world. The region is a cube that holds the shells; in
 /// the world `table` it also holds the start, and is cut off at the walls of the room. If no radius is given there is
 /// one shell, far enough that a sphere around the box fits into the image, but so near that the sensor resolves cells
-/// and reaches the far side of the box; never inside the box, and on the table at most 1.5 m (Vasquez-Gomez et al.
-/// 2013).
+/// and reaches the far side of the box; never where the body would touch the box, and on the table at most 1.5 m
+/// (Vasquez-Gomez et al. 2013).
 [[nodiscard]] ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor,
                                        const ObjectSceneOptions& options);
 

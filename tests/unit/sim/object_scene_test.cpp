@@ -59,6 +59,22 @@ TEST(ObjectScene, TheRegionHoldsTheShellsTheBodyAndTheStart) {
   EXPECT_GT(smaller, 5U);
 }
 
+TEST(ObjectScene, TheBodyDoesNotTouchTheBoxFromItsOwnShell) {
+  std::size_t large_bodies = 0;
+  for (const double body_m : {0.05, 0.3, 0.6, 0.9}) {
+    for (const double edge_m : {0.05, 0.2, 0.6}) {
+      const ObjectScene scene =
+          object_scene(cuboid(edge_m), RangeSensor::preset("vpl"), {.resolution_m = 0.04, .body_radius_m = body_m});
+      ASSERT_EQ(scene.radii_m.size(), 1U);
+      for (const Pose& view : views_around(scene.box.centre(), scene.radii_m)) {
+        EXPECT_GT(scene.box.distance_to(view.translation()), body_m) << "body " << body_m << ", object " << edge_m;
+      }
+      large_bodies += body_m > edge_m ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(large_bodies, 4U);
+}
+
 // Takes no view.
 class NoPlanner final : public ExplorationPlanner {
  public:
