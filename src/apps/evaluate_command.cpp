@@ -362,13 +362,13 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
       ->delimiter(';');
   option("--planners", request->planners, "NAME,...", "next-best-view, or a peer of vantage reconstruct --planner")
       ->delimiter(',')
-      ->default_str("next-best-view,evenly-spaced,random-views,oracle-greedy");
+      ->capture_default_str();
   option("--sensors", request->sensors, "NAME,...", "A name with + reports rays without return")
       ->delimiter(',')
-      ->default_str("vpl,vpl+,kinect,kinect+");
+      ->capture_default_str();
   option("--resolutions", request->resolutions_m, "M,...", "Edges of the cells, metres")
       ->delimiter(',')
-      ->default_str("0.01,0.005");
+      ->capture_default_str();
   option("--starts", request->starts, "N", "First views of each")->capture_default_str();
   option("--results", request->results, "FILE", "Keeps every run; those in it are not run again");
   option("--max-views", request->run.max_views, "N", "Scans after which a run ends")->capture_default_str();

@@ -52,8 +52,12 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
 }
 
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
-  const std::string& standard = option->get_default_str();
-  return option->get_description() + (standard.empty() ? "" : " [" + standard + "]");
+  std::string standard = option->get_default_str();
+  if (standard.empty()) {
+    return option->get_description();
+  }
+  const bool is_list = standard.front() == '[';  // CLI11 puts these in brackets itself
+  return option->get_description() + " " + (is_list ? standard : "[" + standard + "]");
 }
 
 CLI::Validator a_number() {
