@@ -378,7 +378,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  vantage evaluate objects --quick\n"
       "  vantage evaluate objects --resolutions 0.01 --starts 2 --results runs.jsonl\n"
-      "  vantage evaluate objects --quick --objects 'mug:11;bunny.ply' --set view_price=8");
+      "  vantage evaluate objects --quick --objects 'mug:11;bunny.ply' --set aimed_candidates=640");
   objects->callback([request] { evaluate_objects(*request); });
 }
 
