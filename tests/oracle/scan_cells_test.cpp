@@ -166,6 +166,7 @@ TEST(ScanCells, OfRaysThatGraze) {
     const Kind kind = world % 3 == 0 ? Kind::Pinhole : world % 3 == 1 ? Kind::Spherical : Kind::Shuffled;
     const RayPolicy policy = world % 2 == 0 ? RayPolicy::EveryReturn : RayPolicy::EachEndCell;
     OccupancyMapOptions options{.resolution_m = uniform(engine, 0.05, 0.3), .keep_grazed_cells = true};
+    options.erase_range_m = world % 2 == 0 ? uniform(engine, 0.3, 2.0) : options.erase_range_m;
     if (world % 4 == 3) {
       options.region = Box{{-1.0, -2.0, 0.2}, {1.5, 0.7, 1.9}};
     }

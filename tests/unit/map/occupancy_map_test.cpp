@@ -261,7 +261,37 @@ TEST(OccupancyMap, NamesTheOptionAtFault) {
   EXPECT_EQ(message({.log_odds_miss = 1}), "OccupancyMapOptions::log_odds_miss is 1, must be < 0");
   EXPECT_EQ(message({.log_odds_min = 1}), "OccupancyMapOptions::log_odds_min is 1, must be < 0");
   EXPECT_EQ(message({.log_odds_max = -2}), "OccupancyMapOptions::log_odds_max is -2, must be > 0");
+  EXPECT_EQ(message({.erase_range_m = 0}), "OccupancyMapOptions::erase_range_m is 0, must be > 0");
+  EXPECT_NE(message({.erase_range_m = std::nan("")}).find("OccupancyMapOptions::erase_range_m"), std::string::npos);
   EXPECT_NE(message({.region = Box{}}).find("OccupancyMapOptions::region"), std::string::npos);
+}
+
+// A person stands at x = 6 m, is seen once, and goes away.
+TEST(OccupancyMap, WhatHasGoneIsErasedFromNearOnly) {
+  const VoxelIndex person{60, 0, 0};
+  const auto looked_from = [&](const OccupancyMapOptions& options, double x_m) {
+    OccupancyMap map(options);
+    Scan scan;
+    scan.world_from_sensor.translation() = Eigen::Vector3d(0.05, 0.05, 0.05);
+    scan.points = {Eigen::Vector3f(6.0F, 0.0F, 0.0F)};
+    map.insert(scan);
+    EXPECT_EQ(map.at(person), Occupancy::Occupied);
+    scan.world_from_sensor.translation().x() = x_m;
+    scan.points = {};
+    scan.no_return = {Eigen::Vector3f(1.0F, 0.0F, 0.0F)};
+    scan.max_range_m = 8.0;
+    for (int i = 0; i < 5; ++i) {
+      map.insert(scan);
+    }
+    EXPECT_EQ(map.at({70, 0, 0}), Occupancy::Free) << "rays pass an occupied cell that is far away";
+    EXPECT_EQ(map.log_odds({50, 0, 0}), -2.0) << "free cells are confirmed from afar";
+    return map.at(person);
+  };
+  EXPECT_EQ(looked_from({.resolution_m = 0.1}, 1.95), Occupancy::Occupied) << "4.1 m away";
+  EXPECT_EQ(looked_from({.resolution_m = 0.1}, 2.05), Occupancy::Free) << "4.0 m away";
+  EXPECT_EQ(looked_from({.resolution_m = 0.1, .erase_range_m = 5.0}, 1.05), Occupancy::Free);
+  EXPECT_EQ(looked_from({.resolution_m = 0.1, .erase_range_m = 1e300}, 0.05), Occupancy::Free);
+  EXPECT_EQ(looked_from(OccupancyMapOptions::octomap(0.1), 0.05), Occupancy::Free);
 }
 
 TEST(OccupancyMap, KeepsToItsRegion) {

@@ -60,19 +60,20 @@ VANTAGE_INLINE void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap
       return in_surface || (is_return && cell == last);
     });
   });
-  std::vector<VoxelIndex> beside_hits;
+  const VoxelIndex sensor = map.frame().cell_of(rays.origin());
+  std::vector<VoxelIndex> kept;
   marks.for_each_marked_brick([&](const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
     const Brick* brick = map.find_brick(address);
     for (std::size_t word = 0; brick != nullptr && word < Brick::kWords; ++word) {
       for_each_offset(passed[word] & ~hit[word] & brick->occupied[word], word, [&](std::size_t offset) {
         const VoxelIndex cell = Brick::cell_at(address, offset);
-        if (detail::touches_a_hit(map, marks, cell)) {
-          beside_hits.push_back(cell);
+        if (beyond_erase_range(map.options(), sensor, cell) || detail::touches_a_hit(map, marks, cell)) {
+          kept.push_back(cell);
         }
       });
     }
   });
-  for (const VoxelIndex& cell : beside_hits) {
+  for (const VoxelIndex& cell : kept) {
     marks.unmark_passed(cell);
   }
 }

@@ -27,6 +27,8 @@ inline void validate(const OccupancyMapOptions& options) {
                          "OccupancyMapOptions::log_odds_min", options.log_odds_min, "< 0");
   detail::require_option(finite(options.log_odds_max) && options.log_odds_max > 0,
                          "OccupancyMapOptions::log_odds_max", options.log_odds_max, "> 0");
+  detail::require_option(options.erase_range_m > 0, "OccupancyMapOptions::erase_range_m", options.erase_range_m,
+                         "> 0");
   detail::require_option(options.resident_bytes == 0 || options.resident_bytes >= BrickFile::kBlockBytes,
                          "OccupancyMapOptions::resident_bytes", options.resident_bytes, "0 or at least 65536");
   if ((options.resident_bytes != 0) != !options.resident_folder.empty()) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <vantage/geometry/voxel_ray.hpp>
+#include <vantage/map/impl/grazed_cells.hpp>
 #include <vantage/map/impl/sensor_frame.hpp>
 #include <vantage/map/impl/validate_scan.hpp>
 #include <vantage/map/scan_cells.hpp>
@@ -42,9 +43,11 @@ class Walker {
   }
   // Called after all rays: removes the cells that do not count as passed.
   void spare_grazed_and_hit() {
+    const VoxelIndex sensor = map_.frame().cell_of(origin_);
     std::erase_if(cells_.cleared, [&](const VoxelIndex& cell) {
       return cells_.hit.contains(cell) || grazed_.contains(cell) ||
-             (map_.options().keep_grazed_cells && map_.at(cell) == Occupancy::Occupied && touches_a_hit(cell));
+             (map_.options().keep_grazed_cells && map_.at(cell) == Occupancy::Occupied &&
+              (beyond_erase_range(map_.options(), sensor, cell) || touches_a_hit(cell)));
     });
   }
 
