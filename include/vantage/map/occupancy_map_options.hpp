@@ -26,7 +26,7 @@ struct OccupancyMapOptions {
   /// Largest distance from the sensor, metres, > 0, from which a ray clears an occupied cell, between the cells'
   /// centres; needs `keep_grazed_cells`. The further away a surface is, the smaller the angle at which rays meet it,
   /// so more of its cells lie along rays that pass. What has gone away is cleared once the sensor comes near.
-  double erase_range_m = 4.0;
+  double erase_range_m = 3.0;
   /// Most bytes that the map may use, as counted by `memory_bytes`; 0: no limit. An update that would need a new
   /// brick beyond the limit is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and its
   /// cell stays unknown. Existing bricks are still updated. The work space of a scan comes on top: at most 1 GB.

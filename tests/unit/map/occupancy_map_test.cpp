@@ -287,8 +287,8 @@ TEST(OccupancyMap, WhatHasGoneIsErasedFromNearOnly) {
     EXPECT_EQ(map.log_odds({50, 0, 0}), -2.0) << "free cells are confirmed from afar";
     return map.at(person);
   };
-  EXPECT_EQ(looked_from({.resolution_m = 0.1}, 1.95), Occupancy::Occupied) << "4.1 m away";
-  EXPECT_EQ(looked_from({.resolution_m = 0.1}, 2.05), Occupancy::Free) << "4.0 m away";
+  EXPECT_EQ(looked_from({.resolution_m = 0.1}, 2.95), Occupancy::Occupied) << "3.1 m away";
+  EXPECT_EQ(looked_from({.resolution_m = 0.1}, 3.05), Occupancy::Free) << "3.0 m away";
   EXPECT_EQ(looked_from({.resolution_m = 0.1, .erase_range_m = 5.0}, 1.05), Occupancy::Free);
   EXPECT_EQ(looked_from({.resolution_m = 0.1, .erase_range_m = 1e300}, 0.05), Occupancy::Free);
   EXPECT_EQ(looked_from(OccupancyMapOptions::octomap(0.1), 0.05), Occupancy::Free);
