@@ -66,7 +66,7 @@ bool anything_observable(const OccupancyMap& map, const Platform& platform, cons
         bool in_sight = true;
         for (const VoxelIndex& cell :
              VoxelRay(map.frame(), map.frame().centre_of(from), map.frame().centre_of(unknown))) {
-          in_sight = in_sight && (cell == unknown || (map.at(cell) == Occupancy::Free && !map.contested(cell)));
+          in_sight = in_sight && (cell == unknown || map.at(cell) == Occupancy::Free);
         }
         if (in_sight) {
           return true;

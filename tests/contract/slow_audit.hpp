@@ -116,9 +116,7 @@ struct LookedAt {
   std::vector<VoxelIndex> left;
   for (const VoxelIndex& cell : unknown) {
     const Eigen::Vector3d centre = frame.centre_of(cell);
-    const auto is_clear = [&](const VoxelIndex& other) {
-      return other == cell || (map.at(other) == Occupancy::Free && !map.contested(other));
-    };
+    const auto is_clear = [&](const VoxelIndex& other) { return other == cell || map.at(other) == Occupancy::Free; };
     const auto sought = looked.sought.find(cell);
     const auto is_seen_from = [&](const VoxelIndex& place) {
       const Eigen::Vector3d from = frame.centre_of(place);
@@ -144,7 +142,7 @@ struct LookedAt {
       const Eigen::Vector3d line = centre - pose.translation();
       const auto passes = [&](const VoxelIndex& other) {
         const VoxelIndex d = other - cell;
-        return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1 || then.is_clear(other);
+        return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1 || then.at(other) == Occupancy::Free;
       };
       if (in_range(line) && sensor.in_view(pose.linear().transpose() * line) &&
           touches_only(frame, pose.translation(), centre, passes)) {

@@ -117,9 +117,9 @@ TEST(OwnMap, IsReachedWhereItsMirrorIs) {
     ASSERT_EQ(sorted([&](const VoxelIndex& cell) { return robot.admits_cell(map, cell); }), expected);
     // A ball of 0.12 m around the centre of a cell of 0.1 m touches its 26 neighbours.
     ASSERT_EQ(sorted([&](const VoxelIndex& cell) {
-                return is_clear(world.host, cell) &&
+                return world.host.at(cell) == Occupancy::Free &&
                        std::all_of(kAllNeighbours.begin(), kAllNeighbours.end(), [&](const VoxelIndex& by) {
-                         return kOwnGrid.contains(cell + by) && is_clear(world.host, cell + by);
+                         return kOwnGrid.contains(cell + by) && world.host.at(cell + by) == Occupancy::Free;
                        });
               }),
               expected);
@@ -128,14 +128,6 @@ TEST(OwnMap, IsReachedWhereItsMirrorIs) {
   EXPECT_GT(starts, 5U);
   EXPECT_GT(reached, 2000U);
   EXPECT_TRUE(reachable_cells({}, VoxelBox{}, [](const VoxelIndex&) { return true; }).empty());
-}
-
-// A contested cell of a map of vantage is no clear one.
-TEST(OwnMap, IsClearAsTheMapSays) {
-  OccupancyMap map;
-  map.set_log_odds(VoxelIndex{}, 0.85 - 3 * 0.4);
-  EXPECT_EQ(map.at({}), Occupancy::Free);
-  EXPECT_FALSE(is_clear(map, VoxelIndex{}));
 }
 
 }  // namespace

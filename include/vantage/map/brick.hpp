@@ -84,6 +84,13 @@ struct Brick {
   }
   /// Bit mask of the free cells of one sub-brick.
   [[nodiscard]] std::uint64_t free(std::size_t word) const { return known[word] & ~occupied[word]; }
+  [[nodiscard]] BrickPlane free() const {
+    BrickPlane cells{};
+    for (std::size_t word = 0; word < kWords; ++word) {
+      cells[word] = free(word);
+    }
+    return cells;
+  }
 };
 
 /// Calls `visit(offset)` for each set bit of `mask`, which is word number `word` of a plane. Ascending order.

@@ -31,19 +31,6 @@ concept OccupancyLookup = requires(const Lookup& lookup, const VoxelIndex& cell)
   { lookup.at(cell) } -> std::same_as<Occupancy>;
 };
 
-/// Whether views may look through a cell and a robot may occupy it: as `lookup.is_clear(cell)` says where there is
-/// such a function (OccupancyMap: free and not contested), else whether it is free.
-template <OccupancyLookup Lookup>
-[[nodiscard]] bool is_clear(const Lookup& lookup, const VoxelIndex& cell) {
-  if constexpr (requires {
-                  { lookup.is_clear(cell) } -> std::same_as<bool>;
-                }) {
-    return lookup.is_clear(cell);
-  } else {
-    return lookup.at(cell) == Occupancy::Free;
-  }
-}
-
 /// Any type that returns the log-odds of a cell, nullopt if it is unknown. A cell with log-odds >= 0 is occupied.
 template <class Lookup>
 concept LogOddsLookup = requires(const Lookup& lookup, const VoxelIndex& cell) {

@@ -84,7 +84,7 @@ class OccupancyMap {
   /// neither it nor the space behind it is reliable. Hits that add up to a whole number of misses go unnoticed: every
   /// eighth hit with the default constants, every hit if a hit is a multiple of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
-  /// Whether a cell is free and not contested: views may look through it and a robot may occupy it.
+  /// Whether a cell is free and not contested: a robot may occupy it.
   [[nodiscard]] bool is_clear(const VoxelIndex& cell) const {
     const Brick* brick = find_brick(Brick::of_cell(cell));
     return brick != nullptr && is_clear(*brick, Brick::offset_of(cell));
@@ -114,9 +114,8 @@ class OccupancyMap {
 
   /// The clear cells (see `is_clear`) of a brick of this map.
   [[nodiscard]] BrickPlane clear_plane(const Brick& brick) const {
-    BrickPlane clear{};
+    BrickPlane clear = brick.free();
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
-      clear[word] = brick.free(word);
       for_each_offset(clear[word], word, [&](std::size_t offset) {
         clear[word] &= ~(std::uint64_t{shows_a_hit(brick.log_odds[offset])} << (offset & 63U));
       });

@@ -31,7 +31,7 @@ template <OccupancyLookup Lookup>
 [[nodiscard]] RayEnd first_not_free(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
                                     const Eigen::Vector3d& to);
 
-/// Whether nothing stands between a point and the centre of a cell: all cells of the line are clear (`is_clear`); the
+/// Whether nothing stands between a point and the centre of a cell: all cells of the line are free; the
 /// target itself may be in any state. World frame, metres; both ends must be addressable in `frame`. Starts at the
 /// target, because most blocked lines are blocked near it, and adds the cells asked to `operations`.
 template <OccupancyLookup Lookup>
@@ -39,7 +39,7 @@ template <OccupancyLookup Lookup>
                                   const VoxelIndex& target, std::uint64_t& operations) {
   return VoxelRay(frame, from, frame.centre_of(target)).all_from_the_end([&](const VoxelIndex& cell) {
     ++operations;
-    return cell == target || is_clear(map, cell);
+    return cell == target || map.at(cell) == Occupancy::Free;
   });
 }
 

@@ -35,10 +35,10 @@ struct FrontierSurveyOptions {
 /// definitions.
 ///
 ///     V . . . . . . . . . f u      V  viewpoint, a reachable cell     f  frontier cell (free)
-///                                  .  line of sight, clear cells       u  its unknown face neighbour
+///                                  .  line of sight, free cells        u  its unknown face neighbour
 ///
 /// A frontier cell is observable if a viewpoint for one of its unknown face neighbours exists: a reachable cell such
-/// that the line between both centres passes only clear cells (free and not contested), its length is within the
+/// that the line between both centres passes only free cells, its length is within the
 /// range of the sensor, and it lies in the field of view in an orientation that the platform can take there. Unknown
 /// cells that are given up (TriedViews) do not count, nor do viewpoints that rest. For a sensor that looks all
 /// around, a frontier cell without such a viewpoint is observable, too, if an unknown neighbour is seen in part: the
@@ -65,7 +65,7 @@ struct FrontierSurvey {
 };
 
 /// Whether there is a clear line of sight from `from` (metres, world) to the centre of `target`: every cell on the
-/// line before `target` is free and not contested. Adds the number of visited cells to `operations`.
+/// line before `target` is free. Adds the number of visited cells to `operations`.
 [[nodiscard]] bool in_plain_sight(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& target,
                                   std::uint64_t& operations);
 

@@ -32,7 +32,7 @@ struct TriedViewsOptions {
 ///
 /// **Evidence about an unknown cell.** A cell was looked at in vain from a place if it is still unknown after a scan
 /// there that should have resolved it: it was in the field of view and in clear line of sight, and the plan sought it
-/// or it was near enough. A line that touches a cell that is not clear, even at an edge, is not clear: hardly a ray
+/// or it was near enough. A line that touches a cell that is not free, even at an edge, is not clear: hardly a ray
 /// of a sensor passes there.
 ///
 ///       cell becomes known, or one more face neighbour does: evidence is deleted

@@ -38,8 +38,7 @@ struct AccumulatedUtility {
 };
 
 /// Second loop of Algorithm 1: adds the utility of each ray to every reachable cell on it, between `min_range_m` and
-/// `max_range_m` beyond its frontier cell. A ray ends before the first cell that is neither reachable nor clear
-/// (OccupancyMap::is_clear).
+/// `max_range_m` beyond its frontier cell. A ray ends before the first cell that is neither reachable nor free.
 [[nodiscard]] AccumulatedUtility accumulate_utility(const OccupancyMap& map, const ReachableSpace& reachable,
                                                     std::span<const UtilityVector> vectors, double min_range_m,
                                                     double max_range_m);

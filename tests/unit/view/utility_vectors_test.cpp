@@ -101,7 +101,7 @@ TEST(AccumulatedUtility, IsWhatTheLinesThroughACellAreWorth) {
       }
       for (const VoxelIndex& cell : line) {
         ++operations;
-        if (map.at(cell) != Occupancy::Free || map.contested(cell)) {
+        if (map.at(cell) != Occupancy::Free) {
           break;
         }
         if (reachable.contains(cell) && (frame.centre_of(cell) - from).norm() >= kMin) {

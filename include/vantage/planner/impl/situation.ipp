@@ -92,7 +92,8 @@ VANTAGE_INLINE void Situation::note_what_was_in_vain() {
           (map_->frame().centre_of(unknown) - current_.translation()).norm() <= furthest_m &&
           sees(*map_, sensor(), current_, unknown, operations) &&
           VoxelRay(map_->frame(), current_.translation(), map_->frame().centre_of(unknown))
-              .all_touched([&](const VoxelIndex& other) { return other == unknown || map_->is_clear(other); })) {
+              .all_touched(
+                  [&](const VoxelIndex& other) { return other == unknown || map_->at(other) == Occupancy::Free; })) {
         tried_.in_vain(*map_, unknown, here);
       }
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -18,9 +19,7 @@ namespace vantage {
 namespace detail {
 
 // Cells that one survey visits at most, in about a second, if the sampled rays find no target.
-inline constexpr std::size_t kMostSightSteps = 30'000'000;
-// The same for cells that can only be seen in part, or only past others, of which a look teaches little.
-inline constexpr std::size_t kMostSightStepsForParts = 1'000'000;
+inline constexpr std::uint64_t kMostOperations = 100'000'000;
 
 // The range of the sensor, which may be unlimited, bounded by the extent of the known map.
 inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
@@ -37,11 +36,10 @@ inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, c
 
 // The first target found along lines past other unknown cells.
 inline std::optional<FrontierTarget> one_seen_past_another(ViewpointSearch& search,
-                                                           const std::vector<VoxelIndex>& hidden,
-                                                           std::size_t& steps) {
+                                                           const std::vector<VoxelIndex>& hidden) {
   for (const VoxelIndex& cell : hidden) {
     for (const VoxelIndex& step : kFaceNeighbours) {
-      if (const auto past = search.is_sought(cell + step) ? search.try_past(cell + step, steps) : std::nullopt) {
+      if (const auto past = search.is_sought(cell + step) ? search.try_past(cell + step) : std::nullopt) {
         return past;
       }
     }
@@ -63,25 +61,23 @@ void take_seen(std::vector<VoxelIndex>& hidden, std::vector<FrontierTarget>& tar
 
 // The sampled rays may miss a viewpoint, so Explored requires that all places are tested.
 inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidden, FrontierSurvey& survey) {
-  std::size_t steps = kMostSightSteps;
-  std::size_t steps_for_parts = kMostSightStepsForParts;
+  search.limit_to(kMostOperations);
   const auto try_all = [&](const VoxelIndex& cell) {
-    return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown, steps); });
+    return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown); });
   };
   const auto try_parts = [&](const VoxelIndex& cell) {
-    return search.first_seen(cell,
-                             [&](const VoxelIndex& unknown) { return search.try_parts(unknown, steps_for_parts); });
+    return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_parts(unknown); });
   };
   take_seen(hidden, survey.targets, try_all);
   if (survey.targets.empty()) {
     take_seen(hidden, survey.targets, try_parts);
   }
-  const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden, steps_for_parts) : std::nullopt;
+  const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden) : std::nullopt;
   if (past) {
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);
   }
-  survey.exhausted = steps > 0;
+  survey.exhausted = !search.used_up();
 }
 
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.

@@ -26,7 +26,7 @@ namespace vantage::detail {
 /// Remembers, from survey to survey, the viewpoint that was found for each cell, until a cell that the search has
 /// looked at changes. Its answers are always the same as those of a new memory.
 ///
-///     Block  4 x 4 x 4 cells: one bit each for clear and reachable, number of the survey in which one changed
+///     Block  4 x 4 x 4 cells: one bit each for free and reachable, number of the survey in which one changed
 ///     Answer viewpoint for a cell (or none), blocks that its search has looked at,
 ///            boxes that it has skipped because nothing in them was reachable
 ///
@@ -37,10 +37,10 @@ namespace vantage::detail {
 /// Where all changes are too far away for a search, its answer need not be asked for at all (`may_differ`).
 ///
 /// All blocks are compared if the map is another one. Blocks are stored for a brick of the map where one of their
-/// cells is or was clear or reachable, or a search has looked at one. So memory follows what can be passed.
+/// cells is or was free or reachable, or a search has looked at one. So memory follows what can be passed.
 class SightMemory {
  public:
-  /// Updates the clear and the reachable cells; resting places (TriedViews) count as not reachable. `reachable` must
+  /// Updates the free and the reachable cells; resting places (TriedViews) count as not reachable. `reachable` must
   /// be the same object in every call, and must have followed `map` once since the last call. Searches use
   /// `direction_count` rays of length `furthest_m`, metres, level ones if the region of the map is one layer of
   /// cells; if one of these or the cell size changes, all answers are dropped.
@@ -52,13 +52,13 @@ class SightMemory {
   /// two calls of `follow`. It does not tell changes of `tried` other than of resting places.
   [[nodiscard]] bool may_differ(const VoxelIndex& cell) const { return all_changed_ || touched_.contains(cell); }
   /// Whether sight passes this cell. During a search, the answer depends on this cell from now on.
-  [[nodiscard]] bool is_clear(const VoxelIndex& cell);
+  [[nodiscard]] bool is_free(const VoxelIndex& cell);
   /// Whether the platform can bring the sensor to this cell and it does not rest, as of the last `follow`.
   [[nodiscard]] bool is_reachable(const VoxelIndex& cell) const;
 
   /// Searches along the rays from `cell`: each continues while `passes(cell)`, and ends at the first reachable
   /// cell with `serves(cell)`. Returns the result of the first ray in the order of directions, or the stored answer
-  /// if it is still valid. `passes` and `serves` must call `is_clear` for every cell that their result depends on.
+  /// if it is still valid. `passes` and `serves` must call `is_free` for every cell that their result depends on.
   /// They may depend on `about`, too, an answer to another number is not valid. If they depend on anything else, pass
   /// `anew` = true: then the search is done, and its result is not kept for later surveys.
   template <class Passes, class Serves>
@@ -70,7 +70,7 @@ class SightMemory {
 
  private:
   struct Block {
-    std::uint64_t clear = 0;      // one bit per cell, in the order of a Brick's words
+    std::uint64_t free = 0;       // one bit per cell, in the order of a Brick's words
     std::uint64_t reachable = 0;  // one bit per cell
     std::uint32_t changed = 0;    // last survey in which a bit changed
     std::uint32_t looked_at = 0;  // last search that looked at a cell of this block
@@ -92,7 +92,7 @@ class SightMemory {
   };
 
   void begin(const OccupancyMap& map, double furthest_m, std::size_t direction_count);
-  void follow_clear(const OccupancyMap& map);
+  void follow_free(const OccupancyMap& map);
   void follow_places(const ReachableSpace& reachable, const TriedViews& tried);
   template <class Member>
   void set(const VoxelIndex& brick, const BrickPlane& cells, Member member);
@@ -122,7 +122,7 @@ class SightMemory {
   std::deque<BrickBlocks> bricks_;
   BrickTree places_;               // bricks with reachable cells, resting or not
   std::vector<VoxelBox> resting_;  // TriedViews::resting of the last follow
-  // A brick of an is_clear since `follow`; no block moves while others are stored.
+  // A brick of an is_free since `follow`; no block moves while others are stored.
   struct Visited {
     VoxelIndex brick = kNoBrick;
     BrickDirectory::Number number = BrickDirectory::kNone;
@@ -145,7 +145,7 @@ class SightMemory {
   VoxelTable<std::uint32_t> numbers_;  // of the answers, by cell
 };
 
-inline bool SightMemory::is_clear(const VoxelIndex& cell) {
+inline bool SightMemory::is_free(const VoxelIndex& cell) {
   if (const VoxelIndex brick = Brick::of_cell(cell); brick != last_.brick) {
     turn_to(brick);  // stored even if unknown, so that a later change is noticed
   }
@@ -155,7 +155,7 @@ inline bool SightMemory::is_clear(const VoxelIndex& cell) {
   if (asked_ != nullptr && std::exchange(block.looked_at, question_) != question_) {
     asked_->looked_at.push_back(static_cast<std::uint32_t>(last_.number * Brick::kWords + word));
   }
-  return (block.clear & bit_of(offset)) != 0;
+  return (block.free & bit_of(offset)) != 0;
 }
 
 inline bool SightMemory::is_reachable(const VoxelIndex& cell) const {

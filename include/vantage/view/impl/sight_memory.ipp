@@ -41,7 +41,7 @@ VANTAGE_INLINE void SightMemory::follow(const OccupancyMap& map, const Reachable
   asked_boxes_.assign(kRemembered, {});
   ++survey_;
   touched_ = {};
-  follow_clear(map);
+  follow_free(map);
   follow_places(reachable, tried);
   if (!touched_.empty()) {
     constexpr std::int32_t kBeside = 3;  // a cell beside the one asked for, and what lies beside that
@@ -61,18 +61,18 @@ VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_
   direction_count_ = direction_count;
 }
 
-VANTAGE_INLINE void SightMemory::follow_clear(const OccupancyMap& map) {
+VANTAGE_INLINE void SightMemory::follow_free(const OccupancyMap& map) {
   if (!map_.is(map)) {
     followed_ = 0;
     for (const BrickBlocks& stored : bricks_) {
       if (map.find_brick(stored.brick) == nullptr) {
-        set(stored.brick, {}, &Block::clear);
+        set(stored.brick, {}, &Block::free);
       }
     }
     map_ = KnownMap(map);
   }
   map.for_each_written_since(followed_, [&](const VoxelIndex& address, const Brick& brick) {
-    set(address, map.clear_plane(brick), &Block::clear);
+    set(address, brick.free(), &Block::free);
     touch(address);
   });
   followed_ = map.revision();

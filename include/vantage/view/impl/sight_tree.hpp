@@ -23,15 +23,15 @@ class SightTree {
   /// Rays of length `furthest_m`, metres, in these directions (unit vectors).
   SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m);
 
-  /// Follows the rays from `start`, which itself is not tested. Each ray ends at the first cell where `clear(cell)`
+  /// Follows the rays from `start`, which itself is not tested. Each ray ends at the first cell where `passes(cell)`
   /// is false or `accepts(cell)` is true. Returns the accepted cell of the first ray, in the order of directions,
   /// that has one; none if no ray has. Rays do not enter a box of cells for which `may_accept(box)` is false.
-  template <class MayAccept, class Clear, class Accepts>
+  template <class MayAccept, class Passes, class Accepts>
   [[nodiscard]] std::optional<VoxelIndex> first(const VoxelIndex& start, const MayAccept& may_accept,
-                                                const Clear& clear, const Accepts& accepts) const {
+                                                const Passes& passes, const Accepts& accepts) const {
     Found found;
     if (!branches_.empty() && may_accept(reach_from(start, branches_.front()))) {
-      follow(branches_.front(), start, may_accept, clear, accepts, found);
+      follow(branches_.front(), start, may_accept, passes, accepts, found);
     }
     return found.cell;
   }
@@ -58,15 +58,15 @@ class SightTree {
   }
 
   // Skips branches whose rays all come after the result found so far.
-  template <class MayAccept, class Clear, class Accepts>
-  void follow(const Branch& branch, const VoxelIndex& start, const MayAccept& may_accept, const Clear& clear,
+  template <class MayAccept, class Passes, class Accepts>
+  void follow(const Branch& branch, const VoxelIndex& start, const MayAccept& may_accept, const Passes& passes,
               const Accepts& accepts, Found& found) const {
     if (branch.direction >= found.direction) {
       return;
     }
     for (std::size_t step = branch.first_step; step < branch.last_step; ++step) {
       const VoxelIndex cell = start + steps_[step];
-      if (!clear(cell)) {
+      if (!passes(cell)) {
         return;
       }
       // Asked behind the first cell, where many branches end.
@@ -79,7 +79,7 @@ class SightTree {
       }
     }
     for (const std::size_t next : branch.further) {
-      follow(branches_[next], start, may_accept, clear, accepts, found);
+      follow(branches_[next], start, may_accept, passes, accepts, found);
     }
   }
 

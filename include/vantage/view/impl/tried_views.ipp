@@ -235,7 +235,9 @@ VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose&
   return range_m >= sensor_.min_range_m && range_m <= sensor_.max_range_m &&
          sensor_.in_view(pose.linear().transpose() * line) &&
          VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
-             .all_touched([&](const VoxelIndex& cell) { return detail::touch(cell, unknown) || map.is_clear(cell); });
+             .all_touched([&](const VoxelIndex& cell) {
+               return detail::touch(cell, unknown) || map.at(cell) == Occupancy::Free;
+             });
 }
 
 VANTAGE_INLINE void TriedViews::fail(Place& place) {

@@ -69,7 +69,7 @@ VANTAGE_INLINE AccumulatedUtility accumulate_utility(const OccupancyMap& map, co
         places = reachable.find(brick);
       }
       if (places == nullptr || !detail::has(*places, Brick::offset_of(cell))) {
-        if (!map.is_clear(cell)) {
+        if (map.at(cell) != Occupancy::Free) {
           break;
         }
       } else if ((frame.centre_of(cell) - from).squaredNorm() >= min_range_m * min_range_m) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
@@ -87,17 +88,19 @@ class ViewpointSearch {
     return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
                      : std::nullopt;
   }
-  // Tests every reachable cell, until `steps` is used up.
-  std::optional<VoxelIndex> try_all(const VoxelIndex& unknown, std::size_t& steps) {
-    return place_of_all(unknown, steps, [&](const VoxelIndex& cell) { return serves(cell, unknown); });
+  // The next three test every reachable cell, until `operations` are used up (`used_up`).
+  void limit_to(std::uint64_t operations) { most_operations_ = operations_ + operations; }
+  [[nodiscard]] bool used_up() const { return operations_ >= most_operations_; }
+  std::optional<VoxelIndex> try_all(const VoxelIndex& unknown) {
+    return place_of_all(unknown, [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
   // The same for places that see a part.
-  std::optional<VoxelIndex> try_parts(const VoxelIndex& unknown, std::size_t& steps) {
-    return place_of_all(unknown, steps, [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); });
+  std::optional<VoxelIndex> try_parts(const VoxelIndex& unknown) {
+    return place_of_all(unknown, [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); });
   }
   // The same for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
   // one, that becomes known.
-  std::optional<FrontierTarget> try_past(const VoxelIndex& unknown, std::size_t& steps) {
+  std::optional<FrontierTarget> try_past(const VoxelIndex& unknown) {
     VoxelIndex before = unknown;
     VoxelIndex first = unknown;
     bool is_before = false;  // whether the next cell is the one before `first`
@@ -112,8 +115,10 @@ class ViewpointSearch {
       return beside.contains(cell) && is_sought(cell);
     };
     const auto place = first_place(
-        unknown, steps,
-        [&](const VoxelIndex& cell) { return map_.is_clear(cell) || (beside.contains(cell) && is_sought(cell)); },
+        unknown,
+        [&](const VoxelIndex& cell) {
+          return map_.at(cell) == Occupancy::Free || (beside.contains(cell) && is_sought(cell));
+        },
         [&](const VoxelIndex& cell) {
           return open_towards(cell, unknown) &&
                  VoxelRay(frame_, frame_.centre_of(cell), frame_.centre_of(unknown)).all_from_the_end(passes_by) &&
@@ -127,26 +132,25 @@ class ViewpointSearch {
   // A line of sight enters a cell through a face (where it touches an edge, VoxelRay also visits a face neighbour).
   bool can_be_seen(const VoxelIndex& unknown) const {
     return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(),
-                       [&](const VoxelIndex& step) { return clear(unknown + step); });
+                       [&](const VoxelIndex& step) { return is_free(unknown + step); });
   }
   template <class Serves>
-  std::optional<VoxelIndex> place_of_all(const VoxelIndex& unknown, std::size_t& steps, Serves&& serves) {
+  std::optional<VoxelIndex> place_of_all(const VoxelIndex& unknown, Serves&& serves) {
     return can_be_seen(unknown)
                ? first_place(
-                     unknown, steps, [&](const VoxelIndex& cell) { return map_.is_clear(cell); }, serves)
+                     unknown, [&](const VoxelIndex& cell) { return map_.at(cell) == Occupancy::Free; }, serves)
                : std::nullopt;
   }
-  // A reachable cell in range that serves; none if there is none, or if `steps` is used up. A line of sight never
-  // turns back along an axis. So only those cells are tested to which steps lead that are all away from `unknown`,
-  // eight times: for each combination of directions along the axes.
+  // A reachable cell in range that serves; none if there is none, or if the operations are used up. A line of sight
+  // never turns back along an axis. So only those cells are tested to which steps lead that are all away from
+  // `unknown`, eight times: for each combination of directions along the axes.
   //
   //     # # # 6 7     1 to 7 are tested, up and to the right
   //     # 3 4 5 #     #  blocks
   //     1 2 # # .     .  not tested: each way there turns back
   //     u # . . .
   template <class Passes, class Serves>
-  std::optional<VoxelIndex> first_place(const VoxelIndex& unknown, std::size_t& steps, Passes&& passes_through,
-                                        Serves&& serves) {
+  std::optional<VoxelIndex> first_place(const VoxelIndex& unknown, Passes&& passes_through, Serves&& serves) {
     Box towards_places = box_of_places();
     extend(towards_places, VoxelBox{unknown, unknown + VoxelIndex{1, 1, 1}});
     for (unsigned int octant = 0; octant < 8; ++octant) {
@@ -158,10 +162,9 @@ class ViewpointSearch {
       for (std::size_t next = 0; next < met_.size(); ++next) {
         for (const VoxelIndex& step : away) {
           const VoxelIndex cell = met_[next] + step;
-          if (steps == 0) {
+          if (used_up()) {
             return std::nullopt;
           }
-          --steps;
           ++operations_;
           if (!met.insert(cell) || !towards_places.contains(frame_.centre_of(cell)) || !near_enough(cell, unknown) ||
               !passes_through(cell)) {
@@ -210,10 +213,10 @@ class ViewpointSearch {
     VoxelIndex brick_;
     BrickPlane* plane_ = nullptr;
   };
-  bool clear(const VoxelIndex& cell) const { return memory_.is_clear(cell); }
+  bool is_free(const VoxelIndex& cell) const { return memory_.is_free(cell); }
   bool passes(const VoxelIndex& cell) {
     ++operations_;
-    return clear(cell);
+    return is_free(cell);
   }
 
   // Along an axis, the line of sight is the row of cells visited so far, so it needs no ray.
@@ -242,7 +245,7 @@ class ViewpointSearch {
     return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) && can_face(viewpoint, unknown) &&
            (in_sight(viewpoint, unknown, frame_.centre_of(unknown)) ||
             std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
-              return faces(viewpoint, unknown, step) && clear(unknown + step) &&
+              return faces(viewpoint, unknown, step) && is_free(unknown + step) &&
                      in_sight(viewpoint, unknown, just_inside(unknown, step));
             }));
   }
@@ -259,12 +262,12 @@ class ViewpointSearch {
       return passes(cell) || cell == unknown;
     });
   }
-  // Whether a line of sight from `viewpoint` can enter `unknown` through a clear neighbour on its side.
+  // Whether a line of sight from `viewpoint` can enter `unknown` through a free neighbour on its side.
   bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const VoxelIndex away = viewpoint - unknown;
-    return (away.x != 0 && clear(unknown + VoxelIndex{away.x > 0 ? 1 : -1, 0, 0})) ||
-           (away.y != 0 && clear(unknown + VoxelIndex{0, away.y > 0 ? 1 : -1, 0})) ||
-           (away.z != 0 && clear(unknown + VoxelIndex{0, 0, away.z > 0 ? 1 : -1}));
+    return (away.x != 0 && is_free(unknown + VoxelIndex{away.x > 0 ? 1 : -1, 0, 0})) ||
+           (away.y != 0 && is_free(unknown + VoxelIndex{0, away.y > 0 ? 1 : -1, 0})) ||
+           (away.z != 0 && is_free(unknown + VoxelIndex{0, 0, away.z > 0 ? 1 : -1}));
   }
   [[nodiscard]] double range_m(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     return (frame_.centre_of(unknown) - frame_.centre_of(viewpoint)).norm();
@@ -292,6 +295,7 @@ class ViewpointSearch {
   std::optional<Box> box_of_places_;
   std::vector<VoxelIndex> met_;  // by one search, in order
   std::uint64_t operations_ = 0;
+  std::uint64_t most_operations_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 }  // namespace vantage::detail
