@@ -20,6 +20,8 @@ namespace detail {
 
 // Cells that one survey visits at most, in about a second, if the sampled rays find no target.
 inline constexpr std::uint64_t kMostOperations = 100'000'000;
+// The same for cells that can only be seen in part, or only past others, of which a look teaches little.
+inline constexpr std::uint64_t kMostOperationsForParts = 10'000'000;
 
 // The range of the sensor, which may be unlimited, bounded by the extent of the known map.
 inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
@@ -69,7 +71,9 @@ inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidd
     return search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_parts(unknown); });
   };
   take_seen(hidden, survey.targets, try_all);
+  survey.exhausted = !search.used_up();
   if (survey.targets.empty()) {
+    search.limit_to(kMostOperationsForParts);
     take_seen(hidden, survey.targets, try_parts);
   }
   const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden) : std::nullopt;
@@ -77,7 +81,7 @@ inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidd
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);
   }
-  survey.exhausted = !search.used_up();
+  survey.exhausted = survey.exhausted && !search.used_up();
 }
 
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.
