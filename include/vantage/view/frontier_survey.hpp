@@ -53,7 +53,7 @@ struct FrontierSurvey {
   /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};
   std::size_t frontier_cells = 0;  ///< number of all frontier cells in the region
-  /// False if the space was too large to test every place for each unknown cell.
+  /// False if the space was too large to test every place for the centre of each unknown cell.
   bool exhausted = true;
   Leftover leftover = {};            ///< frontier cells that are no targets, by cause
   std::uint64_t ray_operations = 0;  ///< cells visited in the search for lines of sight

@@ -81,7 +81,6 @@ inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidd
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);
   }
-  survey.exhausted = survey.exhausted && !search.used_up();
 }
 
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.
