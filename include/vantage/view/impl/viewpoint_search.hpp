@@ -94,7 +94,6 @@ class ViewpointSearch {
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown) {
     return place_of_all(unknown, [&](const VoxelIndex& cell) { return serves(cell, unknown); });
   }
-  // The same for places that see a part.
   std::optional<VoxelIndex> try_parts(const VoxelIndex& unknown) {
     return place_of_all(unknown, [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); });
   }
