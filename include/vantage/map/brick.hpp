@@ -84,6 +84,7 @@ struct Brick {
   }
   /// Bit mask of the free cells of one sub-brick.
   [[nodiscard]] std::uint64_t free(std::size_t word) const { return known[word] & ~occupied[word]; }
+  /// The free cells, as a bit plane.
   [[nodiscard]] BrickPlane free() const {
     BrickPlane cells{};
     for (std::size_t word = 0; word < kWords; ++word) {
