@@ -81,7 +81,7 @@ class OccupancyMap {
   }
   /// Whether the log-odds of a free cell show that a ray has ended in it since it was last at the lower clamp: they
   /// are not a whole number of misses. Such a cell may hold a surface that rays at a grazing angle have erased, so
-  /// neither it nor the space behind it is reliable. Hits that add up to a whole number of misses go unnoticed: every
+  /// no body should be there. Hits that add up to a whole number of misses go unnoticed: every
   /// eighth hit with the default constants, every hit if a hit is a multiple of a miss.
   [[nodiscard]] bool contested(const VoxelIndex& cell) const;
   /// Whether a cell is free and not contested: a robot may occupy it.

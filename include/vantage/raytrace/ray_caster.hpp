@@ -31,9 +31,9 @@ template <OccupancyLookup Lookup>
 [[nodiscard]] RayEnd first_not_free(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
                                     const Eigen::Vector3d& to);
 
-/// Whether nothing stands between a point and the centre of a cell: all cells of the line are free; the
-/// target itself may be in any state. World frame, metres; both ends must be addressable in `frame`. Starts at the
-/// target, because most blocked lines are blocked near it, and adds the cells asked to `operations`.
+/// Whether nothing stands between a point and the centre of a cell: all cells of the line are free; the target
+/// itself may be in any state. World frame, metres; both ends must be addressable in `frame`. Starts at the target,
+/// because most blocked lines are blocked near it, and adds the cells asked to `operations`.
 template <OccupancyLookup Lookup>
 [[nodiscard]] bool in_plain_sight(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
                                   const VoxelIndex& target, std::uint64_t& operations) {

@@ -77,13 +77,16 @@ TEST(FrontierSurvey, AWornCellIsATargetLikeAnyOther) {
   }
 }
 
-// A single cell of an opening is enough.
+// A single cell of an opening is enough, even a contested one.
 TEST(FrontierSurvey, NoClusterIsTooSmall) {
   OccupancyMap map = closed_room();
+  const VoxelIndex contested = kOpening.lo + VoxelIndex{0, 2, 0};
   map.set(kOpening.lo, Occupancy::Free);
+  map.set_log_odds(contested, 0.85 - 3 * 0.4);
   const FrontierSurvey survey = survey_of(map);
-  ASSERT_EQ(survey.targets.size(), 1U);
+  ASSERT_EQ(survey.targets.size(), 2U);
   EXPECT_EQ(survey.targets.front().frontier, kOpening.lo);
+  EXPECT_EQ(survey.targets.back().frontier, contested);
 }
 
 // Counts by cause: looked at in vain from enough places, unreachable for a large body, unobservable for a narrow

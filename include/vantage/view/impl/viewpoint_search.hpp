@@ -88,7 +88,7 @@ class ViewpointSearch {
     return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
                      : std::nullopt;
   }
-  // The next three test every reachable cell, until `operations` are used up (`used_up`).
+  // `try_all`, `try_parts` and `try_past` test every reachable cell, until `operations` more are used up.
   void limit_to(std::uint64_t operations) { most_operations_ = operations_ + operations; }
   [[nodiscard]] bool used_up() const { return operations_ >= most_operations_; }
   std::optional<VoxelIndex> try_all(const VoxelIndex& unknown) {
