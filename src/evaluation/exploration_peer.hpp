@@ -8,10 +8,10 @@
 #include <vantage/planner/frontier_planner.hpp>
 #include <vector>
 
-#include <vantage/planner/impl/block_ways.hpp>
-#include <vantage/planner/impl/estimated_motion.hpp>
 #include <vantage/planner/impl/tour_legs.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
+#include <vantage/robot/impl/block_ways.hpp>
+#include <vantage/robot/impl/estimated_motion.hpp>
 #include <vantage/view/impl/frontier_sites.hpp>
 
 namespace vantage::detail {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string>
 
-#include <vantage/planner/impl/open_tour.hpp>
+#include <vantage/view/impl/open_tour.hpp>
 
 namespace vantage::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <vantage/planner/impl/cover_tour.hpp>
+#include <vantage/view/impl/cover_tour.hpp>
 #include "evaluation/exploration_peer.hpp"
 
 namespace vantage::detail {

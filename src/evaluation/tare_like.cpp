@@ -7,7 +7,7 @@
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 
-#include <vantage/planner/impl/cover_tour.hpp>
+#include <vantage/view/impl/cover_tour.hpp>
 #include "evaluation/fuel_like.hpp"
 
 namespace vantage::detail {

@@ -9,8 +9,8 @@
 #include <vantage/robot/free_flyer.hpp>
 #include <vector>
 
-#include <vantage/planner/impl/estimated_motion.hpp>
 #include <vantage/planner/impl/tour_legs.hpp>
+#include <vantage/robot/impl/estimated_motion.hpp>
 
 namespace vantage {
 namespace {

@@ -13,8 +13,8 @@
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/view/target_view.hpp>
 
-#include <vantage/planner/impl/block_ways.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
+#include <vantage/robot/impl/block_ways.hpp>
 #include <vantage/view/impl/frontier_survey_settings.hpp>
 
 namespace vantage {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <vantage/geometry/impl/pose_distance.hpp>
-#include <vantage/planner/impl/block_ways.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
+#include <vantage/robot/impl/block_ways.hpp>
 
 namespace vantage::detail {
 

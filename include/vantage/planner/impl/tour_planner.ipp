@@ -11,14 +11,14 @@
 #include <vantage/planner/tour_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
-#include <vantage/planner/impl/block_ways.hpp>
-#include <vantage/planner/impl/cover_tour.hpp>
-#include <vantage/planner/impl/estimated_motion.hpp>
-#include <vantage/planner/impl/open_tour.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/tour_legs.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
+#include <vantage/robot/impl/block_ways.hpp>
+#include <vantage/robot/impl/estimated_motion.hpp>
+#include <vantage/view/impl/cover_tour.hpp>
 #include <vantage/view/impl/frontier_sites.hpp>
+#include <vantage/view/impl/open_tour.hpp>
 #include <vantage/view/impl/targets_in_sight.hpp>
 
 namespace vantage {

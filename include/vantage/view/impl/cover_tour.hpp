@@ -46,5 +46,5 @@ struct CoverTourProblem {
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/cover_tour.ipp>
+#include <vantage/view/impl/cover_tour.ipp>
 #endif

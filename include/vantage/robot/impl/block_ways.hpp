@@ -118,5 +118,5 @@ class BlockWays {
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/block_ways.ipp>
+#include <vantage/robot/impl/block_ways.ipp>
 #endif

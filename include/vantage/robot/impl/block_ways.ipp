@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vantage/planner/impl/block_ways.hpp>
+#include <vantage/robot/impl/block_ways.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vantage/planner/impl/cover_tour.hpp>
+#include <vantage/view/impl/cover_tour.hpp>
 
 #include <algorithm>
 #include <iterator>

@@ -12,7 +12,7 @@
 #include <vantage/map/brick_set.hpp>
 #include <vector>
 
-#include <vantage/planner/impl/block_ways.hpp>
+#include <vantage/robot/impl/block_ways.hpp>
 
 namespace vantage {
 namespace {

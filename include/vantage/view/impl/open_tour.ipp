@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vantage/planner/impl/open_tour.hpp>
+#include <vantage/view/impl/open_tour.hpp>
 
 #include <algorithm>
 #include <bit>

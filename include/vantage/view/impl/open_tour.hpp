@@ -49,5 +49,5 @@ inline constexpr std::size_t kExactSites = 10;
 }  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/planner/impl/open_tour.ipp>
+#include <vantage/view/impl/open_tour.ipp>
 #endif

@@ -16,8 +16,8 @@
 #include <vantage/view/target_view.hpp>
 #include <vector>
 
-#include <vantage/planner/impl/cover_tour.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
+#include <vantage/view/impl/cover_tour.hpp>
 
 namespace vantage {
 namespace {
