@@ -19,9 +19,9 @@ struct OccupancyMapOptions {
   /// only cells whose centre lies inside can become known; nullopt: no limit
   std::optional<Box> region = std::nullopt;
   /// Whether a scan must not erase surfaces that it sees at a grazing angle. If true, rays do not clear an occupied
-  /// cell that touches the end cell of a return. Reason: a surface fills only a part of its cells, and rays at a
-  /// grazing angle pass the free part. If all of them count (false, as in OctoMap), they erase the surface and open
-  /// false frontiers behind it.
+  /// cell that touches the end cell of a return, nor the unbroken run of occupied cells at the end of a ray. Reason:
+  /// a surface fills only a part of its cells, and rays at a grazing angle pass the free part. If all of them count
+  /// (false, as in OctoMap), they erase the surface and open false frontiers behind it.
   bool keep_grazed_cells = true;
   /// Largest distance from the sensor, metres, > 0, from which a ray clears an occupied cell, between the cells'
   /// centres; needs `keep_grazed_cells`. The further away a surface is, the smaller the angle at which rays meet it,

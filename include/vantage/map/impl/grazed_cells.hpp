@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <vantage/map/impl/scan_marks.hpp>
+#include <vantage/map/impl/scan_rays.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
 namespace vantage {
@@ -18,9 +18,9 @@ inline bool beyond_erase_range(const OccupancyMapOptions& options, const VoxelIn
 }
 
 /// Second step of insertion, after `mark_rays` (see OccupancyMapOptions::keep_grazed_cells): removes the marks of
-/// passed rays from surfaces. These are cells occupied in `map` that are beyond the erase range from the sensor's
-/// `origin`, or touch an end cell of a return.
-void unmark_grazed_cells(const Eigen::Vector3d& origin, const OccupancyMap& map, ScanMarks& marks);
+/// passed rays from surfaces. These are cells occupied in `map` that are beyond the erase range or touch an end cell
+/// of a return, and, for each drawn ray, the unbroken run of occupied cells at its end.
+void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks);
 
 }  // namespace vantage
 

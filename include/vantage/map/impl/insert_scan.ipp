@@ -36,7 +36,7 @@ class ScanInserter {
       ScanMarks marks = clip ? ScanMarks::clipped_to(*clip, origin) : ScanMarks(rays.cells(), origin);
       mark_rays(rays, map_.frame_, policy, marks);
       if (map_.options_.keep_grazed_cells) {
-        unmark_grazed_cells(rays.origin(), map_, marks);
+        unmark_grazed_cells(rays, map_, policy, marks);
       }
       marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed,
                                          const std::uint64_t* hit) { update(address, passed, hit); });

@@ -17,26 +17,37 @@ class Walker {
       : map_(map), origin_(origin), cells_(cells) {}
 
   void hit(const Eigen::Vector3d& end) {
-    clear_before(end);
+    clear_before(end, true);
     if (map_.in_region(map_.frame().cell_of(end))) {
       cells_.hit.insert(map_.frame().cell_of(end));
     }
   }
   // As in OctoMap, the end cell of a ray without a return is not cleared.
-  void clear_before(const Eigen::Vector3d& end) {
+  void clear_before(const Eigen::Vector3d& end, bool is_return = false) {
     const VoxelIndex last = map_.frame().cell_of(end);
-    for (const VoxelIndex& cell : VoxelRay(map_.frame(), origin_, end)) {
+    const VoxelRay ray(map_.frame(), origin_, end);
+    for (const VoxelIndex& cell : ray) {
       if (cell != last && map_.in_region(cell)) {
         cells_.cleared.insert(cell);
       }
+    }
+    if (map_.options().keep_grazed_cells) {
+      (void)ray.all_from_the_end([&](const VoxelIndex& cell) {
+        const bool in_surface = map_.at(cell) == Occupancy::Occupied;
+        if (in_surface) {
+          grazed_.insert(cell);
+        }
+        return in_surface || (is_return && cell == last);
+      });
     }
   }
   // Called after all rays: removes the cells that do not count as passed.
   void spare_grazed_and_hit() {
     const VoxelIndex sensor = map_.frame().cell_of(origin_);
     std::erase_if(cells_.cleared, [&](const VoxelIndex& cell) {
-      return cells_.hit.contains(cell) || (map_.options().keep_grazed_cells && map_.at(cell) == Occupancy::Occupied &&
-                                           (beyond_erase_range(map_.options(), sensor, cell) || touches_a_hit(cell)));
+      return cells_.hit.contains(cell) || grazed_.contains(cell) ||
+             (map_.options().keep_grazed_cells && map_.at(cell) == Occupancy::Occupied &&
+              (beyond_erase_range(map_.options(), sensor, cell) || touches_a_hit(cell)));
     });
   }
 
@@ -51,6 +62,7 @@ class Walker {
   const OccupancyMap& map_;
   const Eigen::Vector3d& origin_;
   ScanCells& cells_;
+  std::unordered_set<VoxelIndex> grazed_;
 };
 
 }  // namespace detail
