@@ -20,8 +20,8 @@ inline bool beyond_erase_range(const OccupancyMapOptions& options, const VoxelIn
 /// Second step of insertion, after `mark_rays` (see OccupancyMapOptions::keep_grazed_cells): removes the marks of
 /// passed rays from surfaces. These are cells occupied in `map` that are beyond the erase range or touch an end cell
 /// of a return, and, for each drawn ray, the unbroken run of occupied cells at its end.
-/// Both are needed: the cells beside an end keep ways in furnished houses short, the runs those of a narrow camera
-/// that scans on the move.
+/// The last two are both needed: the cells beside an end keep ways in furnished houses short, the runs those of a
+/// narrow camera that scans on the move.
 void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks);
 
 }  // namespace vantage
