@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <set>
+#include <vantage/geometry/raster_order.hpp>
+#include <vantage/robot/free_flyer.hpp>
+#include <vantage/view/target_view.hpp>
+#include <vector>
+
+#include <vantage/planner/impl/tour_views.hpp>
+
+namespace vantage {
+namespace {
+
+TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
+  std::mt19937 engine(4);
+  std::size_t views = 0;
+  std::size_t cells = 0;
+  std::size_t fewer = 0;
+  for (int seed = 0; seed < 6; ++seed) {
+    OccupancyMap map({.resolution_m = 0.2});
+    const std::int32_t half = 12 + 2 * seed;
+    for_each_cell({{-half, -half, -3}, {half, half, 3}}, [&](const VoxelIndex& cell) {
+      const bool is_wall = cell.x % 8 == 3 && cell.y % 8 != 0;
+      if (engine() % 40 != 0) {
+        map.set(cell, is_wall ? Occupancy::Occupied : Occupancy::Free);
+      }
+    });
+    PlannerSetup setup;
+    setup.platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1});
+    setup.sensor = RangeSensor::preset("kinect");
+    Situation situation(setup);
+    situation.sync(map, Pose::Identity());
+    std::uint64_t operations = 0;
+    const std::vector<detail::FrontierSite> sites = detail::frontier_sites(situation.survey().targets, 6 + seed);
+    const detail::TourViews choice(situation, sites, operations);
+    std::set<VoxelIndex> of_sites;
+    for (const detail::FrontierSite& site : sites) {
+      for (const FrontierTarget& target : site.targets) {
+        of_sites.insert(target.unknown);
+      }
+    }
+    EXPECT_TRUE(std::is_sorted(choice.unknown.begin(), choice.unknown.end(), RasterOrder{}));
+    for (const detail::FrontierSite& site : sites) {  // a part of all, but of each part
+      EXPECT_TRUE(std::any_of(site.targets.begin(), site.targets.end(), [&](const FrontierTarget& target) {
+        return std::binary_search(choice.unknown.begin(), choice.unknown.end(), target.unknown, RasterOrder{});
+      }));
+    }
+    fewer += choice.unknown.size() < of_sites.size() ? 1U : 0U;
+    for (const detail::TourView& view : choice.views) {
+      ++views;
+      EXPECT_TRUE(situation.reachable().contains(view.place));
+      std::set<VoxelIndex> expected;
+      for (const VoxelIndex& cell : targets_seen_from(situation.surveyed(), view.pose, operations).unknown) {
+        if (std::binary_search(choice.unknown.begin(), choice.unknown.end(), cell, RasterOrder{})) {
+          expected.insert(cell);
+        }
+      }
+      std::set<VoxelIndex> seen;
+      for (const std::uint32_t number : view.sees) {
+        seen.insert(choice.unknown[number]);
+        EXPECT_TRUE(of_sites.count(choice.unknown[number]) > 0);
+      }
+      EXPECT_EQ(seen, expected);
+      cells += seen.size();
+    }
+  }
+  EXPECT_GT(fewer, 0U);
+  EXPECT_GT(views, 100U);
+  EXPECT_GT(cells, 1000U);
+}
+
+}  // namespace
+}  // namespace vantage
