@@ -54,6 +54,9 @@ struct TourOptions {
 /// A leg takes the longer of moving and turning. The first leaves from the motion that the robot is in: with a motion
 /// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.
 ///
+/// On the way to the first view the sensor looks aside at parts of the frontier, where the motion model leaves it the
+/// time to turn there and on. So small parts are seen in passing.
+///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///

@@ -11,6 +11,7 @@
 #include <vantage/planner/tour_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 
+#include <vantage/planner/impl/glances.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/tour_legs.hpp>
 #include <vantage/planner/impl/tour_views.hpp>
@@ -184,9 +185,8 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
 }
 
 // For a sensor that must be aimed: views are chosen for what they show.
-inline ChosenView first_view(const Situation& situation, const NearestSites& nearest, const TourOptions& options,
-                             const Eigen::Vector3d& velocity_m_s, Plan& plan) {
-  const TourViews choice(situation, nearest.sites, plan.statistics.ray_operations);
+inline ChosenView first_view(const Situation& situation, const NearestSites& nearest, const TourViews& choice,
+                             const TourOptions& options, const Eigen::Vector3d& velocity_m_s, Plan& plan) {
   plan.statistics.views_scored += choice.views.size();
   if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
     return nearest_view(situation, plan.statistics.ray_operations);
@@ -231,13 +231,17 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   const detail::NearestSites nearest(situation(), options_);
   const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation().current().translation());
-  ChosenView chosen = situation().sensor().looks_all_around()
-                          ? detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, plan)
-                          : detail::first_view(situation(), nearest, options_, velocity_m_s, plan);
+  std::uint64_t& operations = plan.statistics.ray_operations;
+  std::optional<detail::TourViews> views;
+  if (!situation().sensor().looks_all_around()) {
+    views.emplace(situation(), nearest.sites, operations);
+  }
+  ChosenView chosen = views ? detail::first_view(situation(), nearest, *views, options_, velocity_m_s, plan)
+                            : detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, plan);
   if (const std::optional<MotionModel>& motion = situation().setup().motion) {
     if (std::optional<std::vector<Pose>> path = path_to(chosen.view.view.pose, chosen.way)) {
-      motion_->follow(*path, *motion);
-      chosen.path = std::move(*path);
+      chosen.path = views ? detail::with_glances(*path, *views, situation(), velocity_m_s, operations) : *path;
+      motion_->follow(chosen.path, *motion);
     }
   }
   return chosen;

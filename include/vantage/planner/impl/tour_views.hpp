@@ -28,10 +28,19 @@ struct TourView {
 /// rays is bounded, whatever the size of the cells.
 struct TourViews {
   std::vector<VoxelIndex> unknown;  ///< unknown cells of all parts, in raster order
+  std::vector<double> shares;       ///< by unknown cell: 1 / number of those of its part, of the smallest one
   std::vector<TourView> views;      ///< each sees some of them
 
   /// `sites`: nearest first. Adds the number of visited cells to `operations`.
   TourViews(const Situation& situation, const std::vector<FrontierSite>& sites, std::uint64_t& operations);
+
+  /// The views from a position (metres, world) in the cell `place`, each towards the middle of another part, without
+  /// two that see the same. Adds the number of visited cells to `operations`.
+  [[nodiscard]] std::vector<TourView> views_from(const VoxelIndex& place, const Eigen::Vector3d& position_m,
+                                                 const Situation& situation, std::uint64_t& operations) const;
+
+ private:
+  std::vector<Eigen::Vector3d> middles_;  // of the unknown cells of each part
 };
 
 }  // namespace vantage::detail

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/view/frontier_survey.hpp>
@@ -72,67 +73,75 @@ inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::
   return places;
 }
 
-// An unknown cell in sight of a place.
-struct NumberedLine {
-  std::uint32_t number;
-  Eigen::Vector3d line;  // from the place, metres, world
-};
-
 VANTAGE_INLINE TourViews::TourViews(const Situation& situation, const std::vector<FrontierSite>& sites,
                                     std::uint64_t& operations) {
   const VoxelFrame& frame = situation.map().frame();
-  const double range_m = counted_range_m(situation.map(), situation.sensor());
-  std::vector<Eigen::Vector3d> middles;
   std::size_t targets = 0;
   for (const FrontierSite& site : sites) {
-    middles.push_back(middle_of_unknown(site, frame));
+    middles_.push_back(middle_of_unknown(site, frame));
     targets += site.targets.size();
   }
   const std::size_t stride = targets / kMostLookedFor + 1;
+  std::vector<std::vector<VoxelIndex>> parts;
   for (const FrontierSite& site : sites) {
+    std::vector<VoxelIndex>& part = parts.emplace_back();
     for (std::size_t i = 0; i < site.targets.size(); i += stride) {
-      unknown.push_back(site.targets[i].unknown);
+      part.push_back(site.targets[i].unknown);
     }
+    sort_unique(part);
+    unknown.insert(unknown.end(), part.begin(), part.end());
   }
   sort_unique(unknown);
-  std::vector<Eigen::Vector3d> centres;
-  centres.reserve(unknown.size());
-  for (const VoxelIndex& cell : unknown) {
-    centres.push_back(frame.centre_of(cell));
-  }
-  for (const VoxelIndex& place : places_of(situation, sites, middles)) {
-    const Eigen::Vector3d position = situation.reachable().position_in(place);
-    std::vector<NumberedLine> lines;
-    for (std::uint32_t number = 0; number < unknown.size(); ++number) {
-      const Eigen::Vector3d line = centres[number] - position;
-      const double length_m = line.norm();
-      if (length_m >= situation.sensor().min_range_m && length_m <= range_m &&
-          !situation.tried().tried_from(unknown[number], place) &&
-          in_plain_sight(situation.map(), position, unknown[number], operations)) {
-        lines.push_back({number, line});
-      }
-    }
-    const auto first = static_cast<std::ptrdiff_t>(views.size());
-    for (std::size_t i = 0; i < middles.size() && !lines.empty(); ++i) {
-      const Eigen::Vector3d line = middles[i] - position;
-      if (line.norm() < 1e-3 || line.norm() > 1.5 * range_m) {
-        continue;
-      }
-      const Pose pose = situation.platform().facing(position, line);
-      const Eigen::Matrix3d sensor_from_world = pose.linear().transpose();
-      std::vector<std::uint32_t> sees;
-      for (const NumberedLine& cell : lines) {
-        if (situation.sensor().in_view(sensor_from_world * cell.line)) {
-          sees.push_back(cell.number);
-        }
-      }
-      const bool is_new =
-          std::none_of(views.begin() + first, views.end(), [&](const TourView& other) { return other.sees == sees; });
-      if (!sees.empty() && is_new) {
-        views.push_back({place, pose, std::move(sees)});
-      }
+  shares.resize(unknown.size());
+  for (const std::vector<VoxelIndex>& part : parts) {
+    for (const VoxelIndex& cell : part) {
+      const auto at = std::lower_bound(unknown.begin(), unknown.end(), cell, RasterOrder{}) - unknown.begin();
+      double& share = shares[static_cast<std::size_t>(at)];
+      share = std::max(share, 1.0 / static_cast<double>(part.size()));
     }
   }
+  for (const VoxelIndex& place : places_of(situation, sites, middles_)) {
+    std::vector<TourView> more = views_from(place, situation.reachable().position_in(place), situation, operations);
+    std::move(more.begin(), more.end(), std::back_inserter(views));
+  }
+}
+
+VANTAGE_INLINE std::vector<TourView> TourViews::views_from(const VoxelIndex& place, const Eigen::Vector3d& position_m,
+                                                           const Situation& situation,
+                                                           std::uint64_t& operations) const {
+  const VoxelFrame& frame = situation.map().frame();
+  const double range_m = counted_range_m(situation.map(), situation.sensor());
+  std::vector<std::pair<std::uint32_t, Eigen::Vector3d>> lines;  // to the unknown cells in sight, by number
+  for (std::uint32_t number = 0; number < unknown.size(); ++number) {
+    const Eigen::Vector3d line = frame.centre_of(unknown[number]) - position_m;
+    const double length_m = line.norm();
+    if (length_m >= situation.sensor().min_range_m && length_m <= range_m &&
+        !situation.tried().tried_from(unknown[number], place) &&
+        in_plain_sight(situation.map(), position_m, unknown[number], operations)) {
+      lines.emplace_back(number, line);
+    }
+  }
+  std::vector<TourView> from_here;
+  for (std::size_t i = 0; i < middles_.size() && !lines.empty(); ++i) {
+    const Eigen::Vector3d line = middles_[i] - position_m;
+    if (line.norm() < 1e-3 || line.norm() > 1.5 * range_m) {
+      continue;
+    }
+    const Pose pose = situation.platform().facing(position_m, line);
+    const Eigen::Matrix3d sensor_from_world = pose.linear().transpose();
+    std::vector<std::uint32_t> sees;
+    for (const auto& [number, line_to] : lines) {
+      if (situation.sensor().in_view(sensor_from_world * line_to)) {
+        sees.push_back(number);
+      }
+    }
+    const bool is_new =
+        std::none_of(from_here.begin(), from_here.end(), [&](const TourView& other) { return other.sees == sees; });
+    if (!sees.empty() && is_new) {
+      from_here.push_back({place, pose, std::move(sees)});
+    }
+  }
+  return from_here;
 }
 
 }  // namespace vantage::detail
