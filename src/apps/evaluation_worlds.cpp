@@ -38,7 +38,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSensors{
 )"},
 }};
 
-constexpr std::array<EvaluationClass, 6> kClasses{{
+constexpr const char* kFlyer =
+    "--sensor sensors/aerial.json --resolution 0.1 --yaw-only --max-speed 2 --max-acceleration 3 --max-yaw-rate 90 "
+    "--scan-rate 15 --max-views 27000";
+
+constexpr std::array<EvaluationClass, 7> kClasses{{
     {"generated",
      "A flying sphere of 0.15 m radius with a panoramic sensor of 20 m, a scan every 0.5 m, cells of 0.2 m.",
      "--sensor panoramic --resolution 0.2"},
@@ -50,8 +54,8 @@ constexpr std::array<EvaluationClass, 6> kClasses{{
     {"timed",
      "A level flyer in time: 2 m/s, 3 m/s^2, 90 degrees/s, a depth camera of 90 x 73.7 degrees and 0.1 to 5 m (every "
      "fourth pixel) that scans at 15 Hz, cells of 0.1 m, at most 30 minutes.",
-     "--sensor sensors/aerial.json --resolution 0.1 --yaw-only --max-speed 2 --max-acceleration 3 --max-yaw-rate 90 "
-     "--scan-rate 15 --max-views 27000"},
+     kFlyer},
+    {"timed-generated", "The same flyer in generated worlds, another one for each start.", kFlyer},
     {"floor-plans",
      "A driving disc of 0.15 m radius with a lidar of 360 degrees, a scan every 0.5 m, cells of 0.2 m.",
      "--resolution 0.2 --max-views 30000"},
@@ -62,7 +66,7 @@ constexpr std::array<EvaluationClass, 6> kClasses{{
 }};
 
 // The number after --max-views is the budget of a run.
-constexpr std::array<EvaluationWorld, 26> kWorlds{{
+constexpr std::array<EvaluationWorld, 28> kWorlds{{
     {"rooms", "generated", "--world rooms --max-views 1000", true, true},
     {"office", "generated", "--world office --max-views 2000"},
     {"maze", "generated", "--world maze --max-views 2000", false, true},
@@ -98,6 +102,9 @@ constexpr std::array<EvaluationWorld, 26> kWorlds{{
      "--world $VANTAGE_DATA/environments/aerial/complex_office.stl --region -15,-15,0,15,15,2"},
     {"maze1", "timed", "--world $VANTAGE_DATA/environments/aerial/maze1.obj --region -20,-20,0,20,20,3"},
     {"maze4", "timed", "--world $VANTAGE_DATA/environments/aerial/maze4.obj --region -10,-20,0,10,20,3"},
+
+    {"timed-office", "timed-generated", "--world office --size 12,8"},
+    {"timed-maze", "timed-generated", "--world maze --size 12,12"},
 
     {"kth-50052748-4.5m", "floor-plans",
      "--world $VANTAGE_DATA/floorplans/kth/50052748.yaml --sensor sensors/lidar-4.5m.json"},
