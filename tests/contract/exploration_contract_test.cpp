@@ -19,6 +19,7 @@
 #include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/tour_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
 #include <vantage/sim/world.hpp>
@@ -52,7 +53,7 @@ enum class Host : std::uint8_t {
   InACorner,
   PlansFromACopy,  // a new copy of the map for each plan
   Stuck,           // never moves and does not report it
-  PlansOnItsWay,   // after three cells
+  PlansOnItsWay,   // after three cells, with a motion model
 };
 constexpr std::uint32_t kHosts = 11;
 
@@ -171,8 +172,8 @@ class DrivenRobot {
         platform_(scene.platform()),
         map_({.resolution_m = scene.cell_m, .region = world_.frame.box_of(world_.solid.box())}),
         engine_(scene.seed),
-        planner_(planner_named(planner, {sensor_, platform_, 7, 1})),
-        on_threads_(planner_named(planner, {sensor_, platform_, 7, 2})) {
+        planner_(planner_named(planner, setup(1))),
+        on_threads_(planner_named(planner, setup(2))) {
     const double cell = scene.cell_m;
     Eigen::Vector3d at = world_.frame.centre_of(world_.start);
     if (host == Host::OffCentre) {
@@ -241,6 +242,14 @@ class DrivenRobot {
   }
 
  private:
+  // A robot that plans on its way has a motion model.
+  [[nodiscard]] PlannerSetup setup(int threads) const {
+    PlannerSetup setup{.sensor = sensor_, .platform = platform_, .seed = 7, .threads = threads};
+    if (host_ == Host::PlansOnItsWay) {
+      setup.motion = TourPlanner::default_motion();
+    }
+    return setup;
+  }
   double draw(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
 
   void look() {
