@@ -55,7 +55,7 @@ struct TourOptions {
 /// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.
 ///
 /// On the way to the first view the sensor looks aside at parts of the frontier, where the motion model leaves it the
-/// time to turn there and on. So small parts are seen in passing.
+/// time to turn there and on. So small parts are seen in passing. The robot is to pass these poses without a stop.
 ///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.

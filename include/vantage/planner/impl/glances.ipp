@@ -83,7 +83,7 @@ inline std::vector<Aim> with_best_of(const std::vector<Glance>& glances, const s
                                      const TourViews& parts, const MotionModel& motion) {
   std::vector<Aim> aims{{0, points.front().pose}, {points.size() - 1, points.back().pose}};
   std::vector<bool> is_seen(parts.unknown.size());
-  const auto can_turn = [&](const Aim& from, const Aim& to) {  // and rest for half a scan at either end
+  const auto can_turn = [&](const Aim& from, const Aim& to) {  // so that a glance lasts for a scan
     const double time_s = points[to.point].passed_at_s - points[from.point].passed_at_s;
     return motion.turn_time_s(angle_rad(from.pose, to.pose)) + 0.5 / motion.scan_rate_hz <= time_s;
   };
