@@ -40,10 +40,8 @@ inline std::vector<PathPoint> points_of(const std::vector<Pose>& path, const Mot
     }
     points.push_back({path[i], true});
   }
-  std::vector<Pose> poses;
-  for (const PathPoint& point : points) {
-    poses.push_back(point.pose);
-  }
+  std::vector<Pose> poses(points.size());
+  std::transform(points.begin(), points.end(), poses.begin(), [](const PathPoint& point) { return point.pose; });
   const auto anywhere = [](const Eigen::Vector3d&, const Eigen::Vector3d&) { return true; };
   const std::optional<Trajectory> way =
       Trajectory::through({path.front().translation(), velocity_m_s}, poses, motion, anywhere);
