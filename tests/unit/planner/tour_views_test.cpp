@@ -22,6 +22,7 @@ TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
   std::size_t views = 0;
   std::size_t cells = 0;
   std::size_t fewer = 0;
+  std::size_t shared = 0;
   for (int seed = 0; seed < 6; ++seed) {
     OccupancyMap map({.resolution_m = 0.2});
     const std::int32_t half = 12 + 2 * seed;
@@ -52,6 +53,27 @@ TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
       }));
     }
     fewer += choice.unknown.size() < of_sites.size() ? 1U : 0U;
+    ASSERT_EQ(choice.shares.size(), choice.unknown.size());
+    std::vector<double> shares(choice.unknown.size());
+    for (const detail::FrontierSite& site : sites) {
+      std::set<VoxelIndex> part;
+      for (const FrontierTarget& target : site.targets) {
+        part.insert(target.unknown);
+      }
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        if (part.contains(choice.unknown[i])) {
+          shares[i] = std::max(shares[i], 1.0 / static_cast<double>(part.size()));
+        }
+      }
+    }
+    for (std::size_t i = 0; i < shares.size(); ++i) {  // a cell stands for others of its part that are left out
+      if (choice.unknown.size() == of_sites.size()) {
+        EXPECT_EQ(choice.shares[i], shares[i]);
+        ++shared;
+      } else {
+        EXPECT_GE(choice.shares[i], shares[i]);
+      }
+    }
     for (const detail::TourView& view : choice.views) {
       ++views;
       EXPECT_TRUE(situation.reachable().contains(view.place));
@@ -71,6 +93,7 @@ TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
     }
   }
   EXPECT_GT(fewer, 0U);
+  EXPECT_GT(shared, 100U);
   EXPECT_GT(views, 100U);
   EXPECT_GT(cells, 1000U);
 }
