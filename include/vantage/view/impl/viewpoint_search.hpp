@@ -234,10 +234,10 @@ class ViewpointSearch {
     return std::nullopt;
   }
 
-  // Cheap tests first. Most lines fail beside the unknown cell.
+  // Cheap tests first. Most lines fail beside the unknown cell, or leave the field of view of a level camera.
   bool serves(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
-    return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) &&
-           in_sight(viewpoint, unknown, frame_.centre_of(unknown)) && can_face(viewpoint, unknown);
+    return open_towards(viewpoint, unknown) && in_range(viewpoint, unknown) && can_face(viewpoint, unknown) &&
+           in_sight(viewpoint, unknown, frame_.centre_of(unknown));
   }
   // As `serves`, also where a line to the centre of a face is clear.
   bool sees_a_part(const VoxelIndex& viewpoint, const VoxelIndex& unknown) {
