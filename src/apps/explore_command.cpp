@@ -33,7 +33,7 @@ AuditRecord audit_of(const ExplorationRun& run, const SensorCarrier& carrier, co
 }
 
 void tell_doubts(const ExploreRequest& request, const Box& bounds) {
-  if (!is_world_file(request, World::FileKind::Mesh)) {
+  if (request.quiet || !is_world_file(request, World::FileKind::Mesh)) {
     return;
   }
   if (request.scale.value_or(1.0) == 1.0) {

@@ -153,7 +153,7 @@ int reconstruct(const ReconstructRequest& request) {
                          shared.robot_radius_m, "at most 100 cells of --resolution");
   const RangeSensor sensor = sensor_of(shared);
   const TriangleMesh object = placed_object(request);
-  if (shared.scale.value_or(1.0) == 1.0) {
+  if (!shared.quiet && shared.scale.value_or(1.0) == 1.0) {
     std::cerr << doubt_about_object_unit(request.object, object.bounds());
   }
   const std::optional<Pose> typed = start_of(shared);

@@ -465,14 +465,14 @@ TEST_F(Program, SaysThatAFullMapEndedIt) {
 }
 
 // A mesh: a block of 20 x 16 x 24 cm.
-std::string block() {
-  std::string vertices;
+std::string block(double scale = 1.0) {
+  std::ostringstream vertices;
   for (int corner = 0; corner < 8; ++corner) {
-    vertices += std::string(corner % 2 == 0 ? "-0.1 " : "0.1 ") + (corner / 2 % 2 == 0 ? "-0.08 " : "0.08 ") +
-                (corner / 4 == 0 ? "0\n" : "0.24\n");
+    vertices << (corner % 2 == 0 ? -0.1 : 0.1) * scale << ' ' << (corner / 2 % 2 == 0 ? -0.08 : 0.08) * scale << ' '
+             << (corner / 4 == 0 ? 0.0 : 0.24) * scale << '\n';
   }
   const std::string faces = "4 0 1 3 2\n4 4 5 7 6\n4 0 1 5 4\n4 2 3 7 6\n4 0 2 6 4\n4 1 3 7 5\n";
-  return ply(vertices, 8, faces, 6);
+  return ply(vertices.str(), 8, faces, 6);
 }
 
 TEST_F(Program, ReconstructsAnObjectOnTheTable) {
@@ -524,6 +524,20 @@ TEST_F(Program, ReconstructsAnObjectOnTheTable) {
     EXPECT_EQ(other["planner"], peer);
     EXPECT_GT(other["seen_coverage"], 0.2) << peer;
   }
+}
+
+TEST_F(Program, WarnsOfAMeshInDoubtUnlessItIsQuiet) {
+  const std::string mesh = "'" + file("tower.ply", block(30.0)) + "' ";
+  const auto warns = [&](const std::string& arguments, const std::string& of) {
+    const Ran told = run(arguments);
+    EXPECT_NE(told.code, 2) << told.err;
+    EXPECT_NE(told.err.find("tower.ply is " + of), std::string::npos) << told.err;
+    const Ran quiet = run(arguments + " --quiet");
+    EXPECT_EQ(quiet.code, told.code);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+  };
+  warns("explore --start 0,0,3 --resolution 0.4 --max-views 1 --world " + mesh, "higher than wide");
+  warns("reconstruct --resolution 0.4 --max-views 1 --candidates 30 --object " + mesh, "7.2 m long");
 }
 
 TEST_F(Program, RefusesToReconstructWhatIsNone) {
