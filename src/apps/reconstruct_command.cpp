@@ -291,8 +291,8 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
       "  vantage reconstruct --object cup.obj --up y --candidates 1280 --method uniform --json cup.json\n"
       "A setting of the paper's utility (gain, choice, min_unknown_cells ...) asks for that utility.\n"
       "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written) or a file that\n"
-      "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143\n"
-      "interrupted.");
+      "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, or may be left after\n"
+      "the last view of a fixed order, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = reconstruct(*request); });
 }
 

@@ -84,8 +84,6 @@ class ListPeer : public ObjectPeer {
     }
     came(current);
     Plan plan;
-    plan.outcome = Outcome::Explored;
-    plan.reason = "there are no more views";
     while (const std::optional<std::size_t> next = best()) {
       const Pose& goal = views_[*next];
       std::erase(left_, *next);
@@ -100,6 +98,10 @@ class ListPeer : public ObjectPeer {
         break;
       }
     }
+    if (plan.path.empty()) {
+      plan.outcome = left_.empty() ? Outcome::Blocked : Outcome::Explored;
+      plan.reason = left_.empty() ? "the views of this order are used up" : "no view shows more";
+    }
     planned_ = {map.revision(), plan};
     return plan;
   }
@@ -107,7 +109,7 @@ class ListPeer : public ObjectPeer {
  protected:
   // Called with the pose of the sensor before each new plan.
   virtual void came(const Pose&) {}
-  // Index of the next view among those left; none: the run is over.
+  // Index of the next view among those left; none: no other shows more.
   [[nodiscard]] virtual std::optional<std::size_t> best() = 0;
   [[nodiscard]] const std::vector<Pose>& views() const { return views_; }
   [[nodiscard]] const std::vector<std::size_t>& left() const { return left_; }
