@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <vantage/evaluation/exploration_peers.hpp>
+#include <vantage/map/height_band.hpp>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
@@ -56,6 +57,20 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
   if (start && !region.contains(start->translation())) {
     throw std::invalid_argument("--start " + request.start + " lies outside the region");
   }
+}
+
+// Why a robot that drives may fit nowhere: a floor that reaches into the band stands in its way everywhere.
+std::string floor_of_band(const ExploreRequest& request) {
+  const std::optional<HeightBandOptions> options = band_of(request);
+  if (!options) {
+    return "";
+  }
+  const HeightBand band({.resolution_m = request.resolution_m}, *options);
+  std::ostringstream why;
+  why << "; the lowest cells of --band " << request.band << " begin at "
+      << band.plane().frame().corner_of({0, 0, band.layers().first}).z()
+      << " m, and the floor must lie below that: raise LOW";
+  return why.str();
 }
 
 }  // namespace
@@ -141,7 +156,8 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
   const std::optional<Pose> given = start_in_world(request);
   const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
   if (!start) {
-    throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region");
+    throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region" +
+                                floor_of_band(request));
   }
   return *start;
 }

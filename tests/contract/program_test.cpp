@@ -166,7 +166,8 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused("--world rooms --yaw-only --start 2,2,1,0,45", "an orientation that the robot cannot take");
   expect_refused(table + "--region -1,-1,0,1,1,2 --start 1.5,0,1", "--start 1.5,0,1");
   expect_refused(table + "--robot-radius 9", "fits nowhere");
-  EXPECT_EQ(refused_, 14);
+  expect_refused("--world rooms --sensor stereo --resolution 0.15 --band 0.2,1.4", "begin at 0.15 m, and the floor");
+  EXPECT_EQ(refused_, 15);
 }
 
 TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
