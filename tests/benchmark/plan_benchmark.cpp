@@ -4,6 +4,8 @@
 // updates of the field.
 //
 // plan/<planner>/rooms-stereo: the same with a narrow sensor, after every scan of the planner's own complete run.
+//
+// plan/<planner>/rooms-level: that with a robot that cannot tilt this sensor, in cells of 0.1 m.
 #include <benchmark/benchmark.h>
 
 #include <map>
@@ -22,18 +24,17 @@
 namespace vantage {
 namespace {
 
-constexpr double kCellM = 0.2;
-
 // The scans of a run, and its start.
 struct RoomsRun {
   World world = World::by_name("rooms");
   RangeSensor sensor = RangeSensor::preset("panoramic");
-  std::shared_ptr<const Platform> robot = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.15});
+  std::shared_ptr<const Platform> robot;
+  double cell_m = 0.2;
   Pose start = Pose::Identity();
   std::vector<Scan> scans;
 
   [[nodiscard]] OccupancyMap map_at_start() const {
-    OccupancyMap map({.resolution_m = kCellM, .region = world.region});
+    OccupancyMap map({.resolution_m = cell_m, .region = world.region});
     map.assume_free(robot->body_box(start));
     return map;
   }
@@ -54,13 +55,17 @@ struct PlanCase {
   RangeSensor sensor = RangeSensor::preset("panoramic");
   std::size_t most_scans = 100;
   benchmark::IterationCount plans = 60;
+  bool is_level = false;
+  double cell_m = 0.2;
 };
 
 // Scans at goals only, until all is explored or the limit is reached.
 RoomsRun explore_rooms(const PlanCase& what) {
   RoomsRun run;
   run.sensor = what.sensor;
-  const std::optional<Pose> start = Truth(run.world, kCellM, run.world.region).draw_start(*run.robot, 1);
+  run.cell_m = what.cell_m;
+  run.robot = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.15, .yaw_only = what.is_level});
+  const std::optional<Pose> start = Truth(run.world, run.cell_m, run.world.region).draw_start(*run.robot, 1);
   if (!start) {
     throw std::runtime_error("rooms: the robot fits nowhere");
   }
@@ -133,6 +138,9 @@ const bool registered = [] {
   add("rooms", {"frontier-gain", {{"hypotheses", "200"}}});
   for (const std::string planner : {"harmonic", "nearest-frontier"}) {
     add("rooms-stereo", {planner, {}, planner, thin_stereo(), 1000, 700});
+  }
+  for (const std::string planner : {"tour", "nearest-frontier"}) {
+    add("rooms-level", {planner, {}, planner, thin_stereo(), 100, 100, true, 0.1});
   }
   return true;
 }();

@@ -70,9 +70,10 @@ SurveyedWorld random_world(std::mt19937& engine, bool is_level = false) {
   const double resolution_m = engine() % 2 == 0 ? 0.1 : 0.05;
   const double far_m = (engine() % 4 == 0 ? 1000.0 : static_cast<double>(5 + engine() % 30)) * resolution_m;
   const double min_m = 2.0 * resolution_m;
-  RangeSensor sensor = engine() % 2 == 0
-                           ? RangeSensor::spherical(90, 60, 1.2, 1.0, min_m, far_m)
-                           : RangeSensor::spherical(36, 18, 2.0 * std::numbers::pi, std::numbers::pi, min_m, far_m);
+  RangeSensor sensor =
+      engine() % 2 == 0
+          ? RangeSensor::spherical(90, 60, 1.2, !is_level && engine() % 2 == 0 ? 0.3 : 1.0, min_m, far_m)
+          : RangeSensor::spherical(36, 18, 2.0 * std::numbers::pi, std::numbers::pi, min_m, far_m);
   sensor.reports_no_return = true;
   const OccupancyMap map = random_rooms(engine, resolution_m, is_level);
   const double across_m = map.frame().box_of(map.bounds()).extent().norm() + resolution_m;

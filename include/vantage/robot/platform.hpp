@@ -33,7 +33,8 @@ class Platform {
   /// are clear, or are already touched at `from`. So a body can leave a place that is found too narrow.
   [[nodiscard]] virtual bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const = 0;
   /// The pose at `position_m` (metres, world) whose optical axis is as close to `direction` (world) as the platform
-  /// allows; a yaw-only platform stays horizontal.
+  /// allows; a yaw-only platform stays horizontal. If it cannot tilt, the orientation must depend on `direction`
+  /// alone.
   [[nodiscard]] virtual Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const = 0;
   /// Length of the path between two poses in free space, metres.
   [[nodiscard]] virtual double distance_m(const Pose& from, const Pose& to) const = 0;

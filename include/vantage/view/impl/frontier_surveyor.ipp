@@ -28,6 +28,17 @@ inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
   return std::min(sensor.max_range_m, map.frame().box_of(map.bounds()).extent().norm() + map.resolution_m());
 }
 
+// Whether the sensor can have in view what lies along a line. One at the edge of the field of view counts, whichever
+// way rounding goes.
+inline bool may_face(const Platform& platform, const RangeSensor& sensor, const Eigen::Vector3d& line) {
+  if (platform.can_tilt()) {
+    return true;
+  }
+  constexpr double kTowardsAxis = 1.0 - 1e-6;
+  const Eigen::Vector3d seen = platform.facing(Eigen::Vector3d::Zero(), line).linear().transpose() * line;
+  return sensor.in_view({kTowardsAxis * seen.x(), kTowardsAxis * seen.y(), seen.z()});
+}
+
 // Whether an unknown neighbour of the frontier cell was given up.
 inline bool looked_at_in_vain(const OccupancyMap& map, const VoxelIndex& cell, const TriedViews& tried) {
   return std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
@@ -115,7 +126,8 @@ VANTAGE_INLINE FrontierSurveyor::FrontierSurveyor(std::shared_ptr<const Platform
     : platform_(std::move(platform)),
       sensor_(sensor),
       options_(options),
-      memory_(std::make_unique<detail::SightMemory>()) {}
+      memory_(std::make_unique<detail::SightMemory>(
+          [of = platform_, sensor](const Eigen::Vector3d& line) { return detail::may_face(*of, sensor, line); })) {}
 VANTAGE_INLINE FrontierSurveyor::FrontierSurveyor(FrontierSurveyor&&) noexcept = default;
 VANTAGE_INLINE FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&) noexcept = default;
 VANTAGE_INLINE FrontierSurveyor::~FrontierSurveyor() = default;

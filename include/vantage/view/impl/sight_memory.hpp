@@ -40,6 +40,9 @@ namespace vantage::detail {
 /// cells is or was free or reachable, or a search has looked at one. So memory follows what can be passed.
 class SightMemory {
  public:
+  /// `may_face`: for the rays of the searches (SightTree).
+  explicit SightMemory(SightTree::MayFace may_face) : may_face_(std::move(may_face)) {}
+
   /// Updates the free and the reachable cells; resting places (TriedViews) count as not reachable. `reachable` must
   /// be the same object in every call, and must have followed `map` once since the last call. Searches use
   /// `direction_count` rays of length `furthest_m`, metres, level ones if the region of the map is one layer of
@@ -111,6 +114,7 @@ class SightMemory {
   static constexpr std::size_t kRemembered = 4096;  // bricks and boxes of the searches of one survey
   static constexpr VoxelIndex kNoBrick{std::numeric_limits<std::int32_t>::max(), 0, 0};
 
+  SightTree::MayFace may_face_;
   double cell_size_m_ = 0.0;
   double furthest_m_ = 0.0;
   std::size_t direction_count_ = 0;

@@ -55,7 +55,7 @@ VANTAGE_INLINE void SightMemory::begin(const OccupancyMap& map, double furthest_
   numbers_.clear();
   cell_size_m_ = 0.0;  // starts again if the next lines throw
   tree_.emplace(map.frame(), is_level_ ? level_directions(direction_count) : spread_directions(direction_count),
-                furthest_m);
+                furthest_m, may_face_);
   cell_size_m_ = map.resolution_m();
   furthest_m_ = furthest_m;
   direction_count_ = direction_count;

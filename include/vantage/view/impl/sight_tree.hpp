@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -20,8 +21,13 @@ namespace vantage::detail {
 ///             +-- cell ...                        ray 2
 class SightTree {
  public:
-  /// Rays of length `furthest_m`, metres, in these directions (unit vectors).
-  SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m);
+  /// Whether a sensor can have in view what lies along this line (world frame, of any length but zero).
+  using MayFace = std::function<bool(const Eigen::Vector3d& line)>;
+
+  /// Rays of length `furthest_m`, metres, in these directions (unit vectors). Each ends at the last cell from which a
+  /// sensor may have the start of the rays in view, or a face neighbour of it.
+  SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions, double furthest_m,
+            const MayFace& may_face);
 
   /// Follows the rays from `start`, which itself is not tested. Each ray ends at the first cell where `passes(cell)`
   /// is false or `accepts(cell)` is true. Returns the accepted cell of the first ray, in the order of directions,

@@ -11,8 +11,18 @@
 #include <vantage/geometry/impl/box_around.hpp>
 
 namespace vantage::detail {
+
+// Whether a sensor in a cell may have the start of the rays in view, or a face neighbour of it.
+inline bool may_face_start(const VoxelIndex& from_start, const SightTree::MayFace& may_face) {
+  return may_face(-Eigen::Vector3d(from_start.x, from_start.y, from_start.z)) ||
+         std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
+           const VoxelIndex line = step - from_start;
+           return line == VoxelIndex{0, 0, 0} || may_face(Eigen::Vector3d(line.x, line.y, line.z));
+         });
+}
+
 VANTAGE_INLINE SightTree::SightTree(const VoxelFrame& frame, std::span<const Eigen::Vector3d> directions,
-                                    double furthest_m) {
+                                    double furthest_m, const MayFace& may_face) {
   const VoxelIndex home{0, 0, 0};
   const Eigen::Vector3d centre = frame.centre_of(home);
   std::vector<std::vector<VoxelIndex>> rays;
@@ -22,6 +32,9 @@ VANTAGE_INLINE SightTree::SightTree(const VoxelFrame& frame, std::span<const Eig
       if (cell != home) {
         ray.push_back(cell);
       }
+    }
+    while (!ray.empty() && !may_face_start(ray.back(), may_face)) {
+      ray.pop_back();
     }
   }
   std::vector<std::size_t> all(rays.size());
