@@ -12,6 +12,7 @@
 #include <vantage/view/frontier_survey.hpp>
 #include <vantage/view/frontier_surveyor.hpp>
 
+#include <vantage/view/impl/can_face.hpp>
 #include <vantage/view/impl/sight_memory.hpp>
 #include <vantage/view/impl/viewpoint_search.hpp>
 
@@ -28,15 +29,13 @@ inline double furthest_m(const OccupancyMap& map, const RangeSensor& sensor) {
   return std::min(sensor.max_range_m, map.frame().box_of(map.bounds()).extent().norm() + map.resolution_m());
 }
 
-// Whether the sensor can have in view what lies along a line. One at the edge of the field of view counts, whichever
-// way rounding goes.
-inline bool may_face(const Platform& platform, const RangeSensor& sensor, const Eigen::Vector3d& line) {
-  if (platform.can_tilt()) {
-    return true;
-  }
-  constexpr double kTowardsAxis = 1.0 - 1e-6;
-  const Eigen::Vector3d seen = platform.facing(Eigen::Vector3d::Zero(), line).linear().transpose() * line;
-  return sensor.in_view({kTowardsAxis * seen.x(), kTowardsAxis * seen.y(), seen.z()});
+// The sensor's field of view, as wide as rounding may make it. A platform that cannot tilt takes the same orientation
+// towards a direction everywhere.
+inline SightTree::MayFace widest_view(std::shared_ptr<const Platform> platform, const RangeSensor& sensor) {
+  constexpr double kOffAxis = 1.0 - 1e-6;
+  return [platform = std::move(platform), sensor](const Eigen::Vector3d& line) {
+    return can_face(*platform, sensor, Eigen::Vector3d::Zero(), line, kOffAxis);
+  };
 }
 
 // Whether an unknown neighbour of the frontier cell was given up.
@@ -126,8 +125,7 @@ VANTAGE_INLINE FrontierSurveyor::FrontierSurveyor(std::shared_ptr<const Platform
     : platform_(std::move(platform)),
       sensor_(sensor),
       options_(options),
-      memory_(std::make_unique<detail::SightMemory>(
-          [of = platform_, sensor](const Eigen::Vector3d& line) { return detail::may_face(*of, sensor, line); })) {}
+      memory_(std::make_unique<detail::SightMemory>(detail::widest_view(platform_, sensor))) {}
 VANTAGE_INLINE FrontierSurveyor::FrontierSurveyor(FrontierSurveyor&&) noexcept = default;
 VANTAGE_INLINE FrontierSurveyor& FrontierSurveyor::operator=(FrontierSurveyor&&) noexcept = default;
 VANTAGE_INLINE FrontierSurveyor::~FrontierSurveyor() = default;

@@ -19,6 +19,7 @@
 #include <vantage/view/tried_views.hpp>
 #include <vector>
 
+#include <vantage/view/impl/can_face.hpp>
 #include <vantage/view/impl/sight_memory.hpp>
 
 namespace vantage::detail {
@@ -279,9 +280,8 @@ class ViewpointSearch {
   }
   bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
-    const Eigen::Vector3d line = frame_.centre_of(unknown) - from;
     return !tried_.tried_from(unknown, viewpoint) &&
-           (platform_.can_tilt() || sensor_.in_view(platform_.facing(from, line).linear().transpose() * line));
+           detail::can_face(platform_, sensor_, from, frame_.centre_of(unknown) - from);
   }
 
   const OccupancyMap& map_;
