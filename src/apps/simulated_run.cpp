@@ -67,7 +67,7 @@ std::string floor_of_band(const ExploreRequest& request) {
   }
   const HeightBand band({.resolution_m = request.resolution_m}, *options);
   std::ostringstream why;
-  why << "; the lowest cells of --band " << request.band << " begin at "
+  why << "; it is too large, or the lowest cells of --band " << request.band << " begin at "
       << band.plane().frame().corner_of({0, 0, band.layers().first}).z()
       << " m, and the floor must lie below that: raise LOW";
   return why.str();

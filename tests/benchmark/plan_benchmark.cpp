@@ -27,9 +27,9 @@ namespace {
 // The scans of a run, and its start.
 struct RoomsRun {
   World world = World::by_name("rooms");
-  RangeSensor sensor = RangeSensor::preset("panoramic");
+  RangeSensor sensor;
   std::shared_ptr<const Platform> robot;
-  double cell_m = 0.2;
+  double cell_m = 0.0;
   Pose start = Pose::Identity();
   std::vector<Scan> scans;
 
@@ -140,7 +140,12 @@ const bool registered = [] {
     add("rooms-stereo", {planner, {}, planner, thin_stereo(), 1000, 700});
   }
   for (const std::string planner : {"tour", "nearest-frontier"}) {
-    add("rooms-level", {planner, {}, planner, thin_stereo(), 100, 100, true, 0.1});
+    add("rooms-level", {.planner = planner,
+                        .explorer = planner,
+                        .sensor = thin_stereo(),
+                        .plans = 100,
+                        .is_level = true,
+                        .cell_m = 0.1});
   }
   return true;
 }();

@@ -167,7 +167,8 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused(table + "--region -1,-1,0,1,1,2 --start 1.5,0,1", "--start 1.5,0,1");
   expect_refused(table + "--robot-radius 9", "fits nowhere");
   expect_refused("--world rooms --sensor stereo --resolution 0.15 --band 0.2,1.4", "begin at 0.15 m, and the floor");
-  EXPECT_EQ(refused_, 15);
+  expect_refused("--world rooms --sensor stereo --band 0.3,1.4 --robot-radius 9", "region; it is too large, or");
+  EXPECT_EQ(refused_, 16);
 }
 
 TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
