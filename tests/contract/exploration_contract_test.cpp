@@ -557,6 +557,14 @@ TEST(ExplorationContractCase, ALineOfSightThroughACornerIsNoEvidence) {
   EXPECT_TRUE(expect_contract("frontier-gain", Host::MovedByHand, Scene::numbered(5115)));
 }
 
+// A surface that was found beside a cell hid it from both places that had looked; from elsewhere it could be seen.
+TEST(ExplorationContractCase, ALookThatASurfaceCutsOffDoesNotEndARun) {
+  EXPECT_TRUE(expect_contract("harmonic", Host::StopsShort, Scene::numbered(1009102)));
+}
+// All places that saw a cell lay close to one from which it had been looked at in vain.
+TEST(ExplorationContractCase, OneLookDoesNotEndARun) {
+  EXPECT_TRUE(expect_contract("nearest-frontier", Host::StopsShort, Scene::numbered(1009271)));
+}
 // An unknown cell that could only be seen at a corner hid others, and was no target.
 TEST(ExplorationContractCase, ACellSeenAtACornerHidesOthers) {
   EXPECT_TRUE(expect_contract("frontier-void", Host::StopsShort, Scene::numbered(5090)));

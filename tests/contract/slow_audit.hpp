@@ -92,10 +92,14 @@ struct LookedAt {
   return 4 * square(a - b) <= std::min(square(a - unknown), square(b - unknown));
 }
 
-/// Unknown neighbours of free cells whose centre, or the centre of one of whose faces, the sensor could still see,
-/// from a place that was not the goal of a plan that sought them and is not like one from which they were in view,
-/// and that were not looked at in vain: not in view from two cells, and not in view or sought from four cells
-/// together.
+/// Unknown neighbours of free cells that the sensor could still see, from a place that was not the goal of a plan
+/// that sought them:
+/// - their centre or the centre of a face, from a place that is not like one from which they were in view, if they
+/// were
+///   not in view from two cells, and not in view or sought from four cells together; or
+/// - their centre, from a place that touches none from which the line is clear in the final map, if there are not two
+/// of
+///   these, and they were not in view or sought from eight cells together.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {
@@ -118,16 +122,18 @@ struct LookedAt {
     const Eigen::Vector3d centre = frame.centre_of(cell);
     const auto is_clear = [&](const VoxelIndex& other) { return other == cell || map.at(other) == Occupancy::Free; };
     const auto sought = looked.sought.find(cell);
+    const auto in_sight = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& point) {
+      return touches_only(frame, from, point, is_clear);
+    };
     const auto is_seen_from = [&](const VoxelIndex& place) {
       const Eigen::Vector3d from = frame.centre_of(place);
       const Pose facing = platform.facing(from, centre - from);
-      const auto in_sight = [&](const Eigen::Vector3d& point) { return touches_only(frame, from, point, is_clear); };
       return in_range(centre - from) && sensor.in_view(facing.linear().transpose() * (centre - from)) &&
              platform.admits(map, facing) &&
-             (in_sight(centre) ||
+             (in_sight(from, centre) ||
               std::any_of(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
                 const Eigen::Vector3d out(step.x, step.y, step.z);
-                return out.dot(from - centre) > 0.0 && in_sight(centre + 0.49 * frame.size_m * out);
+                return out.dot(from - centre) > 0.0 && in_sight(from, centre + 0.49 * frame.size_m * out);
               }));
     };
     std::vector<VoxelIndex> viewpoints;
@@ -138,6 +144,7 @@ struct LookedAt {
       continue;
     }
     std::set<VoxelIndex> from_cells;
+    std::set<VoxelIndex> clear_from;
     for (const auto& [pose, then] : looked.looks) {
       const Eigen::Vector3d line = centre - pose.translation();
       const auto passes = [&](const VoxelIndex& other) {
@@ -147,14 +154,25 @@ struct LookedAt {
       if (in_range(line) && sensor.in_view(pose.linear().transpose() * line) &&
           touches_only(frame, pose.translation(), centre, passes)) {
         from_cells.insert(frame.cell_of(pose.translation()));
+        if (in_sight(pose.translation(), centre)) {
+          clear_from.insert(frame.cell_of(pose.translation()));
+        }
       }
     }
-    std::erase_if(viewpoints, [&](const VoxelIndex& place) {
-      return std::any_of(from_cells.begin(), from_cells.end(),
-                         [&](const VoxelIndex& other) { return alike(cell, place, other); });
-    });
     const std::size_t goals = sought == looked.sought.end() ? 0 : sought->second.size();
-    if (!viewpoints.empty() && from_cells.size() < 2 && from_cells.size() + goals < 4) {
+    const bool differs = std::any_of(viewpoints.begin(), viewpoints.end(), [&](const VoxelIndex& place) {
+      return std::none_of(from_cells.begin(), from_cells.end(),
+                          [&](const VoxelIndex& other) { return alike(cell, place, other); });
+    });
+    const bool is_apart = std::any_of(viewpoints.begin(), viewpoints.end(), [&](const VoxelIndex& place) {
+      return in_sight(frame.centre_of(place), centre) &&
+             std::none_of(clear_from.begin(), clear_from.end(), [&](const VoxelIndex& other) {
+               const VoxelIndex d = other - place;
+               return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= 1;
+             });
+    });
+    if ((differs && from_cells.size() < 2 && from_cells.size() + goals < 4) ||
+        (is_apart && clear_from.size() < 2 && from_cells.size() + goals < 8)) {
       left.push_back(cell);
     }
   }

@@ -348,6 +348,69 @@ TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
   }
 }
 
+// Places close together do not differ, but a run does not end before two of them looked: the first ones of which none
+// touches another.
+TEST(TriedViews, ACellIsLookedCloselyAtFromCellsThatDoNotTouch) {
+  const OccupancyMap map = free_before_the_hidden();
+  std::mt19937 engine(12);
+  std::uniform_int_distribution<std::int32_t> coordinate(0, 4);
+  std::size_t closely = 0;
+  std::size_t given_up = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    TriedViews tried(sees_all_around());
+    std::vector<VoxelIndex> apart;
+    const auto touches_one = [&](const VoxelIndex& place) {
+      return std::any_of(apart.begin(), apart.end(), [&](const VoxelIndex& other) {
+        return VoxelBox{other, other + VoxelIndex{1, 1, 1}}.grown(1).contains(place);
+      });
+    };
+    for (int look = 0; look < 3; ++look) {
+      const VoxelIndex place{-7, coordinate(engine), coordinate(engine)};
+      EXPECT_EQ(tried.looked_from_beside(kHidden, place), touches_one(place));
+      tried.in_vain(map, kHidden, place);
+      if (apart.size() < 2 && !touches_one(place)) {
+        apart.push_back(place);
+      }
+      EXPECT_EQ(tried.looked_closely(kHidden), apart.size() == 2);
+    }
+    closely += tried.looked_closely(kHidden) ? 1U : 0U;
+    given_up += tried.gave_up(kHidden) ? 1U : 0U;
+  }
+  EXPECT_GT(closely, 300U);
+  EXPECT_LT(closely, 500U);
+  EXPECT_EQ(given_up, 0U);
+}
+
+// A line that touches a cell beside the hidden one, which is not free, suffices to go elsewhere but not to end a run.
+TEST(TriedViews, ALookPastACellBesideItIsNoCloseLook) {
+  for (const bool is_straight : {false, true}) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around(), {.patience = 1});
+    const Pose goal = at(map, is_straight ? VoxelIndex{0, 5, 5} : VoxelIndex{0, 0, 5});
+    view_in_vain(tried, map, goal, goal);
+    EXPECT_TRUE(tried.gave_up(kHidden));
+    EXPECT_EQ(tried.looked_closely(kHidden), is_straight);
+    EXPECT_TRUE(tried.looked_from_beside(kHidden, map.frame().cell_of(goal.translation())));
+  }
+}
+
+// A robot that never gets where it is sent takes no clear look from a new place; the run ends nevertheless.
+TEST(TriedViews, MissesEndEvenTheCloseLooks) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.goal_tolerance_m = 0.5});
+  const Pose stops = at(map, {0, 5, 5});
+  int misses = 0;
+  for (std::int32_t y = 3; y < 8; ++y) {
+    for (std::int32_t z = 4; z < 7 && !tried.looked_closely(kHidden); ++z, ++misses) {
+      const Pose goal = at(map, {1, y, z});
+      view_in_vain(tried, map, goal, stops);
+      EXPECT_TRUE(tried.looked_from_beside(kHidden, {1, y, z}));
+    }
+  }
+  EXPECT_TRUE(tried.looked_closely(kHidden));
+  EXPECT_LE(misses, 8);
+}
+
 TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
   OccupancyMap map = free_before_the_hidden();
   TriedViews tried(sees_all_around(), {.goal_tolerance_m = 0.45});
@@ -569,6 +632,8 @@ TEST(TriedViews, IsTheSameAfterItWasText) {
         EXPECT_EQ(recalled.tried_from(cell, place), tried.tried_from(cell, place));
         EXPECT_EQ(recalled.hoped_in_vain(cell, place), tried.hoped_in_vain(cell, place));
         EXPECT_EQ(recalled.gave_up(cell), tried.gave_up(cell));
+        EXPECT_EQ(recalled.looked_closely(cell), tried.looked_closely(cell));
+        EXPECT_EQ(recalled.looked_from_beside(cell, place), tried.looked_from_beside(cell, place));
         EXPECT_EQ(recalled.rests(place), tried.rests(place));
         given_up += tried.gave_up(cell) ? 1U : 0U;
         at_rest += tried.rests(place) ? 1U : 0U;

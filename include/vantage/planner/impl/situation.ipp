@@ -36,13 +36,16 @@ inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
 inline std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
 // The reason for a plan without targets.
-inline std::string reason_of(const FrontierSurvey& survey) {
+inline std::string reason_of(const FrontierSurvey& survey, const RangeSensor& sensor) {
   if (survey.frontier_cells == 0) {
     return "no frontier is left";
   }
   const Leftover& left = survey.leftover;
   return "no observable frontier is left; frontier cells given up: " + counted(left.unreachable, "unreachable, ") +
          counted(left.unobservable, "unobservable, ") + counted(left.in_vain, "looked at in vain") +
+         (left.in_vain > 0 && !sensor.reports_no_return
+              ? " (the sensor does not report rays without return: open space with no surface in range stays unknown)"
+              : "") +
          (survey.exhausted ? "" : " (not every line of sight was tried)");
 }
 
@@ -144,25 +147,26 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
     if (hardly_moves() && stands_beside_unknown()) {
       plan.reason =
           "the platform sees too little free space to move in: declare the space around it free (assume_free); " +
-          detail::reason_of(survey_);
+          detail::reason_of(survey_, sensor());
       return plan;
     }
     if (const std::size_t places = tried_.places_given_up(); places > 0) {
       plan.outcome = Outcome::Unreachable;
       plan.reason = "the robot does not get to " + detail::counted(places, "places with more to see; ") +
-                    detail::reason_of(survey_);
+                    detail::reason_of(survey_, sensor());
       return plan;
     }
     if (const std::optional<VoxelIndex> beyond = place_cut_off()) {
       const Eigen::Vector3d at = map_->frame().centre_of(*beyond);
       plan.outcome = Outcome::Unreachable;
       plan.reason = "there is more to see from free space that is cut off, around (" + std::to_string(at.x()) + ", " +
-                    std::to_string(at.y()) + ", " + std::to_string(at.z()) + "); " + detail::reason_of(survey_);
+                    std::to_string(at.y()) + ", " + std::to_string(at.z()) + "); " +
+                    detail::reason_of(survey_, sensor());
       return plan;
     }
   }
   plan.outcome = Outcome::Explored;
-  plan.reason = detail::reason_of(survey_);
+  plan.reason = detail::reason_of(survey_, sensor());
   return plan;
 }
 

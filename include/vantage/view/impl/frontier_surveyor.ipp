@@ -91,6 +91,12 @@ inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidd
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);
   }
+  if (survey.targets.empty()) {
+    search.look_closely();
+    search.limit_to(kMostOperations);
+    take_seen(hidden, survey.targets, try_all);
+    survey.exhausted = survey.exhausted && !search.used_up();
+  }
 }
 
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.

@@ -205,7 +205,8 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
       if (looked) {
         detail::add_if_it_differs(cell, here, looks.in_vain);
       }
-      if (!looked || detail::differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
+      const bool is_new = looked && is_clear(map, current, cell) && add_clear_look(looks, here);
+      if (!is_new || detail::differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
         std::vector<VoxelIndex>& goals = looks.*unseen;
         if (std::find(goals.begin(), goals.end(), goal) == goals.end()) {
           goals.push_back(goal);
@@ -238,6 +239,23 @@ VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose&
              .all_touched([&](const VoxelIndex& cell) {
                return detail::touch(cell, unknown) || map.at(cell) == Occupancy::Free;
              });
+}
+
+// As the audit of a finished run tests it.
+VANTAGE_INLINE bool TriedViews::is_clear(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) {
+  return VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
+      .all_touched([&](const VoxelIndex& cell) { return cell == unknown || map.at(cell) == Occupancy::Free; });
+}
+
+// Returns whether the look is one from a new place.
+VANTAGE_INLINE bool TriedViews::add_clear_look(Looks& looks, const VoxelIndex& place) const {
+  const bool is_new = looks.clear.size() < static_cast<std::size_t>(options_.patience) &&
+                      std::none_of(looks.clear.begin(), looks.clear.end(),
+                                   [&](const VoxelIndex& other) { return detail::touch(place, other); });
+  if (is_new) {
+    looks.clear.push_back(place);
+  }
+  return is_new;
 }
 
 VANTAGE_INLINE void TriedViews::fail(Place& place) {
@@ -298,7 +316,9 @@ VANTAGE_INLINE TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& ma
 }
 
 VANTAGE_INLINE void TriedViews::in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place) {
-  detail::add_if_it_differs(unknown, place, new_look_at(map, unknown).in_vain);
+  Looks& looks = new_look_at(map, unknown);
+  detail::add_if_it_differs(unknown, place, looks.in_vain);
+  add_clear_look(looks, place);
 }
 
 VANTAGE_INLINE const TriedViews::Looks* TriedViews::looks_at(const VoxelIndex& unknown) const {
@@ -328,6 +348,20 @@ VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
   const auto patience = static_cast<std::size_t>(options_.patience);
   return looks != nullptr &&
          (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
+}
+
+VANTAGE_INLINE bool TriedViews::looked_closely(const VoxelIndex& unknown) const {
+  const Looks* looks = looks_at(unknown);
+  const auto patience = static_cast<std::size_t>(options_.patience);
+  return looks != nullptr &&
+         (looks->clear.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 4 * patience);
+}
+
+VANTAGE_INLINE bool TriedViews::looked_from_beside(const VoxelIndex& unknown, const VoxelIndex& place) const {
+  const Looks* looks = looks_at(unknown);
+  return looks != nullptr && (std::any_of(looks->clear.begin(), looks->clear.end(),
+                                          [&](const VoxelIndex& other) { return detail::touch(place, other); }) ||
+                              std::find(looks->missed.begin(), looks->missed.end(), place) != looks->missed.end());
 }
 
 // In cells.

@@ -6,6 +6,7 @@
 //     tried-views 1 <cells in metres> <plans>
 //     cell x y z <known neighbours> <latest look>     evidence about an unknown cell,
 //     in-vain x y z                                   | followed by the places of its looks
+//     clear x y z                                     |
 //     missed x y z                                    |
 //     hoped x y z                                     |
 //     place x y z <nearest way> <plans no nearer> <failures> <rests until>
@@ -127,8 +128,10 @@ VANTAGE_INLINE std::string TriedViews::text() const {
     const Looks& looks = looks_.at(cell);
     detail::append(text, "cell", cell,
                    {static_cast<double>(looks.known_neighbours), static_cast<double>(looks.latest)});
-    for (const auto& [word, places] :
-         {std::pair("in-vain", &looks.in_vain), {"missed", &looks.missed}, {"hoped", &looks.hoped}}) {
+    for (const auto& [word, places] : {std::pair("in-vain", &looks.in_vain),
+                                       {"clear", &looks.clear},
+                                       {"missed", &looks.missed},
+                                       {"hoped", &looks.hoped}}) {
       for (const VoxelIndex& place : *places) {
         detail::append(text, word, place);
       }
@@ -171,11 +174,13 @@ VANTAGE_INLINE void TriedViews::recall(const OccupancyMap& map, std::string_view
       read.may_hold_.insert(cell);
       looks->known_neighbours = entry.whole<int>(3, 6);
       looks->latest = entry.whole<std::uint64_t>(4, detail::kMostPlans);
-    } else if (entry.word() == "in-vain" || entry.word() == "missed" || entry.word() == "hoped") {
+    } else if (entry.word() == "in-vain" || entry.word() == "clear" || entry.word() == "missed" ||
+               entry.word() == "hoped") {
       if (looks == nullptr) {
         entry.refuse("a look without a cell");
       }
       (entry.word() == "in-vain"  ? looks->in_vain
+       : entry.word() == "clear"  ? looks->clear
        : entry.word() == "missed" ? looks->missed
                                   : looks->hoped)
           .push_back(entry.cell(3));

@@ -10,7 +10,6 @@
 #include <optional>
 #include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
-#include <vantage/map/brick_set.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
@@ -21,6 +20,7 @@
 
 #include <vantage/view/impl/can_face.hpp>
 #include <vantage/view/impl/sight_memory.hpp>
+#include <vantage/view/impl/visited_cells.hpp>
 
 namespace vantage::detail {
 
@@ -38,7 +38,8 @@ class ViewpointSearch {
         memory_(memory) {}
 
   [[nodiscard]] bool is_sought(const VoxelIndex& cell) const {
-    return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown && !tried_.gave_up(cell);
+    return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown &&
+           (closely_ ? tried_.tried(cell) && !tried_.looked_closely(cell) : !tried_.gave_up(cell));
   }
   // The first unknown neighbour of a frontier cell for which `find` returns a viewpoint.
   template <class Find>
@@ -89,6 +90,8 @@ class ViewpointSearch {
     return viewpoint ? std::optional(FrontierTarget{frontier, frontier + *seen_from(*viewpoint), *viewpoint})
                      : std::nullopt;
   }
+  // From now on only those cells are sought that were looked at, but not closely, along clear lines.
+  void look_closely() { closely_ = true; }
   // `try_all`, `try_parts` and `try_past` test every reachable cell, until `operations` more are used up.
   void limit_to(std::uint64_t operations) { most_operations_ = operations_ + operations; }
   [[nodiscard]] bool used_up() const { return operations_ >= most_operations_; }
@@ -157,7 +160,7 @@ class ViewpointSearch {
       const std::array<VoxelIndex, 3> away{VoxelIndex{(octant & 1U) != 0 ? 1 : -1, 0, 0},
                                            VoxelIndex{0, (octant & 2U) != 0 ? 1 : -1, 0},
                                            VoxelIndex{0, 0, (octant & 4U) != 0 ? 1 : -1}};
-      MetCells met;
+      VisitedCells visited;
       met_.assign(1, unknown);
       for (std::size_t next = 0; next < met_.size(); ++next) {
         for (const VoxelIndex& step : away) {
@@ -166,8 +169,8 @@ class ViewpointSearch {
             return std::nullopt;
           }
           ++operations_;
-          if (!met.insert(cell) || !towards_places.contains(frame_.centre_of(cell)) || !near_enough(cell, unknown) ||
-              !passes_through(cell)) {
+          if (!visited.insert(cell) || !towards_places.contains(frame_.centre_of(cell)) ||
+              !near_enough(cell, unknown) || !passes_through(cell)) {
             continue;
           }
           met_.push_back(cell);
@@ -194,25 +197,6 @@ class ViewpointSearch {
     box.extend(more.min);
     box.extend(more.max);
   }
-  // A set of cells that is fast where one cell is near the last one.
-  class MetCells {
-   public:
-    // Returns whether the cell is new.
-    bool insert(const VoxelIndex& cell) {
-      if (const VoxelIndex brick = Brick::of_cell(cell); plane_ == nullptr || brick != brick_) {
-        brick_ = brick;
-        plane_ = &cells_.plane(brick);
-      }
-      const std::size_t offset = Brick::offset_of(cell);
-      const std::uint64_t bit = std::uint64_t{1} << (offset & 63U);
-      return (std::exchange((*plane_)[offset >> 6U], (*plane_)[offset >> 6U] | bit) & bit) == 0;
-    }
-
-   private:
-    BrickSet cells_;
-    VoxelIndex brick_;
-    BrickPlane* plane_ = nullptr;
-  };
   bool is_free(const VoxelIndex& cell) const { return memory_.is_free(cell); }
   bool passes(const VoxelIndex& cell) {
     ++operations_;
@@ -258,9 +242,9 @@ class ViewpointSearch {
     return frame_.centre_of(cell) + 0.49 * frame_.size_m * Eigen::Vector3d(step.x, step.y, step.z);
   }
   bool in_sight(const VoxelIndex& viewpoint, const VoxelIndex& unknown, const Eigen::Vector3d& point) {
-    return VoxelRay(frame_, frame_.centre_of(viewpoint), point).all_from_the_end([&](const VoxelIndex& cell) {
-      return passes(cell) || cell == unknown;
-    });
+    const VoxelRay line(frame_, frame_.centre_of(viewpoint), point);
+    const auto is_open = [&](const VoxelIndex& cell) { return passes(cell) || cell == unknown; };
+    return line.all_from_the_end(is_open) && (!closely_ || line.all_touched(is_open));
   }
   // Whether a line of sight from `viewpoint` can enter `unknown` through a free neighbour on its side.
   bool open_towards(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
@@ -280,7 +264,7 @@ class ViewpointSearch {
   }
   bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
-    return !tried_.tried_from(unknown, viewpoint) &&
+    return !(closely_ ? tried_.looked_from_beside(unknown, viewpoint) : tried_.tried_from(unknown, viewpoint)) &&
            detail::can_face(platform_, sensor_, from, frame_.centre_of(unknown) - from);
   }
 
@@ -293,6 +277,7 @@ class ViewpointSearch {
   SightMemory& memory_;
   std::optional<Box> box_of_places_;
   std::vector<VoxelIndex> met_;  // by one search, in order
+  bool closely_ = false;
   std::uint64_t operations_ = 0;
   std::uint64_t most_operations_ = std::numeric_limits<std::uint64_t>::max();
 };
