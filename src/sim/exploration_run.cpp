@@ -46,6 +46,11 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
     throw std::invalid_argument("ExplorationRunOptions::unknown_box: there is none in the plane of a band");
   }
   options.map.region = options.map.region.value_or(world.region);
+  if (options.band) {  // the map must hold what tells a drop from a floor
+    const double below_a_step_m = options.band->min_height_m - options.band->step_height_m;
+    double& bottom_m = options.map.region->min.z();
+    bottom_m = std::min(bottom_m, below_a_step_m - 2.0 * options.map.resolution_m);
+  }
   if (world.plan) {
     if (options.band) {
       throw std::invalid_argument("ExplorationRunOptions::band: a world that is a plane has no heights");

@@ -14,7 +14,9 @@ namespace VANTAGE_EXPORT vantage {
 /// What a ground robot requires of the floor below a column of the height band.
 enum class FloorRule : std::uint8_t {
   Ignored,  ///< no requirement; for maps without a floor, such as a floor plan
-  NoDrop,   ///< no visible drop: a column is a drop if all cells within one step below the band are known free
+  /// no visible drop: a column is a drop if all cells within one step below the band are known free, and it is within
+  /// four cells of such a column of which the next cell further down is known, too, or outside of the map's region
+  NoDrop,
   /// a visible floor: a cell within one step below the band is occupied, or HeightBand::assume_floor covers the
   /// column
   Seen,
@@ -80,6 +82,7 @@ class HeightBand {
  private:
   [[nodiscard]] Occupancy state_of(const OccupancyMap& map, const VoxelIndex& column) const;
   [[nodiscard]] Occupancy state_by_floor(const OccupancyMap& map, const VoxelIndex& column) const;
+  [[nodiscard]] bool is_near_a_drop(const OccupancyMap& map, const VoxelIndex& column) const;
 
   HeightBandOptions options_;
   std::int32_t lowest_floor_ = 0;  // equals `lowest_` under FloorRule::Ignored

@@ -14,6 +14,31 @@ namespace {
 
 constexpr double kCell = 0.1;
 
+/// Whether no floor is within one step below the band: all cells are free, and there is one.
+bool is_open_below(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
+  bool all_free = true;
+  bool any = false;  // a step smaller than a cell may have no layer
+  for (std::int32_t z = -40; z < 40; ++z) {
+    const VoxelIndex cell{x, y, z};
+    if (map.frame().centre_of(cell).z() < options.min_height_m &&
+        map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m) {
+      all_free = all_free && map.at(cell) == Occupancy::Free;
+      any = true;
+    }
+  }
+  return all_free && any;
+}
+
+/// Whether rays went further down than a step there, as far as the map reaches.
+bool is_deep(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
+  std::int32_t below = 40;
+  while (map.frame().box_of(VoxelIndex{x, y, below}).max.z() > options.min_height_m - options.step_height_m) {
+    --below;
+  }
+  return is_open_below(map, x, y, options) &&
+         (map.at({x, y, below}) != Occupancy::Unknown || !map.in_region({x, y, below}));
+}
+
 /// The state of one column by definition.
 Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
   int cells = 0;
@@ -33,30 +58,24 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
   if (free == 0 || free < options.free_share * cells) {
     return Occupancy::Unknown;
   }
-  bool all_free = true;
-  bool any = false;  // a step smaller than a cell may have no layer
-  for (std::int32_t z = -40; z < 40 && options.floor != FloorRule::Ignored; ++z) {
+  if (options.floor == FloorRule::Ignored) {
+    return Occupancy::Free;
+  }
+  for (std::int32_t z = -40; z < 40; ++z) {
     const VoxelIndex cell{x, y, z};
-    if (map.frame().centre_of(cell).z() >= options.min_height_m ||
-        map.frame().box_of(cell).max.z() <= options.min_height_m - options.step_height_m) {
-      continue;
-    }
-    if (map.at(cell) == Occupancy::Occupied) {
+    if (map.at(cell) == Occupancy::Occupied && map.frame().centre_of(cell).z() < options.min_height_m &&
+        map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m) {
       return Occupancy::Free;
     }
-    all_free = all_free && map.at(cell) == Occupancy::Free;
-    any = true;
   }
-  all_free = all_free && any;
-  switch (options.floor) {
-    case FloorRule::Ignored:
-      return Occupancy::Free;
-    case FloorRule::NoDrop:
-      return all_free ? Occupancy::Occupied : Occupancy::Free;
-    case FloorRule::Seen:
-      break;
+  bool beside_a_drop = false;
+  for_each_cell(VoxelBox{{x - 4, y - 4, 0}, {x + 5, y + 5, 1}}, [&](const VoxelIndex& column) {
+    beside_a_drop = beside_a_drop || is_deep(map, column.x, column.y, options);
+  });
+  if (is_open_below(map, x, y, options) && beside_a_drop) {
+    return Occupancy::Occupied;
   }
-  return all_free ? Occupancy::Occupied : Occupancy::Unknown;
+  return options.floor == FloorRule::NoDrop ? Occupancy::Free : Occupancy::Unknown;
 }
 
 void change_at_random(OccupancyMap& map, std::mt19937& engine) {
@@ -132,6 +151,31 @@ TEST(HeightBand, AGroundRobotKeepsOutOfAPit) {
     });
     EXPECT_EQ(over_the_pit, rule == FloorRule::Ignored ? 400U : 0U);
     EXPECT_GT(elsewhere, 300U);
+  }
+}
+
+// A floor inside of a cell: rays of a sparse sensor that meet it further away leave the cells of some columns free.
+// Nothing is free below them. A pit is seen deeper down only some way behind its edge, and keeps the robot out from
+// the edge on.
+TEST(HeightBand, AFloorThatRaysPassCloselyIsNoDrop) {
+  for (const bool is_pit : {false, true}) {
+    OccupancyMap map({.resolution_m = kCell});
+    HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55});
+    map.set_log_odds(VoxelBox{{0, 0, -2}, {40, 30, -1}}, 3.5);
+    map.set_log_odds(VoxelBox{{0, 0, -1}, {40, 30, 14}}, -2.0);
+    const VoxelBox passed{{10, 0, -2}, {20, 30, -1}};
+    map.set_log_odds(passed, -2.0);
+    band.follow(map);
+    EXPECT_EQ(band.plane().at({12, 5, 5}), Occupancy::Free);
+    if (is_pit) {
+      map.set(VoxelIndex{14, 5, -3}, Occupancy::Free);
+      band.follow(map);
+    }
+    const auto is_drop = [&](const VoxelIndex& column) { return band.plane().at(column) == Occupancy::Occupied; };
+    EXPECT_EQ(is_drop({10, 5, 5}), is_pit);
+    EXPECT_EQ(is_drop({18, 9, 5}), is_pit);
+    EXPECT_FALSE(is_drop({19, 9, 5})) << "five columns away";
+    EXPECT_FALSE(is_drop({9, 5, 5})) << "the floor is seen";
   }
 }
 

@@ -11,6 +11,9 @@
 namespace vantage {
 namespace detail {
 
+// A ray that goes down by 15 degrees passes one more layer within so many columns.
+inline constexpr std::int32_t kNearADrop = 4;
+
 inline void validate(const HeightBandOptions& options) {
   detail::require_option(std::isfinite(options.min_height_m), "HeightBandOptions::min_height_m", options.min_height_m,
                          "finite");
@@ -83,8 +86,13 @@ VANTAGE_INLINE void HeightBand::follow(const OccupancyMap& map) {
   }
   for (const VoxelIndex& brick : map.changed_since(followed_)) {
     const VoxelIndex first = Brick::first_cell(brick);
-    if (first.z < above_ && first.z + Brick::kSide > lowest_floor_) {
-      stale_.emplace(first.y, first.x);
+    if (first.z < above_ && first.z + Brick::kSide >= lowest_floor_) {
+      const std::int32_t around = first.z < lowest_ ? Brick::kSide : 0;  // a drop has an effect on columns beside it
+      for (std::int32_t y = first.y - around; y <= first.y + around; y += Brick::kSide) {
+        for (std::int32_t x = first.x - around; x <= first.x + around; x += Brick::kSide) {
+          stale_.emplace(y, x);
+        }
+      }
     }
   }
   for (const auto& [y, x] : stale_) {
@@ -126,10 +134,29 @@ VANTAGE_INLINE Occupancy HeightBand::state_by_floor(const OccupancyMap& map, con
     }
     all_free = all_free && state == Occupancy::Free;
   }
-  if (all_free) {
+  if (all_free && is_near_a_drop(map, column)) {
     return Occupancy::Occupied;
   }
   return options_.floor != FloorRule::Seen || assumed_.contains(column) ? Occupancy::Free : Occupancy::Unknown;
+}
+
+// Rays of a sparse sensor that meet the floor further away pass through the upper part of the cells that hold it.
+// Only below a drop do they go further down, there or a little behind the edge.
+VANTAGE_INLINE bool HeightBand::is_near_a_drop(const OccupancyMap& map, const VoxelIndex& column) const {
+  constexpr std::int32_t kNear = detail::kNearADrop;
+  for (std::int32_t y = column.y - kNear; y <= column.y + kNear; ++y) {
+    for (std::int32_t x = column.x - kNear; x <= column.x + kNear; ++x) {
+      const VoxelIndex below{x, y, lowest_floor_ - 1};
+      bool is_drop = map.at(below) != Occupancy::Unknown || !map.in_region(below);
+      for (VoxelIndex cell{x, y, lowest_floor_}; is_drop && cell.z < lowest_; ++cell.z) {
+        is_drop = map.at(cell) == Occupancy::Free;
+      }
+      if (is_drop) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 VANTAGE_INLINE void HeightBand::assume_floor(const Box& box) {
