@@ -276,6 +276,17 @@ TEST_F(Program, ExploresAndReports) {
   }
 }
 
+// The floor lies inside of a cell, through the upper part of which rays pass that meet it further away.
+TEST_F(Program, ARobotThatDrivesIsNotCutOffByItsOwnFloor) {
+  const Ran ran =
+      run("explore --world rooms --resolution 0.25 --band 0.3,1.4 --look-around --sensor lidar --robot-radius 0.2 "
+          "--planner nearest-frontier --json -");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["outcome"], "explored");
+  EXPECT_GE(report["coverage"].get<double>(), 0.99);
+}
+
 TEST_F(Program, TellsHowShortAWayCouldBe) {
   const std::string arguments =
       "explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --json -";

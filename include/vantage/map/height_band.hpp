@@ -25,7 +25,10 @@ enum class FloorRule : std::uint8_t {
 /// Which heights of a map matter for a ground robot, and at which height the projected plane lies. A cell counts if
 /// its centre lies between `min_height_m` and `max_height_m`. All heights are z coordinates in the world frame.
 struct HeightBandOptions {
-  double min_height_m = 0.1;     ///< lower end of the band: the lowest z of an obstacle
+  /// Lower end of the band: the lowest z of an obstacle. It lies above the floor by more than half a cell and the
+  /// noise of the sensor: a cell counts if its centre does, so that what a ray finds of the floor in it is an
+  /// obstacle.
+  double min_height_m = 0.1;
   double max_height_m = 1.0;     ///< upper end of the band, >= min_height_m
   double sensor_height_m = 0.5;  ///< z of the sensor; the plane is the layer of cells that holds it
   /// Share of the cells of a column that must be free before the column is free, in (0, 1]. A camera that is close to
