@@ -14,7 +14,9 @@ int main() {
   const vantage::World world = vantage::World::by_name("maze");
   vantage::SimulatedSensor lidar(vantage::TriangleScene(world.mesh), sensor);
 
-  vantage::OccupancyMap map({.resolution_m = 0.1, .region = world.region});
+  vantage::Box region = world.region;
+  region.min.z() = -0.2;  // two cells below the deepest step that the robot may drive down
+  vantage::OccupancyMap map({.resolution_m = 0.1, .region = region});
   vantage::HeightBand band(map.options(), {.min_height_m = 0.3, .max_height_m = 1.2, .sensor_height_m = 0.8});
   const auto planner = vantage::make_planner("nearest-frontier", {.sensor = sensor, .platform = robot});
   vantage::Pose pose = vantage::pose_looking({0.9, 0.9, 0.8}, 0.0);  // world_from_sensor

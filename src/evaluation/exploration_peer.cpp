@@ -73,7 +73,7 @@ ChosenView ExplorationPeer::taking(const TourView& view, const std::vector<Voxel
     (2 * i < ranked.size() ? chosen.view.unknown : chosen.view.hoped).push_back(ranked[i].second);
   }
   if (const std::optional<MotionModel>& motion = situation().setup().motion) {
-    if (std::optional<std::vector<Pose>> path = path_to(view.pose, chosen.way)) {
+    if (std::optional<std::vector<Pose>> path = situation().path_to(view.pose, chosen.way)) {
       motion_.follow(*path, *motion);
       chosen.path = std::move(*path);
     }

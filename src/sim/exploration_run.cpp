@@ -2,7 +2,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include <vantage/view/candidate_views.hpp>
 
 #include <vantage/geometry/impl/pose_distance.hpp>
+#include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 #include "report/full_map.hpp"
 #include "sim/run_progress.hpp"
@@ -22,12 +22,6 @@
 
 namespace vantage {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 ExplorationRunOptions checked(ExplorationRunOptions options, const World& world) {
   detail::require_option(options.max_views > 0, "ExplorationRunOptions::max_views", options.max_views, "> 0");
@@ -46,11 +40,6 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
     throw std::invalid_argument("ExplorationRunOptions::unknown_box: there is none in the plane of a band");
   }
   options.map.region = options.map.region.value_or(world.region);
-  if (options.band) {  // the map must hold what tells a drop from a floor
-    const double below_a_step_m = options.band->min_height_m - options.band->step_height_m;
-    double& bottom_m = options.map.region->min.z();
-    bottom_m = std::min(bottom_m, below_a_step_m - 2.0 * options.map.resolution_m);
-  }
   if (world.plan) {
     if (options.band) {
       throw std::invalid_argument("ExplorationRunOptions::band: a world that is a plane has no heights");
@@ -67,11 +56,21 @@ Truth truth_of(const World& world, const RangeSensor& sensor, const ExplorationR
   return options.band ? truth.in_band(*options.band) : truth;
 }
 
+// In a band the map must hold the cells that tell a floor from a drop.
+OccupancyMapOptions map_options_of(const ExplorationRunOptions& options) {
+  OccupancyMapOptions map = options.map;
+  const HeightBandOptions band = options.band.value_or(HeightBandOptions{});
+  const double deepest_m = band.min_height_m - band.step_height_m;
+  if (double& bottom_m = map.region->min.z(); options.band && bottom_m <= deepest_m) {
+    bottom_m = std::min(bottom_m, deepest_m - 2.0 * map.resolution_m);
+  }
+  return map;
+}
+
 Pose between(const Pose& from, const Pose& to, double share) {
-  const Eigen::Quaterniond first(from.linear());
   const Eigen::Quaterniond last(to.linear());
   Pose pose = Pose::Identity();
-  pose.linear() = first.slerp(share, last).normalized().toRotationMatrix();
+  pose.linear() = Eigen::Quaterniond(from.linear()).slerp(share, last).normalized().toRotationMatrix();
   pose.translation() = from.translation() + share * (to.translation() - from.translation());
   return pose;
 }
@@ -98,7 +97,7 @@ ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
       options_(checked(options, world)),
       scene_(world.mesh),
       truth_(truth_of(world, sensor, options_)),
-      map_(options_.map) {
+      map_(map_options_of(options_)) {
   (void)SimulatedSensor(scene_, sensor, options_.noise);  // validates sensor and noise
 }
 
@@ -151,13 +150,13 @@ void ExplorationRun::scan(Progress& progress) {
   const Scan scan = progress.sensor.scan(progress.pose);
   progress.surface.add(scan);
   progress.seen.add(progress.pose);
-  const Clock::time_point start = Clock::now();
+  detail::Stopwatch watch;
   const ScanReport report = map_.insert(scan, options_.ray_policy);
   if (band_) {
     band_->follow(map_);
   }
   ViewRecord view;
-  view.insert_ms = milliseconds_since(start);
+  view.insert_ms = watch.lap_ms();
   RunRecord& record = progress.record;
   if (!record.views.empty()) {
     view.frontier_cells = record.views.back().frontier_cells;
@@ -209,11 +208,11 @@ void ExplorationRun::look_around(Progress& progress, detail::TimedRobot* robot, 
 }
 
 void ExplorationRun::plan(Progress& progress, ExplorationPlanner& planner) {
-  const Clock::time_point start = Clock::now();
+  detail::Stopwatch watch;
   Plan& plan = progress.plan;
   plan = planner.plan(known(), progress.pose);
   ViewRecord& view = progress.record.views.back();
-  view.plan_ms = milliseconds_since(start);
+  view.plan_ms = watch.lap_ms();
   view.utility = plan.goal.utility;
   view.frontier_cells = plan.statistics.frontier_cells;
   view.void_cells = plan.statistics.void_cells;
@@ -346,9 +345,9 @@ bool ExplorationRun::goes_on(Progress& progress, ExplorationPlanner& planner, co
 
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
-  map_ = OccupancyMap(options_.map);
+  map_ = OccupancyMap(map_options_of(options_));
   if (options_.band) {
-    band_.emplace(options_.map, *options_.band);
+    band_.emplace(map_.options(), *options_.band);
   }
   Progress progress(start, SimulatedSensor(scene_, sensor_, options_.noise, options_.seed),
                     SurfaceCoverage(options_.surface_samples, options_.surface_gap_m),

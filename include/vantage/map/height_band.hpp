@@ -14,8 +14,9 @@ namespace VANTAGE_EXPORT vantage {
 /// What a ground robot requires of the floor below a column of the height band.
 enum class FloorRule : std::uint8_t {
   Ignored,  ///< no requirement; for maps without a floor, such as a floor plan
-  /// no visible drop: a column is a drop if all cells within one step below the band are known free, and it is within
-  /// four cells of such a column of which the next cell further down is known, too, or outside of the map's region
+  /// No visible drop. A column goes down if all its cells within one step below the band are known free, and the next
+  /// cell further down is known or lies outside of the map's region. A column is a drop if all its cells within one
+  /// step are known free and it, or a column within six cells, goes down.
   NoDrop,
   /// a visible floor: a cell within one step below the band is occupied, or HeightBand::assume_floor covers the
   /// column
@@ -25,9 +26,8 @@ enum class FloorRule : std::uint8_t {
 /// Which heights of a map matter for a ground robot, and at which height the projected plane lies. A cell counts if
 /// its centre lies between `min_height_m` and `max_height_m`. All heights are z coordinates in the world frame.
 struct HeightBandOptions {
-  /// Lower end of the band: the lowest z of an obstacle. It lies above the floor by more than half a cell and the
-  /// noise of the sensor: a cell counts if its centre does, so that what a ray finds of the floor in it is an
-  /// obstacle.
+  /// Lower end of the band: the lowest z of an obstacle. It must lie above the floor by more than half a cell and the
+  /// noise of the sensor. Otherwise the floor is found in a cell of the band, and is an obstacle.
   double min_height_m = 0.1;
   double max_height_m = 1.0;     ///< upper end of the band, >= min_height_m
   double sensor_height_m = 0.5;  ///< z of the sensor; the plane is the layer of cells that holds it

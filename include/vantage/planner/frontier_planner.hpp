@@ -52,10 +52,6 @@ class FrontierPlanner : public ExplorationPlanner {
  protected:
   /// The input of the plan. Up to date in `prepare` and `choose`.
   [[nodiscard]] const Situation& situation() const { return situation_; }
-  /// A path to a view along the reachable cells of `way`, or along the shortest way if it is empty; if the platform
-  /// cannot follow it, by the platform's own path search. None if there is none.
-  [[nodiscard]] std::optional<std::vector<Pose>> path_to(const Pose& view,
-                                                         std::span<const VoxelIndex> way = {}) const;
   /// Called after the situation is up to date and before `choose`: discards results of the last plan.
   virtual void prepare(Plan& /*plan*/) {}
   /// Chooses a view. At least one target exists. May fill in candidates, statistics and reason of `plan`. Returns

@@ -34,7 +34,7 @@ namespace VANTAGE_EXPORT vantage {
 ///       |  FrontierSurveyor  admitted cells -> reachable space -> targets
 ///       |                    (no target left: places that rest are allowed again, one more survey)
 ///       v
-///     end()  --- no target --->  Explored | Unreachable | Blocked | turn on the spot (Move)
+///     end()  --- no target --->  Explored | Unreachable | Blocked | a turn, a step or a closer look (Move)
 ///       |
 ///       v  targets
 ///     strategy chooses ---> no path to the view: drop(view), choose again
@@ -56,9 +56,9 @@ class Situation {
   /// Updates everything for this map and sensor pose (world_from_sensor). Only the map must outlive the plan. Throws
   /// std::invalid_argument unless `current` is finite and rigid up to 1e-3.
   void sync(const OccupancyMap& map, const Pose& current);
-  /// If no target is left: the plan that ends the run, or that turns the sensor on the spot. If the robot does not
-  /// move although goals are asked for: Blocked. None if there are targets otherwise. Leftover and counts are those
-  /// of the survey.
+  /// If no target is left: the plan that ends the run, or that turns the sensor on the spot, steps aside or looks
+  /// closely at what was looked at in vain (TriedViews::looked_closely). If the robot does not move although goals
+  /// are asked for: Blocked. None if there are targets otherwise. Leftover and counts are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
@@ -105,6 +105,10 @@ class Situation {
   /// one, unless the goal is more than 300 cells away: then the shortest from each eighth block to the next, of a way
   /// over blocks. So the cost follows the way, not the space around it.
   [[nodiscard]] std::vector<VoxelIndex> way_to(const VoxelIndex& goal) const;
+  /// A path to a view along the reachable cells of `way`, or along the shortest way if it is empty; if the platform
+  /// cannot follow it, by the platform's own path search. None if there is none.
+  [[nodiscard]] std::optional<std::vector<Pose>> path_to(const Pose& view,
+                                                         std::span<const VoxelIndex> way = {}) const;
   /// A plan that contains the counts of the survey and no choice.
   [[nodiscard]] Plan open_plan() const;
 
@@ -113,8 +117,9 @@ class Situation {
   void find_targets();
   [[nodiscard]] bool hardly_moves() const;
   [[nodiscard]] bool stands_beside_unknown() const;
-  [[nodiscard]] std::optional<Plan> turn_on_the_spot() const;
-  [[nodiscard]] std::optional<Plan> step_aside() const;
+  [[nodiscard]] std::optional<Plan> turn_on_the_spot();
+  [[nodiscard]] std::optional<Plan> step_aside();
+  [[nodiscard]] std::optional<Plan> look_closely();
   [[nodiscard]] std::optional<VoxelIndex> place_cut_off() const;
   [[nodiscard]] std::optional<VoxelIndex> viewpoint_among(std::vector<VoxelIndex> places) const;
 

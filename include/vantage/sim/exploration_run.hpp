@@ -33,7 +33,8 @@ struct ExplorationRunOptions {
   /// the map is the layer of cells above z = 0.
   OccupancyMapOptions map = {};
   /// The robot drives and explores the plane of these heights: the planner gets the plane of the HeightBand
-  /// instead of the map, and coverage and collisions are those of the plane. None: the robot flies.
+  /// instead of the map, and coverage and collisions are those of the plane. If the map's region reaches down to
+  /// where a step ends, the map gets two more layers below. None: the robot flies.
   std::optional<HeightBandOptions> band = std::nullopt;
   /// Radius around the sensor in which truly free cells are declared free at the start, metres, in [0, 5]
   /// (assume_free, start_clearance_m). The space of the body is always declared free.

@@ -44,8 +44,7 @@ struct FrontierSurveyOptions {
 /// around, a frontier cell without such a viewpoint is observable, too, if an unknown neighbour is seen in part: the
 /// line ends at the centre of one of its faces. For another sensor, these are taken only when no others are left. If
 /// there are none either, one is taken where a line to an unknown neighbour passes another unknown cell beside it, if
-/// only at a corner, which then becomes known. At last those cells are taken that were looked at, but not closely
-/// (`TriedViews::looked_closely`), and that a clear line shows, edges included.
+/// only at a corner, which then becomes known.
 ///
 /// For a sensor that does not report missing returns, the targets are only those whose unknown cell touches an
 /// occupied cell (26 neighbours), as long as there are any: a ray into open space teaches such a sensor nothing,

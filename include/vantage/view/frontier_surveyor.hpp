@@ -47,6 +47,11 @@ class FrontierSurveyor {
   /// As above, for a sensor that could be brought to each of `places`, at least one, and nowhere else.
   [[nodiscard]] FrontierSurvey survey_from(const std::vector<VoxelIndex>& places, const OccupancyMap& map,
                                            const TriedViews& tried, const std::vector<VoxelIndex>& frontier);
+  /// After a survey of this map that found no target: the frontier cells with an unknown neighbour that was looked
+  /// at, but not closely (TriedViews::looked_closely), and that can be seen along a clear line, edges included, from
+  /// a place from which, or from beside which, no such look was taken. In raster order.
+  [[nodiscard]] std::vector<FrontierTarget> looks_to_take_closely(const OccupancyMap& map, const TriedViews& tried,
+                                                                  const std::vector<VoxelIndex>& frontier);
 
   /// The cells to which the platform could bring the sensor in the last survey.
   [[nodiscard]] const ReachableSpace& reachable() const { return reachable_; }

@@ -41,13 +41,14 @@ struct TriedViewsOptions {
 ///     no evidence --- look in vain ---> tried --- `patience` looks from different places ---> given up
 ///
 /// Two places differ, as seen from a cell, if the distance between them is more than half of the shorter distance to
-/// the cell. A goal from which the cell was sought, but from which the robot took no clear look from a new place, is
-/// stored as missed: the cell is not sought from there again, and it is also given up after 2 * `patience` looks and
-/// misses together.
+/// the cell. A goal from which the cell was sought is stored as missed if the robot stopped at a place that differs,
+/// or if its look was no new evidence: the cell is not sought from there again, and it is also given up after 2 *
+/// `patience` looks and misses together.
 ///
-/// **Before a run ends**, stricter rules hold, because a surface that was found beside a cell may hide it from both
-/// places, or all places that see it may lie close together: `patience` looks along lines that are still clear, from
-/// cells of which none touches another, or 4 * `patience` looks and misses (`looked_closely`).
+/// **Before a run ends**, a stricter rule holds (`looked_closely`): `patience` looks along lines that are clear,
+/// edges included, from cells of which none touches another. Otherwise a surface that was found beside a cell may
+/// have cut off all looks at it, or all places that see the cell may lie close to the only one that looked. The rule
+/// also ends after 4 * `patience` such looks, or 4 * `patience` looks in vain and misses together.
 ///
 /// This ends runs in which a surface wears away: rays at a small angle clear some of its cells, and unknown cells
 /// behind them become targets until a view from the front closes the surface again. The number of known neighbours
@@ -111,8 +112,8 @@ class TriedViews {
   [[nodiscard]] bool hoped_in_vain(const VoxelIndex& unknown, const VoxelIndex& place) const;
   /// Whether the evidence suffices to give the cell up.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
-  /// Whether the evidence suffices to end a run.
-  [[nodiscard]] bool looked_closely(const VoxelIndex& unknown) const;
+  /// Whether the evidence suffices to end a run, with lines that are still clear in this map.
+  [[nodiscard]] bool looked_closely(const OccupancyMap& map, const VoxelIndex& unknown) const;
   /// Whether a clear look at it was taken from this place or one that touches it, or it was missed from this place.
   [[nodiscard]] bool looked_from_beside(const VoxelIndex& unknown, const VoxelIndex& place) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
@@ -146,8 +147,8 @@ class TriedViews {
   // Evidence about one unknown cell.
   struct Looks {
     std::vector<VoxelIndex> in_vain;  // places that differ
-    std::vector<VoxelIndex> clear;    // the first places of looks along lines that stayed clear; none touches another
-    std::vector<VoxelIndex> missed;   // goals from which the cell was sought, without a clear look from a new place
+    std::vector<VoxelIndex> clear;    // places of looks along clear lines; none touches another
+    std::vector<VoxelIndex> missed;   // goals from which the cell was sought without new evidence, or far from them
     std::vector<VoxelIndex> hoped;    // goals from which a view hoped for the cell, but resolved nothing it hoped for
     int known_neighbours = 0;         // at the latest look
     std::uint64_t latest = 0;         // number of the plan of the latest look
@@ -201,7 +202,7 @@ class TriedViews {
   [[nodiscard]] bool arrived(const Pose& current) const;
   bool add_clear_look(Looks& looks, const VoxelIndex& place) const;
   [[nodiscard]] bool was_in_view(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) const;
-  [[nodiscard]] static bool is_clear(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown);
+  [[nodiscard]] static bool is_clear(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& unknown);
 
   RangeSensor sensor_;
   TriedViewsOptions options_;

@@ -69,7 +69,7 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
     }
   }
   bool beside_a_drop = false;
-  for_each_cell(VoxelBox{{x - 4, y - 4, 0}, {x + 5, y + 5, 1}}, [&](const VoxelIndex& column) {
+  for_each_cell(VoxelBox{{x - 6, y - 6, 0}, {x + 7, y + 7, 1}}, [&](const VoxelIndex& column) {
     beside_a_drop = beside_a_drop || is_deep(map, column.x, column.y, options);
   });
   if (is_open_below(map, x, y, options) && beside_a_drop) {
@@ -168,14 +168,25 @@ TEST(HeightBand, AFloorThatRaysPassCloselyIsNoDrop) {
     band.follow(map);
     EXPECT_EQ(band.plane().at({12, 5, 5}), Occupancy::Free);
     if (is_pit) {
-      map.set(VoxelIndex{14, 5, -3}, Occupancy::Free);
+      map.set(VoxelIndex{12, 5, -3}, Occupancy::Free);
       band.follow(map);
     }
     const auto is_drop = [&](const VoxelIndex& column) { return band.plane().at(column) == Occupancy::Occupied; };
     EXPECT_EQ(is_drop({10, 5, 5}), is_pit);
-    EXPECT_EQ(is_drop({18, 9, 5}), is_pit);
-    EXPECT_FALSE(is_drop({19, 9, 5})) << "five columns away";
+    EXPECT_EQ(is_drop({18, 11, 5}), is_pit);
+    EXPECT_FALSE(is_drop({19, 11, 5})) << "seven columns away";
     EXPECT_FALSE(is_drop({9, 5, 5})) << "the floor is seen";
+  }
+}
+
+// Nothing below the region of a map can be known, so a free column down to there is a drop.
+TEST(HeightBand, BelowTheRegionADropIsSupposed) {
+  for (const double bottom_m : {-0.2, -0.3}) {
+    OccupancyMap map({.resolution_m = kCell, .region = Box{{0.0, 0.0, bottom_m}, {3.0, 3.0, 2.0}}});
+    HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55});
+    map.set_log_odds(VoxelBox{{0, 0, -2}, {30, 30, 14}}, -2.0);
+    band.follow(map);
+    EXPECT_EQ(band.plane().at({12, 5, 5}), bottom_m == -0.2 ? Occupancy::Occupied : Occupancy::Free);
   }
 }
 

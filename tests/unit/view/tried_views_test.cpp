@@ -368,12 +368,12 @@ TEST(TriedViews, ACellIsLookedCloselyAtFromCellsThatDoNotTouch) {
       const VoxelIndex place{-7, coordinate(engine), coordinate(engine)};
       EXPECT_EQ(tried.looked_from_beside(kHidden, place), touches_one(place));
       tried.in_vain(map, kHidden, place);
-      if (apart.size() < 2 && !touches_one(place)) {
+      if (!touches_one(place)) {
         apart.push_back(place);
       }
-      EXPECT_EQ(tried.looked_closely(kHidden), apart.size() == 2);
+      EXPECT_EQ(tried.looked_closely(map, kHidden), apart.size() >= 2);
     }
-    closely += tried.looked_closely(kHidden) ? 1U : 0U;
+    closely += tried.looked_closely(map, kHidden) ? 1U : 0U;
     given_up += tried.gave_up(kHidden) ? 1U : 0U;
   }
   EXPECT_GT(closely, 300U);
@@ -389,8 +389,11 @@ TEST(TriedViews, ALookPastACellBesideItIsNoCloseLook) {
     const Pose goal = at(map, is_straight ? VoxelIndex{0, 5, 5} : VoxelIndex{0, 0, 5});
     view_in_vain(tried, map, goal, goal);
     EXPECT_TRUE(tried.gave_up(kHidden));
-    EXPECT_EQ(tried.looked_closely(kHidden), is_straight);
-    EXPECT_TRUE(tried.looked_from_beside(kHidden, map.frame().cell_of(goal.translation())));
+    EXPECT_EQ(tried.looked_closely(map, kHidden), is_straight);
+    const VoxelIndex place = map.frame().cell_of(goal.translation());
+    EXPECT_EQ(tried.looked_from_beside(kHidden, place), is_straight);
+    view_in_vain(tried, map, goal, goal);
+    EXPECT_TRUE(tried.looked_from_beside(kHidden, place)) << "once more was enough";
   }
 }
 
@@ -401,13 +404,13 @@ TEST(TriedViews, MissesEndEvenTheCloseLooks) {
   const Pose stops = at(map, {0, 5, 5});
   int misses = 0;
   for (std::int32_t y = 3; y < 8; ++y) {
-    for (std::int32_t z = 4; z < 7 && !tried.looked_closely(kHidden); ++z, ++misses) {
+    for (std::int32_t z = 4; z < 7 && !tried.looked_closely(map, kHidden); ++z, ++misses) {
       const Pose goal = at(map, {1, y, z});
       view_in_vain(tried, map, goal, stops);
       EXPECT_TRUE(tried.looked_from_beside(kHidden, {1, y, z}));
     }
   }
-  EXPECT_TRUE(tried.looked_closely(kHidden));
+  EXPECT_TRUE(tried.looked_closely(map, kHidden));
   EXPECT_LE(misses, 8);
 }
 
@@ -632,7 +635,7 @@ TEST(TriedViews, IsTheSameAfterItWasText) {
         EXPECT_EQ(recalled.tried_from(cell, place), tried.tried_from(cell, place));
         EXPECT_EQ(recalled.hoped_in_vain(cell, place), tried.hoped_in_vain(cell, place));
         EXPECT_EQ(recalled.gave_up(cell), tried.gave_up(cell));
-        EXPECT_EQ(recalled.looked_closely(cell), tried.looked_closely(cell));
+        EXPECT_EQ(recalled.looked_closely(map, cell), tried.looked_closely(map, cell));
         EXPECT_EQ(recalled.looked_from_beside(cell, place), tried.looked_from_beside(cell, place));
         EXPECT_EQ(recalled.rests(place), tried.rests(place));
         given_up += tried.gave_up(cell) ? 1U : 0U;

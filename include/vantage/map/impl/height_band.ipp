@@ -11,8 +11,8 @@
 namespace vantage {
 namespace detail {
 
-// A ray that goes down by 15 degrees passes one more layer within so many columns.
-inline constexpr std::int32_t kNearADrop = 4;
+// A ray that goes down by 10 degrees passes one more layer within so many columns.
+inline constexpr std::int32_t kNearADrop = 6;
 
 inline void validate(const HeightBandOptions& options) {
   detail::require_option(std::isfinite(options.min_height_m), "HeightBandOptions::min_height_m", options.min_height_m,
@@ -86,8 +86,10 @@ VANTAGE_INLINE void HeightBand::follow(const OccupancyMap& map) {
   }
   for (const VoxelIndex& brick : map.changed_since(followed_)) {
     const VoxelIndex first = Brick::first_cell(brick);
-    if (first.z < above_ && first.z + Brick::kSide >= lowest_floor_) {
-      const std::int32_t around = first.z < lowest_ ? Brick::kSide : 0;  // a drop has an effect on columns beside it
+    const bool has_floor = lowest_floor_ < lowest_;
+    if (first.z < above_ && first.z + Brick::kSide > lowest_floor_ - (has_floor ? 1 : 0)) {
+      // A drop has an effect on columns beside it.
+      const std::int32_t around = has_floor && first.z < lowest_ ? Brick::kSide : 0;
       for (std::int32_t y = first.y - around; y <= first.y + around; y += Brick::kSide) {
         for (std::int32_t x = first.x - around; x <= first.x + around; x += Brick::kSide) {
           stale_.emplace(y, x);

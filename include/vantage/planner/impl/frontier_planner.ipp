@@ -21,21 +21,6 @@ VANTAGE_INLINE void ExplorationPlanner::report(const OccupancyMap& /*map*/, cons
 VANTAGE_INLINE std::string ExplorationPlanner::memory() const { return {}; }
 VANTAGE_INLINE void ExplorationPlanner::recall(const OccupancyMap& /*map*/, std::string_view /*memory*/) {}
 
-VANTAGE_INLINE std::optional<std::vector<Pose>> FrontierPlanner::path_to(const Pose& view,
-                                                                         std::span<const VoxelIndex> way) const {
-  const OccupancyMap& map = situation_.map();
-  if (situation_.reachable().only_turns()) {
-    return std::vector<Pose>{situation_.current(), view};
-  }
-  std::vector<VoxelIndex> shortest;
-  if (way.empty()) {
-    shortest = situation_.way_to(map.frame().cell_of(view.translation()));
-    way = shortest;
-  }
-  auto path = way.empty() ? std::nullopt : poses_along(map, situation_.platform(), situation_.current(), way, view);
-  return path ? std::move(path) : situation_.platform().path(map, situation_.current(), view);
-}
-
 VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
   situation_.sync(map, current);
   for (;;) {  // ends, because another place rests each time
@@ -66,7 +51,7 @@ VANTAGE_INLINE std::vector<VoxelIndex> FrontierPlanner::take_a_view(Plan& plan) 
     }
     TargetView& view = choice->view;
     if (choice->path.empty()) {
-      choice->path = path_to(view.view.pose, choice->way).value_or(std::vector<Pose>());
+      choice->path = situation_.path_to(view.view.pose, choice->way).value_or(std::vector<Pose>());
     }
     plan.statistics.path_ms += watch.lap_ms();
     if (choice->path.empty()) {

@@ -237,7 +237,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
       continue;
     }
     TargetView view = targets_seen_from(situation().surveyed(), candidate.view.pose, plan.statistics.ray_operations);
-    auto path = view.unknown.empty() ? std::nullopt : path_to(candidate.view.pose);
+    auto path = view.unknown.empty() ? std::nullopt : situation().path_to(candidate.view.pose);
     if (!path) {
       continue;
     }

@@ -138,11 +138,10 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
           "free space, or declare the space around it free (assume_free)";
       return plan;
     }
-    if (std::optional<Plan> turn = turn_on_the_spot()) {
-      return turn;
-    }
-    if (std::optional<Plan> step = step_aside()) {
-      return step;
+    for (const auto move : {&Situation::turn_on_the_spot, &Situation::step_aside, &Situation::look_closely}) {
+      if (std::optional<Plan> moves = (this->*move)()) {
+        return moves;
+      }
     }
     if (hardly_moves() && stands_beside_unknown()) {
       plan.reason =
@@ -205,7 +204,7 @@ VANTAGE_INLINE bool Situation::stands_beside_unknown() const {
 
 // A sensor with a narrow field of view does not see free space beside the body, so it first looks in all horizontal
 // directions. Views overlap by a fifth.
-VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() const {
+VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() {
   if (sensor().looks_all_around() || !hardly_moves() || tried_.rests(map_->frame().cell_of(current_.translation()))) {
     return std::nullopt;
   }
@@ -236,7 +235,7 @@ VANTAGE_INLINE std::optional<Plan> Situation::turn_on_the_spot() const {
 // Reachable cells are connected across faces. A body may also fit aslant into a neighbouring cell that is not
 // reachable in this sense, for example after somebody carried it. It goes there if more can be seen from the cells
 // around it.
-VANTAGE_INLINE std::optional<Plan> Situation::step_aside() const {
+VANTAGE_INLINE std::optional<Plan> Situation::step_aside() {
   const auto is_cut_off = [&](const VoxelIndex& cell) {
     return reachable().admitted().contains(cell) && !reachable().contains(cell);
   };
@@ -268,6 +267,28 @@ VANTAGE_INLINE std::optional<Plan> Situation::step_aside() const {
       plan.reason = "a step into free space from which there is more to see";
       return plan;
     }
+  }
+  return std::nullopt;
+}
+
+// The nearest view of a cell that was looked at in vain, but not closely.
+VANTAGE_INLINE std::optional<Plan> Situation::look_closely() {
+  FrontierSurvey survey{.targets = surveyor_.looks_to_take_closely(*map_, tried_, frontier_cells_)};
+  while (!survey.targets.empty()) {
+    const std::vector<VoxelIndex> way = GridPaths(reachable()).to_nearest(survey.viewpoints());
+    const std::optional<FrontierTarget> nearest = survey.target_seen_from(way.back());
+    Plan plan = open_plan();
+    TargetView view = view_of_target({*map_, sensor(), platform(), reachable(), survey, tried_}, *nearest,
+                                     plan.statistics.ray_operations);
+    if (std::optional<std::vector<Pose>> path = path_to(view.view.pose, way)) {
+      plan.outcome = Outcome::Move;
+      plan.goal = view.view;
+      plan.path = std::move(*path);
+      plan.sought = std::move(view.unknown);
+      plan.reason = "a closer look at " + detail::counted(plan.sought.size(), "cells that were looked at in vain");
+      return plan;
+    }
+    std::erase_if(survey.targets, [&](const FrontierTarget& one) { return one.viewpoint == nearest->viewpoint; });
   }
   return std::nullopt;
 }
@@ -352,6 +373,20 @@ VANTAGE_INLINE std::vector<VoxelIndex> Situation::way_to(const VoxelIndex& goal)
     at = next;
   }
   return way;
+}
+
+VANTAGE_INLINE std::optional<std::vector<Pose>> Situation::path_to(const Pose& view,
+                                                                   std::span<const VoxelIndex> way) const {
+  if (reachable().only_turns()) {
+    return std::vector<Pose>{current_, view};
+  }
+  std::vector<VoxelIndex> shortest;
+  if (way.empty()) {
+    shortest = way_to(map_->frame().cell_of(view.translation()));
+    way = shortest;
+  }
+  auto path = way.empty() ? std::nullopt : poses_along(*map_, platform(), current_, way, view);
+  return path ? std::move(path) : platform().path(*map_, current_, view);
 }
 
 VANTAGE_INLINE const FollowingCaster& Situation::looking() const {

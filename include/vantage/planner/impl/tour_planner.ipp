@@ -239,7 +239,7 @@ VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
   ChosenView chosen = views ? detail::first_view(situation(), nearest, *views, options_, velocity_m_s, plan)
                             : detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, plan);
   if (const std::optional<MotionModel>& motion = situation().setup().motion) {
-    if (std::optional<std::vector<Pose>> path = path_to(chosen.view.view.pose, chosen.way)) {
+    if (std::optional<std::vector<Pose>> path = situation().path_to(chosen.view.view.pose, chosen.way)) {
       chosen.path = views ? detail::with_glances(*path, *views, situation(), velocity_m_s, operations) : *path;
       motion_->follow(chosen.path, *motion);
     }

@@ -91,12 +91,6 @@ inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidd
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);
   }
-  if (survey.targets.empty()) {
-    search.look_closely();
-    search.limit_to(kMostOperations);
-    take_seen(hidden, survey.targets, try_all);
-    survey.exhausted = survey.exhausted && !search.used_up();
-  }
 }
 
 // The targets whose unknown cell touches an occupied cell; all targets if there is none.
@@ -211,6 +205,24 @@ VANTAGE_INLINE FrontierSurvey FrontierSurveyor::find_targets(const OccupancyMap&
   survey.ray_operations = search.operations();
   detail::count_hidden(map, *platform_, reachable_, tried, hidden, survey.leftover);
   return survey;
+}
+
+VANTAGE_INLINE std::vector<FrontierTarget> FrontierSurveyor::looks_to_take_closely(
+    const OccupancyMap& map, const TriedViews& tried, const std::vector<VoxelIndex>& frontier) {
+  std::vector<FrontierTarget> targets;
+  if (!reachable_.start()) {
+    return targets;
+  }
+  detail::ViewpointSearch search(map, *platform_, sensor_, reachable_, tried, *memory_);
+  search.look_closely();
+  search.limit_to(detail::kMostOperations);
+  for (const VoxelIndex& cell : frontier) {
+    if (const auto target =
+            search.first_seen(cell, [&](const VoxelIndex& unknown) { return search.try_all(unknown); })) {
+      targets.push_back(*target);
+    }
+  }
+  return targets;
 }
 
 VANTAGE_INLINE FrontierSurvey survey_frontiers(const OccupancyMap& map, const Platform& platform,

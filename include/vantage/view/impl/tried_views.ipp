@@ -40,11 +40,14 @@ inline bool differ(const VoxelIndex& unknown, const VoxelIndex& a, const VoxelIn
   return squared_distance(a, b) > 0.25 * nearer;
 }
 
-inline void add_if_it_differs(const VoxelIndex& unknown, const VoxelIndex& place, std::vector<VoxelIndex>& places) {
-  if (std::all_of(places.begin(), places.end(),
-                  [&](const VoxelIndex& other) { return differ(unknown, place, other); })) {
+// Returns whether it was added.
+inline bool add_if_it_differs(const VoxelIndex& unknown, const VoxelIndex& place, std::vector<VoxelIndex>& places) {
+  const bool differs = std::all_of(places.begin(), places.end(),
+                                   [&](const VoxelIndex& other) { return differ(unknown, place, other); });
+  if (differs) {
     places.push_back(place);
   }
+  return differs;
 }
 
 inline bool touch(const VoxelIndex& a, const VoxelIndex& b) {
@@ -202,11 +205,10 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
       }
       Looks& looks = new_look_at(map, cell);
       const bool looked = was_in_view(map, current, cell);
-      if (looked) {
-        detail::add_if_it_differs(cell, here, looks.in_vain);
-      }
-      const bool is_new = looked && is_clear(map, current, cell) && add_clear_look(looks, here);
-      if (!is_new || detail::differ(cell, here, goal)) {  // the robot comes no nearer to the goal than this
+      const bool differs = looked && detail::add_if_it_differs(cell, here, looks.in_vain);
+      const bool is_clear_look = looked && is_clear(map, current.translation(), cell) && add_clear_look(looks, here);
+      // The robot comes no nearer to the goal than this.
+      if (!(differs || is_clear_look) || detail::differ(cell, here, goal)) {
         std::vector<VoxelIndex>& goals = looks.*unseen;
         if (std::find(goals.begin(), goals.end(), goal) == goals.end()) {
           goals.push_back(goal);
@@ -242,14 +244,16 @@ VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose&
 }
 
 // As the audit of a finished run tests it.
-VANTAGE_INLINE bool TriedViews::is_clear(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) {
-  return VoxelRay(map.frame(), pose.translation(), map.frame().centre_of(unknown))
-      .all_touched([&](const VoxelIndex& cell) { return cell == unknown || map.at(cell) == Occupancy::Free; });
+VANTAGE_INLINE bool TriedViews::is_clear(const OccupancyMap& map, const Eigen::Vector3d& from,
+                                         const VoxelIndex& unknown) {
+  return VoxelRay(map.frame(), from, map.frame().centre_of(unknown)).all_touched([&](const VoxelIndex& cell) {
+    return cell == unknown || map.at(cell) == Occupancy::Free;
+  });
 }
 
 // Returns whether the look is one from a new place.
 VANTAGE_INLINE bool TriedViews::add_clear_look(Looks& looks, const VoxelIndex& place) const {
-  const bool is_new = looks.clear.size() < static_cast<std::size_t>(options_.patience) &&
+  const bool is_new = looks.clear.size() < 4 * static_cast<std::size_t>(options_.patience) &&
                       std::none_of(looks.clear.begin(), looks.clear.end(),
                                    [&](const VoxelIndex& other) { return detail::touch(place, other); });
   if (is_new) {
@@ -350,11 +354,17 @@ VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
          (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
 }
 
-VANTAGE_INLINE bool TriedViews::looked_closely(const VoxelIndex& unknown) const {
+VANTAGE_INLINE bool TriedViews::looked_closely(const OccupancyMap& map, const VoxelIndex& unknown) const {
   const Looks* looks = looks_at(unknown);
-  const auto patience = static_cast<std::size_t>(options_.patience);
-  return looks != nullptr &&
-         (looks->clear.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 4 * patience);
+  if (looks == nullptr) {
+    return false;
+  }
+  const auto is_still_clear = [&](const VoxelIndex& place) {
+    return is_clear(map, map.frame().centre_of(place), unknown);
+  };
+  const auto most = 4 * static_cast<std::size_t>(options_.patience);
+  return looks->in_vain.size() + looks->missed.size() >= most || looks->clear.size() >= most ||
+         std::count_if(looks->clear.begin(), looks->clear.end(), is_still_clear) >= options_.patience;
 }
 
 VANTAGE_INLINE bool TriedViews::looked_from_beside(const VoxelIndex& unknown, const VoxelIndex& place) const {

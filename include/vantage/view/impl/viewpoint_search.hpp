@@ -39,7 +39,7 @@ class ViewpointSearch {
 
   [[nodiscard]] bool is_sought(const VoxelIndex& cell) const {
     return map_.in_region(cell) && map_.at(cell) == Occupancy::Unknown &&
-           (closely_ ? tried_.tried(cell) && !tried_.looked_closely(cell) : !tried_.gave_up(cell));
+           (closely_ ? tried_.tried(cell) && !tried_.looked_closely(map_, cell) : !tried_.gave_up(cell));
   }
   // The first unknown neighbour of a frontier cell for which `find` returns a viewpoint.
   template <class Find>
