@@ -345,7 +345,7 @@ bool ExplorationRun::goes_on(Progress& progress, ExplorationPlanner& planner, co
 
 RunRecord ExplorationRun::run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view) {
   check_start(start);
-  map_ = OccupancyMap(map_options_of(options_));
+  map_ = OccupancyMap(map_.options());
   if (options_.band) {
     band_.emplace(map_.options(), *options_.band);
   }

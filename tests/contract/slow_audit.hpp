@@ -94,12 +94,10 @@ struct LookedAt {
 
 /// Unknown neighbours of free cells that the sensor could still see, from a place that was not the goal of a plan
 /// that sought them:
-/// - their centre or the centre of a face, from a place that is not like one from which they were in view, if they
-/// were
-///   not in view from two cells, and not in view or sought from four cells together; or
-/// - their centre, from a place that touches none from which the line is clear in the final map, if there are not two
-/// of
-///   these, and they were not in view or sought from eight cells together.
+/// - Their centre or the centre of a face, from a place that is not like one from which they were in view. They were
+///   not in view from two cells, and not in view or sought from four cells together.
+/// - Or their centre, from a place that touches none from which the line is clear in the final map. There are not two
+///   such places, and they were not in view or sought from eight cells together.
 [[nodiscard]] inline std::vector<VoxelIndex> still_observable(const OccupancyMap& map, const Platform& platform,
                                                               const RangeSensor& sensor, const Pose& current,
                                                               const LookedAt& looked) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/known_map.hpp>
@@ -153,6 +155,9 @@ class TriedViews {
     int known_neighbours = 0;         // at the latest look
     std::uint64_t latest = 0;         // number of the plan of the latest look
   };
+  // The lists of places of Looks, by their words in the text.
+  static constexpr std::array<std::pair<const char*, std::vector<VoxelIndex> Looks::*>, 4> kPlaceLists{
+      {{"in-vain", &Looks::in_vain}, {"clear", &Looks::clear}, {"missed", &Looks::missed}, {"hoped", &Looks::hoped}}};
   // A goal that was planned.
   struct Place {
     VoxelIndex cell;
@@ -202,7 +207,6 @@ class TriedViews {
   [[nodiscard]] bool arrived(const Pose& current) const;
   bool add_clear_look(Looks& looks, const VoxelIndex& place) const;
   [[nodiscard]] bool was_in_view(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) const;
-  [[nodiscard]] static bool is_clear(const OccupancyMap& map, const Eigen::Vector3d& from, const VoxelIndex& unknown);
 
   RangeSensor sensor_;
   TriedViewsOptions options_;

@@ -14,14 +14,19 @@ namespace {
 
 constexpr double kCell = 0.1;
 
+/// Whether the floor is searched in this cell: it is below the band, and within one step.
+bool may_hold_the_floor(const OccupancyMap& map, const VoxelIndex& cell, const HeightBandOptions& options) {
+  return map.frame().centre_of(cell).z() < options.min_height_m &&
+         map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m;
+}
+
 /// Whether no floor is within one step below the band: all cells are free, and there is one.
 bool is_open_below(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
   bool all_free = true;
   bool any = false;  // a step smaller than a cell may have no layer
   for (std::int32_t z = -40; z < 40; ++z) {
     const VoxelIndex cell{x, y, z};
-    if (map.frame().centre_of(cell).z() < options.min_height_m &&
-        map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m) {
+    if (may_hold_the_floor(map, cell, options)) {
       all_free = all_free && map.at(cell) == Occupancy::Free;
       any = true;
     }
@@ -63,8 +68,7 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
   }
   for (std::int32_t z = -40; z < 40; ++z) {
     const VoxelIndex cell{x, y, z};
-    if (map.at(cell) == Occupancy::Occupied && map.frame().centre_of(cell).z() < options.min_height_m &&
-        map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m) {
+    if (map.at(cell) == Occupancy::Occupied && may_hold_the_floor(map, cell, options)) {
       return Occupancy::Free;
     }
   }

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
-#include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/brick_set.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vantage/robot/grid_path.hpp>
@@ -15,6 +14,7 @@
 
 #include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/robot/impl/block_ways.hpp>
+#include <vantage/view/impl/clear_line.hpp>
 #include <vantage/view/impl/frontier_survey_settings.hpp>
 
 namespace vantage {
@@ -94,9 +94,7 @@ VANTAGE_INLINE void Situation::note_what_was_in_vain() {
       if (map_->in_region(unknown) && map_->at(unknown) == Occupancy::Unknown &&
           (map_->frame().centre_of(unknown) - current_.translation()).norm() <= furthest_m &&
           sees(*map_, sensor(), current_, unknown, operations) &&
-          VoxelRay(map_->frame(), current_.translation(), map_->frame().centre_of(unknown))
-              .all_touched(
-                  [&](const VoxelIndex& other) { return other == unknown || map_->at(other) == Occupancy::Free; })) {
+          detail::is_clear_line(*map_, current_.translation(), unknown)) {
         tried_.in_vain(*map_, unknown, here);
       }
     }

@@ -10,6 +10,7 @@
 
 #include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
+#include <vantage/view/impl/clear_line.hpp>
 
 namespace vantage {
 namespace detail {
@@ -206,7 +207,8 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
       Looks& looks = new_look_at(map, cell);
       const bool looked = was_in_view(map, current, cell);
       const bool differs = looked && detail::add_if_it_differs(cell, here, looks.in_vain);
-      const bool is_clear_look = looked && is_clear(map, current.translation(), cell) && add_clear_look(looks, here);
+      const bool is_clear_look =
+          looked && detail::is_clear_line(map, current.translation(), cell) && add_clear_look(looks, here);
       // The robot comes no nearer to the goal than this.
       if (!(differs || is_clear_look) || detail::differ(cell, here, goal)) {
         std::vector<VoxelIndex>& goals = looks.*unseen;
@@ -241,14 +243,6 @@ VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose&
              .all_touched([&](const VoxelIndex& cell) {
                return detail::touch(cell, unknown) || map.at(cell) == Occupancy::Free;
              });
-}
-
-// As the audit of a finished run tests it.
-VANTAGE_INLINE bool TriedViews::is_clear(const OccupancyMap& map, const Eigen::Vector3d& from,
-                                         const VoxelIndex& unknown) {
-  return VoxelRay(map.frame(), from, map.frame().centre_of(unknown)).all_touched([&](const VoxelIndex& cell) {
-    return cell == unknown || map.at(cell) == Occupancy::Free;
-  });
 }
 
 // Returns whether the look is one from a new place.
@@ -360,7 +354,7 @@ VANTAGE_INLINE bool TriedViews::looked_closely(const OccupancyMap& map, const Vo
     return false;
   }
   const auto is_still_clear = [&](const VoxelIndex& place) {
-    return is_clear(map, map.frame().centre_of(place), unknown);
+    return detail::is_clear_line(map, map.frame().centre_of(place), unknown);
   };
   const auto most = 4 * static_cast<std::size_t>(options_.patience);
   return looks->in_vain.size() + looks->missed.size() >= most || looks->clear.size() >= most ||

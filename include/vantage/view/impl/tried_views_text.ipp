@@ -128,11 +128,8 @@ VANTAGE_INLINE std::string TriedViews::text() const {
     const Looks& looks = looks_.at(cell);
     detail::append(text, "cell", cell,
                    {static_cast<double>(looks.known_neighbours), static_cast<double>(looks.latest)});
-    for (const auto& [word, places] : {std::pair("in-vain", &looks.in_vain),
-                                       {"clear", &looks.clear},
-                                       {"missed", &looks.missed},
-                                       {"hoped", &looks.hoped}}) {
-      for (const VoxelIndex& place : *places) {
+    for (const auto& [word, places] : kPlaceLists) {
+      for (const VoxelIndex& place : looks.*places) {
         detail::append(text, word, place);
       }
     }
@@ -174,16 +171,13 @@ VANTAGE_INLINE void TriedViews::recall(const OccupancyMap& map, std::string_view
       read.may_hold_.insert(cell);
       looks->known_neighbours = entry.whole<int>(3, 6);
       looks->latest = entry.whole<std::uint64_t>(4, detail::kMostPlans);
-    } else if (entry.word() == "in-vain" || entry.word() == "clear" || entry.word() == "missed" ||
-               entry.word() == "hoped") {
+    } else if (const auto* const list = std::find_if(kPlaceLists.begin(), kPlaceLists.end(),
+                                                     [&](const auto& one) { return one.first == entry.word(); });
+               list != kPlaceLists.end()) {
       if (looks == nullptr) {
         entry.refuse("a look without a cell");
       }
-      (entry.word() == "in-vain"  ? looks->in_vain
-       : entry.word() == "clear"  ? looks->clear
-       : entry.word() == "missed" ? looks->missed
-                                  : looks->hoped)
-          .push_back(entry.cell(3));
+      (looks->*list->second).push_back(entry.cell(3));
     } else if (entry.word() == "place") {
       constexpr double kMost = 1e6;
       Place& place = read.place_of(entry.cell(7));
