@@ -81,8 +81,10 @@ SensorCarrier carrier_of(const ExploreRequest& request) {
   }
   (void)start_in_world(request);  // a faulty start is found before the world is read
   SensorCarrier carrier{.sensor = is_plan(request) ? in_plane(sensor_of(request)) : sensor_of(request)};
-  // A robot that does not stop meets walls that it saw only in passing: a free cell may contain a part of one.
-  const double margin_m = request.max_speed_m_s ? 0.5 * request.resolution_m : 0.0;
+  // A free cell may contain a part of a wall that the sensor saw only in passing. The cells beside it show that wall,
+  // so a body smaller than a cell needs them clear. A robot that does not stop meets more such walls.
+  const double margin_m = std::max(request.resolution_m - request.robot_radius_m,
+                                   request.max_speed_m_s ? 0.5 * request.resolution_m : 0.0);
   if (!request.band.empty() || is_plan(request)) {
     carrier.platform = std::make_shared<const GroundRobot>(
         GroundRobotOptions{.radius_m = request.robot_radius_m, .margin_m = margin_m});

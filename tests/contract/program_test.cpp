@@ -287,6 +287,21 @@ TEST_F(Program, ARobotThatDrivesIsNotCutOffByItsOwnFloor) {
   EXPECT_GE(report["coverage"].get<double>(), 0.99);
 }
 
+// Cells of twice the radius: a free cell may hold a part of a wall, which only the cells beside it show.
+TEST_F(Program, ABodySmallerThanACellTouchesNoWall) {
+  std::size_t views = 0;
+  for (const char* seed : {"1", "3"}) {
+    const Ran ran = run(std::string("explore --world maze --size 8,8 --sensor kinect --resolution 0.3 --yaw-only "
+                                    "--max-views 300 --json - --seed ") +
+                        seed);
+    const nlohmann::json report = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(report["collisions"], 0) << seed;
+    EXPECT_GE(report["coverage"].get<double>(), 0.99) << seed;
+    views += report["views"].get<std::size_t>();
+  }
+  EXPECT_GE(views, 100U);
+}
+
 TEST_F(Program, TellsHowShortAWayCouldBe) {
   const std::string arguments =
       "explore --world table --planner harmonic --sensor panoramic --resolution 0.2 --json -";

@@ -13,8 +13,8 @@ struct FreeFlyerOptions {
   double radius_m = 0.3;
   double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor, metres, world
   double max_height_m = std::numeric_limits<double>::infinity();  ///< highest admitted z of the sensor, metres, world
-  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]: a free cell may contain
-  /// a corner of a wall.
+  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]. A free cell may contain
+  /// a part of a wall: choose it so that radius and margin are at least a cell.
   double margin_m = 0.0;
   bool yaw_only = false;  ///< true: the optical axis stays horizontal, e.g. a multirotor with a fixed camera
 };

@@ -10,8 +10,8 @@ namespace VANTAGE_EXPORT vantage {
 struct GroundRobotOptions {
   /// Radius of the body, a disc around the sensor, metres, in [0, 1000] (0: the sensor's cell)
   double radius_m = 0.3;
-  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]: a free cell may contain
-  /// a corner of a wall.
+  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]. A free cell may contain
+  /// a part of a wall: choose it so that radius and margin are at least a cell.
   double margin_m = 0.0;
 };
 
