@@ -326,14 +326,15 @@ class DrivenRobot {
       end.translation() = along(last.path, way_m).translation();
       end.linear() = Eigen::AngleAxisd(off_rad, Eigen::Vector3d::UnitZ()) * end.linear();
     }
+    const std::vector<VoxelIndex> leaves = static_cells_in(pose_);
     for (double at_m = 0.0; at_m < way_m; at_m += 0.5 * scene_.cell_m) {
       if (meets_a_moving_object(along(last.path, at_m + 0.5 * scene_.cell_m))) {  // the controller stops
         way_m = at_m;
         end = along(last.path, at_m);
       }
-      count_collision(along(last.path, at_m));
+      count_collision(along(last.path, at_m), leaves);
     }
-    count_collision(end);
+    count_collision(end, leaves);
     pose_ = end;
     gone_m += way_m;
     if (host_ == Host::AbortsAndReports) {
@@ -349,10 +350,14 @@ class DrivenRobot {
               return world_.solid.value_or(cell, 1) == 0 && world_.is_solid(cell);
             }).empty();
   }
-  // A ray through the edge of a solid cell may clear it in the map; then the map is wrong, not the plan.
-  void count_collision(const Pose& pose) {
+  // A ray through the edge of a solid cell may clear it in the map; then the map is wrong, not the plan. If a later
+  // scan corrects the map, the body has to leave these cells, which were counted when it came.
+  void count_collision(const Pose& pose, const std::vector<VoxelIndex>& leaves) {
     bool collides = false;
     for (const VoxelIndex& cell : static_cells_in(pose)) {
+      if (std::find(leaves.begin(), leaves.end(), cell) != leaves.end()) {
+        continue;
+      }
       if (map_.at(cell) == Occupancy::Free) {
         misled_by.insert(cell);
       } else {
