@@ -51,26 +51,20 @@ for what in "${@:-aimed paper hierarchical}"; do
   for part in $what; do
     case $part in
       aimed)
-        row greedy '320 aimed, the best' --set choice=greedy
-        row cover-aimed '320 aimed, cover' --set choice=cover
+        row aimed '320 aimed'
         ;;
       paper)
-        row cover '320 candidates, cover' --aimed 0 --set choice=cover
-        row paper '320 candidates, the best' --aimed 0 --set choice=greedy
+        row paper '320 candidates' --aimed 0
         ;;
       hierarchical)
-        row hierarchical-cover 'hierarchical, cover' --aimed 0 --method hierarchical --set choice=cover
-        row hierarchical 'hierarchical, the best' --aimed 0 --method hierarchical --set choice=greedy
+        row hierarchical hierarchical --aimed 0 --method hierarchical
         ;;
       uniform)
-        row uniform 'uniform, the best' --aimed 0 --method uniform --set choice=greedy
+        row uniform uniform --aimed 0 --method uniform
         ;;
       gains)
         for gain in unknown-cells occlusion-aware unobserved-voxel rear-side-voxel rear-side-entropy proximity-count; do
-          row "$gain" "$gain" --candidates 80 --aimed 0 --set gain="$gain" --set choice=greedy
-        done
-        for gain in unknown-cells proximity-count; do
-          row "$gain-cover" "$gain, cover" --candidates 80 --aimed 0 --set gain="$gain" --set choice=cover
+          row "$gain" "$gain" --candidates 80 --aimed 0 --set gain="$gain"
         done
         ;;
       *)

@@ -247,8 +247,8 @@ int main(int argc, char** argv) {
                       .most_views = argc > 2 ? std::stoul(argv[2]) : 120};
     std::vector<std::string> planners(argv + std::min(argc, 4), argv + argc);
     if (planners.empty()) {
-      planners = {"frontier-void,mode=travelling", "frontier-void", "frontier-gain,cost_per_m=100",
-                  "nearest-frontier", "harmonic"};
+      planners = {"frontier-void,cost_per_m=3", "frontier-void", "frontier-gain,cost_per_m=100", "nearest-frontier",
+                  "harmonic"};
     }
     compare(setup, planners, seeds_of(argc > 3 ? argv[3] : "1,2,3"));
     return 0;

@@ -91,7 +91,6 @@
 #include <vantage/version.hpp>
 #include <vantage/view/aimed_views.hpp>
 #include <vantage/view/candidate_views.hpp>
-#include <vantage/view/cover_bound.hpp>
 #include <vantage/view/frontier_survey.hpp>
 #include <vantage/view/frontier_surveyor.hpp>
 #include <vantage/view/goal_result.hpp>
@@ -106,6 +105,5 @@
 #include <vantage/view/unseen_surface.hpp>
 #include <vantage/view/utility_vectors.hpp>
 #include <vantage/view/view.hpp>
-#include <vantage/view/view_cover.hpp>
 #include <vantage/view/view_utility.hpp>
 #include <vantage/view/void_views.hpp>

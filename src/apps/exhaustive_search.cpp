@@ -10,14 +10,14 @@
 #include <ostream>
 #include <unordered_set>
 #include <utility>
+#include <vantage/evaluation/cover_bound.hpp>
+#include <vantage/evaluation/view_cover.hpp>
 #include <vantage/frontier/void_cells.hpp>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/raytrace/cell_set.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vantage/raytrace/view_rays.hpp>
-#include <vantage/view/cover_bound.hpp>
 #include <vantage/view/frontier_survey.hpp>
-#include <vantage/view/view_cover.hpp>
 
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/raytrace/impl/shared_work.hpp>

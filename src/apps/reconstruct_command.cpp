@@ -124,7 +124,6 @@ Settings settings_for(const ReconstructRequest& request, const ObjectScene& scen
   settings.insert_or_assign("aimed_candidates", std::to_string(request.aimed));
   if (request.method != "default") {  // the paper's utility
     settings.insert_or_assign("min_unknown_cells", "12");
-    settings.insert_or_assign("choice", "greedy");
   }
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
@@ -289,7 +288,7 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  vantage reconstruct --object bunny.ply --table --out bunny\n"
       "  vantage reconstruct --object cup.obj --up y --candidates 1280 --method uniform --json cup.json\n"
-      "A setting of the paper's utility (gain, choice, min_unknown_cells ...) asks for that utility.\n"
+      "A setting of the paper's utility (gain, min_unknown_cells ...) asks for that utility.\n"
       "Exit codes: 0 no view would show enough that is new, 2 bad input (nothing was written) or a file that\n"
       "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, or may be left after\n"
       "the last view of a fixed order, 130 and 143 interrupted.");

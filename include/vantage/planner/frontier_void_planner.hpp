@@ -29,12 +29,6 @@ struct FrontierVoidStrategy {
   /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
   /// alone count (eq. 3).
   double cost_per_m = 0.3;
-  /// True: the finalists are compared by the length of the path, not by the straight distance. A view behind a wall
-  /// is far away.
-  bool along_way = false;
-  /// Additional candidates, at most this many, from the nearest places that see a void through its frontier, >= 0.
-  /// Places and directions are drawn by the size of voids, which misses the small ones.
-  std::size_t near_views = 0;
   /// If there are more views than this, all are first ranked with a sixteenth of the rays, this many of the best
   /// again with a quarter, and `best` of these with all. >= 1.
   std::size_t finalists = 5;
@@ -61,10 +55,6 @@ struct FrontierVoidStrategy {
             .opaque_share = 1.0,
             .opaque_beside_surface = 1.0,
             .beyond_voids = false};
-  }
-  /// For a robot for which metres matter and views do not: finishes nearby voids before it moves on.
-  [[nodiscard]] static FrontierVoidStrategy travelling() {
-    return {.in_tiles = false, .cost_per_m = 100.0, .along_way = true, .near_views = 20};
   }
   /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
   /// when no view sees a void.
@@ -124,8 +114,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   struct Candidate {
     View view;  // its utility is the expected number of void cells
     double value = 0.0;
-    std::uint64_t operations = 0;        // cells on its rays
-    std::vector<SightedCell> seen = {};  // with all rays; empty if there are many candidates
+    std::uint64_t operations = 0;  // cells on its rays
   };
 
   void clear_search();
@@ -135,7 +124,7 @@ class FrontierVoidPlanner final : public FrontierPlanner {
                                                          std::uint64_t& operations) const;
   [[nodiscard]] std::optional<ChosenView> view_of_voids(std::size_t most_targets, Plan& plan);
   [[nodiscard]] std::vector<double> search_places(std::size_t most_targets, PlanStatistics& statistics);
-  [[nodiscard]] double discounted(double utility, double way_m) const;
+  [[nodiscard]] double discounted(double utility, const Eigen::Vector3d& place) const;
   [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
 
   FrontierVoidOptions options_;

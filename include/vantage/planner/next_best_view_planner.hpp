@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vantage/compiler.hpp>
 #include <vantage/planner/exploration_planner.hpp>
@@ -15,15 +14,6 @@
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
-
-/// How a NextBestViewPlanner chooses a view of an object.
-enum class ViewChoice : std::uint8_t {
-  Greedy,  ///< the view of highest utility, as in the paper
-  /// The view of highest utility in a small set of views that together see every unknown cell that any view sees
-  /// (cover_views), computed anew for each plan. A view that others make redundant is not taken just because it is
-  /// near.
-  Cover,
-};
 
 /// Options of NextBestViewPlanner.
 struct NextBestViewOptions {
@@ -38,8 +28,7 @@ struct NextBestViewOptions {
   /// Information gain of a view (eq. 3); none: the number of unknown cells (eq. 4), which also decides if the gain is
   /// 0 for all views. `min_unknown_cells` applies in both cases.
   RayGainMaker gain = nullptr;
-  SensingOptions sensing = {};            ///< which of the cells that a view sees the sensor would measure (II-C)
-  ViewChoice choice = ViewChoice::Cover;  ///< how the view is chosen
+  SensingOptions sensing = {};  ///< which of the cells that a view sees the sensor would measure (II-C)
 
   VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
   int patience = TriedViewsOptions{}.patience;        ///< TriedViewsOptions::patience
@@ -75,7 +64,6 @@ class NextBestViewPlanner final : public ExplorationPlanner {
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,
                                               std::span<const Pose> views,
                                               const std::vector<ViewEvaluation>& seen) const;
-  [[nodiscard]] std::vector<std::size_t> order_of(const std::vector<Candidate>& candidates) const;
 
   PlannerSetup setup_;
   NextBestViewOptions options_;

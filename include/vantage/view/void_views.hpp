@@ -34,13 +34,9 @@ class VoidViews {
                                        std::span<const FrontierVoid> voids, const VoidSampling& sampling,
                                        std::size_t count, std::uint64_t seed) const;
   /// Views of at most `most` targets at voids, evenly distributed over the survey.
-  [[nodiscard]] std::vector<Pose> of_targets(std::size_t most) const { return views_of(targets_, most); }
-  /// The same from viewpoints whose path is at most a metre longer than that to the nearest one.
-  [[nodiscard]] std::vector<Pose> near(std::size_t most) const;
+  [[nodiscard]] std::vector<Pose> of_targets(std::size_t most) const;
 
  private:
-  [[nodiscard]] std::vector<Pose> views_of(std::span<const FrontierTarget> targets, std::size_t most) const;
-
   SurveyedMap surveyed_;
   std::vector<FrontierTarget> targets_;  // those whose unknown cell belongs to a void
   std::uint64_t& operations_;

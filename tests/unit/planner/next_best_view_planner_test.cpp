@@ -15,7 +15,6 @@
 #include <vantage/raytrace/evaluate_view.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/view/candidate_views.hpp>
-#include <vantage/view/view_cover.hpp>
 
 namespace vantage {
 namespace {
@@ -98,8 +97,7 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
     RobotAtTable run(seed);
     const NextBestViewOptions options{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
                                       .min_overlap_cells = 5,
-                                      .min_unknown_cells = 5,
-                                      .choice = ViewChoice::Greedy};
+                                      .min_unknown_cells = 5};
     NextBestViewPlanner planner(run.setup(), options);
     std::size_t views = 0;
     Plan plan = planner.plan(run.map, run.pose);
@@ -177,40 +175,18 @@ std::size_t reconstruct(RobotAtTable& run, const Settings& settings) {
   return views;
 }
 
-TEST(NextBestViewPlanner, NeedsNoMoreViewsByACoverThanByGreed) {
-  std::size_t by_cover = 0;
-  std::size_t by_greed = 0;
-  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    RobotAtTable covering(seed);
-    by_cover += reconstruct(covering, {{"choice", "cover"}});
-    RobotAtTable greedy(seed);
-    by_greed += reconstruct(greedy, {{"choice", "greedy"}});
-    EXPECT_GT(covering.coverage(), 0.94);
-  }
-  EXPECT_LE(by_cover, by_greed);
-}
-
-// Aimed views see parts that views of the whole object miss.
-TEST(NextBestViewPlanner, SeesMoreFromShellsAndAimedViews) {
-  double by_one_shell = 0.0;
-  double by_aimed = 0.0;
-  std::size_t views_of_one_shell = 0;
-  std::size_t views_aimed = 0;
-  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-    const auto seen_by = [&](double& coverage, const Settings& settings) {
+TEST(NextBestViewPlanner, ReconstructsFromAnyCandidates) {
+  const std::vector<Settings> candidates{
+      {}, {{"radii_m", "0.6,0.8,1"}, {"subdivisions", "0"}}, {{"aimed_candidates", "80"}}};
+  for (const Settings& settings : candidates) {
+    double coverage = 0.0;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
       RobotAtTable run(seed);
-      const std::size_t views = reconstruct(run, settings);
+      EXPECT_LT(reconstruct(run, settings), 10U);
       coverage += run.coverage() / 4.0;
-      return views;
-    };
-    double by_shells = 0.0;
-    views_of_one_shell += seen_by(by_one_shell, {});
-    views_aimed += seen_by(by_aimed, {{"aimed_candidates", "80"}});
-    (void)seen_by(by_shells, {{"radii_m", "0.6,0.8,1"}, {"subdivisions", "0"}});
-    EXPECT_GT(by_shells, 0.94 / 4.0);
+    }
+    EXPECT_GT(coverage, 0.97);
   }
-  EXPECT_GE(by_aimed, by_one_shell);
-  EXPECT_LE(views_aimed, views_of_one_shell);
 }
 
 TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
@@ -232,38 +208,6 @@ TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
     plan = follower.plan(run.map, run.pose);
   }
   EXPECT_GE(plans, 2U);
-}
-
-TEST(NextBestViewPlanner, TakesAViewOfTheCover) {
-  RobotAtTable run(4);
-  const NextBestViewOptions options{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
-                                    .min_unknown_cells = 5};
-  const Plan plan = NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose);
-  const ViewRays rays(run.sensor.rays_for(0.05));
-  const RayCaster caster(run.map);
-  std::vector<Pose> poses;
-  std::vector<CellSet> seen;
-  for (const Pose& view :
-       views_around(kObject.centre(), options.candidates.radii_m, options.candidates.subdivisions)) {
-    if (run.platform->admits(run.map, view)) {
-      CellSet cells;
-      (void)evaluate_view(caster, view, rays, run.map.frame().cells_centred_in(kObject), &cells);
-      CellSet unknown = cells;
-      cells.for_each([&](const VoxelIndex& cell) {
-        if (run.map.at(cell) != Occupancy::Unknown) {
-          unknown.erase(cell);
-        }
-      });
-      poses.push_back(view);
-      seen.push_back(std::move(unknown));
-    }
-  }
-  double best = 0.0;
-  for (const std::size_t i : cover_views(seen, options.min_unknown_cells)) {
-    best = std::max(best, static_cast<double>(seen[i].size()) / (1.0 + run.platform->distance_m(run.pose, poses[i])));
-  }
-  EXPECT_GT(best, 0.0);
-  EXPECT_DOUBLE_EQ(plan.goal.utility, best);
 }
 
 TEST(NextBestViewPlanner, ReconstructsByAnyGain) {

@@ -13,7 +13,6 @@
 #include <vantage/planner/frontier_void_planner.hpp>
 
 #include <vantage/geometry/impl/box_around.hpp>
-#include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/view/impl/ranked_views.hpp>
 
@@ -25,8 +24,6 @@ inline constexpr std::size_t kMostVectors = 50'000;  // see utility_vectors
 inline constexpr std::size_t kNearTargets = 20'000;
 // Views of targets that are tested before the planner concludes that no view sees a void.
 inline constexpr std::size_t kProofViews = 50;
-// Of so many views it is kept what they see. So memory does not grow with the number of views.
-inline constexpr std::size_t kRememberedViews = 10;
 
 inline std::string volume(double cells, double cell_m) {
   const double litres = cells * std::pow(10.0 * cell_m, 3);
@@ -142,8 +139,6 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::view_of_voids(std:
   const VoidViews of_voids(situation().surveyed(), search_.voids, plan.statistics.ray_operations);
   std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids, options_.strategy.sampling,
                                           options_.views, situation().setup().seed);
-  const std::vector<Pose> near = of_voids.near(options_.strategy.near_views);
-  views.insert(views.end(), near.begin(), near.end());
   // Where far views count less, the goal ahead gains with every step. So a robot that plans on its way does not turn
   // to and fro.
   if (const auto goal = situation().goal_ahead(); goal && options_.strategy.cost_per_m > 0.0) {
@@ -185,13 +180,13 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(std::size_
   for (const auto& [cell, value] : utility.cells) {
     search_.places.push_back(cell);
     search_.utility.push_back(value);
-    values.push_back(discounted(static_cast<double>(value), (map.frame().centre_of(cell) - here).norm()));
+    values.push_back(discounted(static_cast<double>(value), map.frame().centre_of(cell)));
   }
   return values;
 }
 
-VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, double way_m) const {
-  return utility / (1.0 + options_.strategy.cost_per_m * way_m);
+VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, const Eigen::Vector3d& place) const {
+  return utility / (1.0 + options_.strategy.cost_per_m * (place - situation().current().translation()).norm());
 }
 
 // The void cells that count for a view: not given up, and not looked at in vain from its place.
@@ -210,29 +205,18 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
   plan.statistics.views_scored += views.size();
   std::vector<Candidate> candidates(views.size());
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{{pose}}; });
-  const Eigen::Vector3d here = situation().current().translation();
   const FollowingCaster& looking = situation().looking();
   detail::rank_views(
       looking, situation().setup().threads, candidates, options_.strategy.finalists, options_.strategy.best,
       plan.statistics.ray_operations,
       [&](Candidate& candidate, const ViewRays& rays) {
         View& view = candidate.view;
-        std::vector<SightedCell> seen = void_cells_seen(view.pose, rays, candidate.operations);
-        view.utility = detail::expected(seen);
-        candidate.value = discounted(view.utility, (view.pose.translation() - here).norm());
-        if (&rays == &looking.rays() && candidates.size() <= detail::kRememberedViews) {
-          candidate.seen = std::move(seen);
-        }
+        view.utility = detail::expected(void_cells_seen(view.pose, rays, candidate.operations));
+        candidate.value = discounted(view.utility, view.pose.translation());
       },
       [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
   const double least = detail::least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
-  std::optional<ChosenView> best;
-  double best_value = 0.0;
-  std::vector<SightedCell> best_sees;
   for (const Candidate& candidate : candidates) {
-    if (best && candidate.value <= best_value) {
-      break;  // the discounted value along a path is at most that of the straight line
-    }
     if (candidate.view.utility < least) {
       continue;
     }
@@ -241,29 +225,19 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
     if (!path) {
       continue;
     }
-    const double value =
-        options_.strategy.along_way ? discounted(candidate.view.utility, detail::length_m(*path)) : candidate.value;
-    if (!best || value > best_value) {
-      view.view.utility = candidate.view.utility;
-      best = ChosenView{std::move(view), std::move(*path)};
-      best_value = value;
-      best_sees = candidate.seen;
-    }
-  }
-  if (best) {
-    if (best_sees.empty()) {
-      best_sees = void_cells_seen(best->view.view.pose, looking.rays(), plan.statistics.ray_operations);
-      best->view.view.utility = detail::expected(best_sees);
-    }
-    for (const SightedCell& one : best_sees) {
-      (one.chance >= options_.strategy.sought_chance ? best->view.unknown : best->view.hoped).push_back(one.cell);
+    const std::vector<SightedCell> sees =
+        void_cells_seen(view.view.pose, looking.rays(), plan.statistics.ray_operations);
+    view.view.utility = detail::expected(sees);
+    for (const SightedCell& one : sees) {
+      (one.chance >= options_.strategy.sought_chance ? view.unknown : view.hoped).push_back(one.cell);
     }
     plan.candidates.clear();
     for (const Candidate& weighed : candidates) {
       plan.candidates.push_back(weighed.view);
     }
+    return ChosenView{std::move(view), std::move(*path)};
   }
-  return best;
+  return std::nullopt;
 }
 
 }  // namespace vantage

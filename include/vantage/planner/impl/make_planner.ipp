@@ -35,7 +35,7 @@ inline std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetu
   candidates.aimed.max_distance_m = *std::max_element(candidates.radii_m.begin(), candidates.radii_m.end());
   candidates.aimed.min_distance_m = candidates.aimed.max_distance_m / 3.0;
   options.patience = choices.exploration.survey.patience;
-  constexpr std::array<std::string_view, 4> kOfThePaper{"gain", "choice", "min_unknown_cells", "min_overlap_cells"};
+  constexpr std::array<std::string_view, 3> kOfThePaper{"gain", "min_unknown_cells", "min_overlap_cells"};
   const bool as_the_paper = options.method != VisibilityMethod::Exact ||
                             std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
                                         [&](std::string_view name) { return settings.find(name) != settings.end(); });

@@ -10,7 +10,6 @@
 #include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/robot/way_around.hpp>
-#include <vantage/view/view_cover.hpp>
 #include <vantage/view/view_utility.hpp>
 
 #include <vantage/planner/impl/stopwatch.hpp>
@@ -109,29 +108,6 @@ VANTAGE_INLINE std::vector<ScoredView> NextBestViewPlanner::score(const Occupanc
   return scored;
 }
 
-// Line 21: the candidates with a utility above 0, the best first.
-VANTAGE_INLINE std::vector<std::size_t> NextBestViewPlanner::order_of(
-    const std::vector<Candidate>& candidates) const {
-  std::vector<std::size_t> order;
-  std::vector<CellSet> sought;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].view.utility > 0.0) {
-      order.push_back(i);
-      sought.push_back(candidates[i].sought);
-    }
-  }
-  std::vector<bool> needed(candidates.size());
-  if (options_.choice == ViewChoice::Cover) {
-    for (const std::size_t i : cover_views(sought, options_.min_unknown_cells)) {
-      needed[order[i]] = true;
-    }
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return needed[a] != needed[b] ? needed[a] : candidates[a].view.utility > candidates[b].view.utility;
-  });
-  return order;
-}
-
 VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& pose) {
   detail::Stopwatch stopwatch;
   const Pose current = orthonormalised(pose);
@@ -140,14 +116,17 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
   const VoxelBox object = map.frame().cells_centred_in(options_.candidates.object);
   Plan plan;
   plan.statistics.survey_ms = stopwatch.lap_ms();
-  const std::vector<Candidate> tried = candidates(map, current, object);
+  std::vector<Candidate> tried = candidates(map, current, object);
   plan.statistics.views_scored = tried.size();
   plan.statistics.evaluate_ms = stopwatch.lap_ms();
 
+  // Line 21: the best view first.
+  std::erase_if(tried, [](const Candidate& one) { return one.view.utility <= 0.0; });
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.view.utility > b.view.utility; });
   CellSet left(object);
   bool any_worthwhile = false;
-  for (const std::size_t i : order_of(tried)) {
-    const auto& [view, sought, counted] = tried[i];
+  for (const auto& [view, sought, counted] : tried) {
     plan.candidates.push_back({view.pose, view.utility});
     if (plan.outcome == Outcome::Move) {
       continue;

@@ -31,11 +31,7 @@ VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings()
   static const auto table =
       with_survey<O>("FrontierVoidOptions", &O::survey)
           .mode<S>("mode", "what to make of the voids; later settings refine it",
-                   {{"default", {}},
-                    {"faithful", S::faithful()},
-                    {"travelling", S::travelling()},
-                    {"searching", S::searching()}},
-                   &O::strategy)
+                   {{"default", {}}, {"faithful", S::faithful()}, {"searching", S::searching()}}, &O::strategy)
           .number("views", "views", "valid views evaluated per plan (N)", within(1, 1e6), &O::views)
           .number("min_score", "", "least fit of a cluster's ellipsoid", more_than(0), &O::clusters,
                   &VoidClusterOptions::min_score)
@@ -123,8 +119,6 @@ VANTAGE_INLINE const SettingTable<NextBestViewChoices>& next_best_view_settings(
         .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1), &C::object,
                 &O::min_unknown_cells)
         .choice<RayGainMaker>("gain", "what new surface is worth", gains, &C::object, &O::gain)
-        .choice<ViewChoice>("choice", "which view is taken",
-                            {{"cover", ViewChoice::Cover}, {"greedy", ViewChoice::Greedy}}, &C::object, &O::choice)
         .choice<VisibilityMethod>("method", "how views are evaluated",
                                   {{"default", VisibilityMethod::Exact},
                                    {"uniform", VisibilityMethod::Uniform},

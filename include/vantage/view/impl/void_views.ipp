@@ -7,15 +7,12 @@
 #include <numbers>
 #include <queue>
 #include <utility>
-#include <vantage/robot/grid_path.hpp>
 #include <vantage/view/void_views.hpp>
 
 #include <vantage/geometry/impl/dice.hpp>
 
 namespace vantage {
 namespace detail {
-
-inline constexpr double kNearM = 1.0;  // largest extra path length, beyond the nearest viewpoint, of a near one
 
 inline bool sees_all_around(const RangeSensor& sensor) {
   constexpr double kRounding = 1e-6;
@@ -100,31 +97,15 @@ VANTAGE_INLINE std::vector<Pose> VoidViews::draw(std::span<const VoxelIndex> pla
   return views;
 }
 
-VANTAGE_INLINE std::vector<Pose> VoidViews::views_of(std::span<const FrontierTarget> targets,
-                                                     std::size_t most) const {
+VANTAGE_INLINE std::vector<Pose> VoidViews::of_targets(std::size_t most) const {
   std::vector<Pose> views;
-  for (std::size_t i = 0; i < targets.size(); i += targets.size() / most + 1) {
-    const TargetView view = view_of_target(surveyed_, targets[i], operations_);
+  for (std::size_t i = 0; i < targets_.size(); i += targets_.size() / most + 1) {
+    const TargetView view = view_of_target(surveyed_, targets_[i], operations_);
     if (surveyed_.platform.admits(surveyed_.map, view.view.pose)) {
       views.push_back(view.view.pose);
     }
   }
   return views;
-}
-
-VANTAGE_INLINE std::vector<Pose> VoidViews::near(std::size_t most) const {
-  if (most == 0) {
-    return {};
-  }
-  const FrontierSurvey of_voids{.targets = targets_};
-  std::vector<FrontierTarget> nearest;
-  for (const VoxelIndex& viewpoint :
-       GridPaths(surveyed_.reachable)
-           .nearest_within(of_voids.viewpoints(), detail::kNearM, surveyed_.map.resolution_m())
-           .goals) {
-    nearest.push_back(*of_voids.target_seen_from(viewpoint));
-  }
-  return views_of(nearest, most);
 }
 
 }  // namespace vantage

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <unordered_map>
-#include <vantage/view/cover_bound.hpp>
+#include <vantage/evaluation/cover_bound.hpp>
 #include <vector>
 
 namespace vantage {
-namespace detail {
+namespace {
 
 // Which views see which cells; cells are numbered.
 struct Incidence {
@@ -18,8 +16,7 @@ struct Incidence {
 };
 
 // The wanted cells that are seen by the fewest views, but by at least one.
-inline std::vector<VoxelIndex> rarest_cells(std::span<const CellSet> seen, const CellSet& wanted,
-                                            std::size_t most_cells) {
+std::vector<VoxelIndex> rarest_cells(std::span<const CellSet> seen, const CellSet& wanted, std::size_t most_cells) {
   std::unordered_map<VoxelIndex, std::size_t> views;
   for (const CellSet& one : seen) {
     one.for_each([&](const VoxelIndex& cell) {
@@ -40,7 +37,7 @@ inline std::vector<VoxelIndex> rarest_cells(std::span<const CellSet> seen, const
   return cells;
 }
 
-inline Incidence incidence_of(std::span<const CellSet> seen, const std::vector<VoxelIndex>& cells) {
+Incidence incidence_of(std::span<const CellSet> seen, const std::vector<VoxelIndex>& cells) {
   Incidence incidence{std::vector<std::vector<std::uint32_t>>(cells.size()),
                       std::vector<std::vector<std::uint32_t>>(seen.size())};
   for (std::uint32_t cell = 0; cell < cells.size(); ++cell) {
@@ -54,7 +51,7 @@ inline Incidence incidence_of(std::span<const CellSet> seen, const std::vector<V
   return incidence;
 }
 
-inline std::vector<double> loads(const Incidence& incidence, const std::vector<double>& weights) {
+std::vector<double> loads(const Incidence& incidence, const std::vector<double>& weights) {
   std::vector<double> load(incidence.cells_of_view.size(), 0.0);
   for (std::size_t view = 0; view < load.size(); ++view) {
     for (const std::uint32_t cell : incidence.cells_of_view[view]) {
@@ -64,18 +61,18 @@ inline std::vector<double> loads(const Incidence& incidence, const std::vector<d
   return load;
 }
 
-}  // namespace detail
+}  // namespace
 
-VANTAGE_INLINE double fewest_views_bound(std::span<const CellSet> seen, const CellSet& wanted, std::size_t rounds,
-                                         std::size_t most_cells) {
+double fewest_views_bound(std::span<const CellSet> seen, const CellSet& wanted, std::size_t rounds,
+                          std::size_t most_cells) {
   constexpr double kFirstStep = 0.1;  // initial relative decrease of a weight, and how fast it shrinks
   constexpr double kSteps = 20.0;
   constexpr std::size_t kAnew = 64;  // the loads are recomputed after so many rounds to remove rounding errors
-  const std::vector<VoxelIndex> cells = detail::rarest_cells(seen, wanted, most_cells);
+  const std::vector<VoxelIndex> cells = rarest_cells(seen, wanted, most_cells);
   if (cells.empty()) {
     return 0.0;
   }
-  const detail::Incidence incidence = detail::incidence_of(seen, cells);
+  const Incidence incidence = incidence_of(seen, cells);
   std::vector<double> weights(cells.size(), 1.0);
   std::vector<double> load;
   double best = 0.0;
@@ -85,7 +82,7 @@ VANTAGE_INLINE double fewest_views_bound(std::span<const CellSet> seen, const Ce
       for (double& weight : weights) {
         weight /= heaviest_cell;
       }
-      load = detail::loads(incidence, weights);
+      load = loads(incidence, weights);
       const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
       best = std::max(best, total / *std::max_element(load.begin(), load.end()));
     }

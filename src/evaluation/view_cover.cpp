@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include <algorithm>
 #include <queue>
-#include <vantage/view/view_cover.hpp>
+#include <vantage/evaluation/view_cover.hpp>
 
 namespace vantage {
-namespace detail {
+namespace {
 
 // Number of new cells of a view at its last count. It can only decrease, so it is an upper bound (lazy greedy).
 struct Gain {
@@ -18,29 +15,28 @@ struct Gain {
   }
 };
 
-inline std::size_t cells_beyond(const CellSet& cells, const CellSet& known) {
+std::size_t cells_beyond(const CellSet& cells, const CellSet& known) {
   CellSet left = cells;
   left -= known;
   return left.size();
 }
 
-}  // namespace detail
+}  // namespace
 
-VANTAGE_INLINE std::vector<std::size_t> cover_views(std::span<const CellSet> seen, std::size_t min_new_cells) {
+std::vector<std::size_t> cover_views(std::span<const CellSet> seen) {
   std::vector<std::size_t> chosen;
   if (seen.empty()) {
     return chosen;
   }
-  const std::size_t least = std::max<std::size_t>(min_new_cells, 1);
-  std::priority_queue<detail::Gain> gains;
+  std::priority_queue<Gain> gains;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     gains.push({seen[i].size(), i});
   }
   CellSet covered(seen.front().box());
-  while (!gains.empty() && gains.top().cells >= least) {
-    const detail::Gain top = gains.top();
+  while (!gains.empty() && gains.top().cells > 0) {
+    const Gain top = gains.top();
     gains.pop();
-    const std::size_t now = detail::cells_beyond(seen[top.view], covered);
+    const std::size_t now = cells_beyond(seen[top.view], covered);
     if (now < top.cells) {
       gains.push({now, top.view});
       continue;
@@ -55,7 +51,7 @@ VANTAGE_INLINE std::vector<std::size_t> cover_views(std::span<const CellSet> see
         others |= seen[view];
       }
     }
-    if (detail::cells_beyond(covered, others) < least) {
+    if (cells_beyond(covered, others) == 0) {
       chosen.erase(chosen.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       ++i;

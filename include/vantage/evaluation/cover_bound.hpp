@@ -21,7 +21,3 @@ namespace VANTAGE_EXPORT vantage {
                                         std::size_t rounds = 20'000, std::size_t most_cells = 2'000);
 
 }  // namespace vantage
-
-#if defined(VANTAGE_HEADER_ONLY)
-#include <vantage/view/impl/cover_bound.ipp>
-#endif

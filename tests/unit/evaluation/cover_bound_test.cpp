@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <random>
-#include <vantage/view/cover_bound.hpp>
-#include <vantage/view/view_cover.hpp>
+#include <vantage/evaluation/cover_bound.hpp>
+#include <vantage/evaluation/view_cover.hpp>
 #include <vector>
 
 namespace vantage {
