@@ -8,6 +8,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 
 #include <vantage/raytrace/impl/shared_work.hpp>
+#include "sim/pose_plane.hpp"
 #include "sim/pose_tree.hpp"
 
 namespace vantage {
@@ -57,6 +58,27 @@ std::vector<VoxelIndex> candidates(const Sight& sight, const VoxelBox& region, c
     }
   });
   return found;
+}
+
+// By cell: whether a pose sees it. `any(cell, ask)`: whether `ask` is true of one of the poses.
+template <class Any>
+std::vector<std::uint8_t> seen_by(const Any& any, const Sight& sight, const std::vector<VoxelIndex>& cells,
+                                  int threads, const std::function<void(double)>& on_share) {
+  std::vector<std::uint8_t> seen(cells.size(), 0);
+  constexpr std::size_t kChunk = 1024;
+  const std::size_t chunks = (cells.size() + kChunk - 1) / kChunk;
+  std::mutex telling;
+  std::size_t done = 0;
+  detail::share_work(chunks, static_cast<std::size_t>(threads), [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, cells.size()); ++i) {
+      seen[i] = any(cells[i], [&](const VoxelIndex& pose) { return sight.sees(pose, cells[i]); }) ? 1 : 0;
+    }
+    if (on_share) {
+      const std::scoped_lock lock(telling);
+      on_share(static_cast<double>(++done) / static_cast<double>(chunks));
+    }
+  });
+  return seen;
 }
 
 }  // namespace
@@ -117,24 +139,23 @@ bool Sight::ends_on_a_surface(const Eigen::Vector3d& pose_m, const Eigen::Vector
 std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region, const std::vector<VoxelIndex>& poses,
                                    int threads, const std::function<void(double)>& on_share) {
   const std::vector<VoxelIndex> cells = candidates(sight, region, poses);
-  const detail::PoseTree tree(poses);
   const double furthest_cells = sight.sensor().max_range_m / sight.frame().size_m;
   const auto is_solid = [&](const VoxelIndex& cell) { return !sight.is_free(cell); };
-  std::vector<std::uint8_t> seen(cells.size(), 0);
-  constexpr std::size_t kChunk = 1024;
-  const std::size_t chunks = (cells.size() + kChunk - 1) / kChunk;
-  std::mutex telling;
-  std::size_t done = 0;
-  detail::share_work(chunks, static_cast<std::size_t>(threads), [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, cells.size()); ++i) {
-      const auto ask = [&](const VoxelIndex& pose) { return sight.sees(pose, cells[i]); };
-      seen[i] = tree.any(cells[i], furthest_cells, is_solid, ask) ? 1 : 0;
+  const auto seen = [&] {
+    const bool in_one_layer =
+        !poses.empty() && region.extent().z == 1 &&
+        std::all_of(poses.begin(), poses.end(), [&](const VoxelIndex& pose) { return pose.z == region.lo.z; });
+    if (in_one_layer) {
+      const detail::PosePlane plane(poses, region, is_solid);
+      const auto any = [&](const VoxelIndex& cell, const auto& ask) { return plane.any(cell, furthest_cells, ask); };
+      return seen_by(any, sight, cells, threads, on_share);
     }
-    if (on_share) {
-      const std::scoped_lock lock(telling);
-      on_share(static_cast<double>(++done) / static_cast<double>(chunks));
-    }
-  });
+    const detail::PoseTree tree(poses);
+    const auto any = [&](const VoxelIndex& cell, const auto& ask) {
+      return tree.any(cell, furthest_cells, is_solid, ask);
+    };
+    return seen_by(any, sight, cells, threads, on_share);
+  }();
   std::vector<VoxelIndex> found;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (seen[i] != 0) {

@@ -93,5 +93,45 @@ TEST(SeenCells, AreThoseThatAnyOfThePosesSees) {
   EXPECT_GT(told, 100U);
 }
 
+// By definition, in planes from nearly empty to cluttered, with poses on a lattice: lines pass many edges and
+// corners.
+TEST(SeenCells, OfAPlaneAreThoseThatAnyOfThePosesSees) {
+  std::mt19937_64 engine(6);
+  std::size_t seen = 0;
+  std::size_t hidden = 0;
+  for (int world = 0; world < 80; ++world) {
+    const VoxelBox box{{-20, -9, 3}, {17, 25, 4}};
+    TrueCells cells = world % 2 == 0 ? drawn_cells(engine, box) : TrueCells(box);
+    const std::uint64_t one_in = 2 + engine() % 60;
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      if (engine() % one_in == 0) {
+        cells.set(cell, CellTruth::Occupied);
+      }
+    });
+    const std::int32_t pitch = 1 + world % 5;
+    std::vector<VoxelIndex> poses;
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      const bool on_lattice = cell.x % pitch == 0 && cell.y % pitch == 0 && cell.x < 10;
+      if (on_lattice && cells[cell] == CellTruth::Free && engine() % 8 == 0) {
+        poses.push_back(cell);
+      }
+    });
+    RangeSensor sensor = RangeSensor::pinhole(64, 48, 1.0, 0.7, 0.0, world % 4 == 0 ? 9.0 : 1.3);
+    sensor.reports_no_return = world % 7 != 0;
+    const Sight sight(cells, {0.1}, sensor, true);
+    std::vector<VoxelIndex> expected;
+    for_each_cell(box, [&](const VoxelIndex& cell) {
+      if (std::any_of(poses.begin(), poses.end(), [&](const VoxelIndex& pose) { return sight.sees(pose, cell); })) {
+        expected.push_back(cell);
+      }
+    });
+    EXPECT_EQ(seen_cells(sight, box, poses, 1), expected) << "in world " << world;
+    seen += expected.size();
+    hidden += box.size() - expected.size();
+  }
+  EXPECT_GT(seen, 30'000U);
+  EXPECT_GT(hidden, 15'000U);
+}
+
 }  // namespace
 }  // namespace vantage
