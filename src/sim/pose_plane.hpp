@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vector>
 
@@ -52,21 +53,16 @@ class PosePlane {
     }
     std::array<std::vector<Beam>, 4> sides;
     sides.fill({{-1.0, 1.0}});
-    for (std::int32_t k = 1; k <= furthest_cells + kTie; ++k) {
-      bool goes_on = false;
+    const auto is_over = [](const std::vector<Beam>& beams) { return beams.empty(); };
+    for (std::int32_t k = 1; k <= furthest_cells + kTie && !std::all_of(sides.begin(), sides.end(), is_over); ++k) {
       for (std::size_t side = 0; side < sides.size(); ++side) {
-        std::vector<Beam> behind;
+        const std::vector<Beam> beams = std::exchange(sides[side], {});
         const Column column{cell, side, k};
-        for (const Beam& beam : sides[side]) {
-          if (contents_.contains(column.at(0)) && meets(beam, column, ask, behind)) {
-            return true;
-          }
+        if (contents_.contains(column.at(0)) && std::any_of(beams.begin(), beams.end(), [&](const Beam& beam) {
+              return meets(beam, column, ask, sides[side]);
+            })) {
+          return true;
         }
-        sides[side] = std::move(behind);
-        goes_on = goes_on || !sides[side].empty();
-      }
-      if (!goes_on) {
-        return false;
       }
     }
     return false;
@@ -75,8 +71,7 @@ class PosePlane {
  private:
   // Lines that pass an edge or a corner of a cell are left in the beams, for `ask` to judge.
   static constexpr double kTie = 1e-9;
-
-  static constexpr std::int32_t kNone = 1 << 30;
+  static constexpr std::int32_t kNone = 1 << 30;  // more steps than a row has cells
 
   enum class Content : std::uint8_t { Free, Solid, Pose };
   struct Beam {
@@ -141,8 +136,8 @@ class PosePlane {
   }
 
   VoxelGrid<Content> contents_;
-  VoxelGrid<std::int32_t>
-      along_x_;  // steps from a cell to the next one in its row that is not free; or kNone and more
+  // Steps from a cell to the next one in its row that is not free; kNone or more if there is none.
+  VoxelGrid<std::int32_t> along_x_;
   VoxelGrid<std::int32_t> along_y_;
 };
 

@@ -114,7 +114,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   struct Candidate {
     View view;  // its utility is the expected number of void cells
     double value = 0.0;
-    std::uint64_t operations = 0;  // cells on its rays
+    std::uint64_t operations = 0;        // cells on its rays
+    std::vector<SightedCell> seen = {};  // with all rays; empty if there are many candidates
   };
 
   void clear_search();

@@ -24,6 +24,8 @@ inline constexpr std::size_t kMostVectors = 50'000;  // see utility_vectors
 inline constexpr std::size_t kNearTargets = 20'000;
 // Views of targets that are tested before the planner concludes that no view sees a void.
 inline constexpr std::size_t kProofViews = 50;
+// Of so many views it is kept what they see. So memory does not grow with the number of views.
+inline constexpr std::size_t kRememberedViews = 10;
 
 inline std::string volume(double cells, double cell_m) {
   const double litres = cells * std::pow(10.0 * cell_m, 3);
@@ -211,8 +213,12 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
       plan.statistics.ray_operations,
       [&](Candidate& candidate, const ViewRays& rays) {
         View& view = candidate.view;
-        view.utility = detail::expected(void_cells_seen(view.pose, rays, candidate.operations));
+        std::vector<SightedCell> seen = void_cells_seen(view.pose, rays, candidate.operations);
+        view.utility = detail::expected(seen);
         candidate.value = discounted(view.utility, view.pose.translation());
+        if (&rays == &looking.rays() && candidates.size() <= detail::kRememberedViews) {
+          candidate.seen = std::move(seen);
+        }
       },
       [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
   const double least = detail::least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
@@ -226,7 +232,8 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std:
       continue;
     }
     const std::vector<SightedCell> sees =
-        void_cells_seen(view.view.pose, looking.rays(), plan.statistics.ray_operations);
+        candidate.seen.empty() ? void_cells_seen(view.view.pose, looking.rays(), plan.statistics.ray_operations)
+                               : candidate.seen;
     view.view.utility = detail::expected(sees);
     for (const SightedCell& one : sees) {
       (one.chance >= options_.strategy.sought_chance ? view.unknown : view.hoped).push_back(one.cell);
