@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <utility>
-#include <vantage/robot/grid_path.hpp>
 
 namespace vantage::detail {
 
@@ -44,7 +43,7 @@ std::optional<ChosenView> DistanceAdvantagePeer::choose(Plan& plan) {
   const auto best = std::max_element(advantages.begin(), advantages.end()) - advantages.begin();
   const FrontierTarget& wanted = parts[static_cast<std::size_t>(best)].site.middle;
   ChosenView chosen{.view = view_of_target(situation().surveyed(), wanted, plan.statistics.ray_operations),
-                    .way = GridPaths(situation().reachable()).to(wanted.viewpoint)};
+                    .way = situation().way_to(wanted.viewpoint)};
   // Once the wanted cell is known, the planner chooses again.
   std::erase(chosen.view.unknown, wanted.unknown);
   chosen.view.hoped = std::exchange(chosen.view.unknown, {wanted.unknown});

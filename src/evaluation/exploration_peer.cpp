@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 #include <utility>
-#include <vantage/robot/grid_path.hpp>
 
 namespace vantage::detail {
 namespace {
@@ -68,7 +67,7 @@ ChosenView ExplorationPeer::taking(const TourView& view, const std::vector<Voxel
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   ChosenView chosen{.view = {.view = {.pose = view.pose, .utility = static_cast<double>(ranked.size())}},
-                    .way = GridPaths(situation().reachable()).to(view.place)};
+                    .way = situation().way_to(view.place)};
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     (2 * i < ranked.size() ? chosen.view.unknown : chosen.view.hoped).push_back(ranked[i].second);
   }

@@ -75,11 +75,11 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   if (!wanted) {  // otherwise the sensor looks from where it is
     const NearGoals near = sinks();
     if (strategy.shortest_way && near.goals.size() == 1) {  // descent would end there from everywhere
-      way = GridPaths(situation().reachable()).to(near.goals.front());
+      way = situation().way_to(near.goals.front());
     } else {
       way = way_down(near, plan.statistics);
       if (strategy.shortest_way) {
-        way = GridPaths(situation().reachable()).to(way.back());
+        way = situation().way_to(way.back());
       }
     }
     wanted = strategy.look_early ? first_look(way, operations) : survey.target_seen_from(way.back());
@@ -94,7 +94,7 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
       return chosen;
     }
   }
-  chosen.way = GridPaths(situation().reachable()).to(wanted->viewpoint);
+  chosen.way = situation().way_to(wanted->viewpoint);
   return chosen;
 }
 

@@ -132,8 +132,7 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
     if (!reachable().start()) {
       plan.reason =
           "the platform does not admit the place where it is, and there is no free place beside it: move it into "
-          "known "
-          "free space, or declare the space around it free (assume_free)";
+          "known free space, or declare the space around it free (assume_free)";
       return plan;
     }
     for (const auto move : {&Situation::turn_on_the_spot, &Situation::step_aside, &Situation::look_closely}) {

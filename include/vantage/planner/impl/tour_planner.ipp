@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 #include <vantage/planner/tour_planner.hpp>
-#include <vantage/robot/grid_path.hpp>
 
 #include <vantage/planner/impl/glances.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
@@ -174,7 +173,7 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
   }
   const FrontierTarget& wanted = *first;
   ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
-                    .way = GridPaths(situation.reachable()).to(wanted.viewpoint)};
+                    .way = situation.way_to(wanted.viewpoint)};
   // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
   TargetView& view = chosen.view;
   chosen.reason = "the first of " + std::to_string(sites.size()) + " places of a tour, a view of " +
@@ -206,7 +205,7 @@ inline ChosenView first_view(const Situation& situation, const NearestSites& nea
   std::vector<VoxelIndex> cells = cells_of_first(tour, choice, situation.map().frame());
   const auto half = cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + 1) / 2);
   ChosenView view{.view = {.view = {.pose = first.pose, .utility = static_cast<double>(cells.size())}},
-                  .way = GridPaths(situation.reachable()).to(first.place)};
+                  .way = situation.way_to(first.place)};
   view.view.hoped.assign(half, cells.end());
   cells.erase(half, cells.end());
   view.view.unknown = std::move(cells);
