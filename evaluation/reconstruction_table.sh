@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Reconstructs the bunny and the dragon of Vasquez-Gomez et al. on their table by every method and prints the tables of
-# docs/reconstruction.md: evaluation/reconstruction_table.sh [WHAT...], where WHAT is among aimed paper hierarchical
+# docs/results.md: evaluation/reconstruction_table.sh [WHAT...], where WHAT is among aimed paper hierarchical
 # uniform gains (default: aimed paper hierarchical). Needs VANTAGE_DATA and a built program (VANTAGE=path/to/vantage
 # names another). SETTINGS="CELL_M/MIN_UNKNOWN_CELLS ..." and OBJECTS="bunny dragon" select rows. Runs in the folder
 # RESULTS (default: build/reconstruction) are not made again.
