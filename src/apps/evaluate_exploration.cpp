@@ -297,27 +297,29 @@ void add_evaluate_exploration_command(CLI::App& evaluate, int& exit_code) {
   command->add_option("--out", request->out, "Folder for runs, table.md, results.json, index.html; must be given")
       ->required()
       ->type_name("DIR");
-  command->add_option("--worlds", request->worlds, "Names or classes; a wrong one lists them; all unless given")
+  command
+      ->add_option("--worlds", request->worlds, "Worlds or classes of worlds; a wrong name lists them; default: all")
       ->type_name("NAME,...")
       ->delimiter(',');
-  command->add_option("--planners", request->planners, "With settings behind them; unless given, all of vantage list")
+  command->add_option("--planners", request->planners, "Planners with settings; default: all of vantage list")
       ->type_name("NAME[,KEY=VALUE]...")
       ->delimiter(',');
-  command->add_option("--starts", request->starts, "Start k is drawn from seed k")
+  command->add_option("--starts", request->starts, "Number of starts; start k is drawn from seed k")
       ->type_name("N")
       ->check(a_whole_number())
       ->default_str("5");
-  command->add_flag("--quick", request->quick, "Two starts, and unless given only small worlds: some minutes");
-  command->add_option("--threads", request->threads, "Of each run; the results are the same for any number")
+  command->add_flag("--quick", request->quick, "Two starts, and by default only small worlds: some minutes");
+  command->add_option("--threads", request->threads, "Threads of each run; the results do not depend on it")
       ->type_name("N")
       ->check(a_whole_number(1024))
       ->capture_default_str();
-  command->add_option("--jobs", request->jobs, "Starts at a time; times of plans suffer where cores are few")
+  command
+      ->add_option("--jobs", request->jobs, "Number of starts run in parallel; planning times grow if cores are few")
       ->type_name("N")
       ->check(a_whole_number(64))
       ->capture_default_str();
   command->footer(
-      "Runs that are in DIR already are not made again: the same command goes on where it was interrupted.\n"
+      "Runs that are in DIR already are not repeated: the same command continues where it was interrupted.\n"
       "Examples:\n"
       "  vantage evaluate exploration --out quick --quick\n"
       "  vantage evaluate exploration --out offices --worlds office,first-office --planners "

@@ -26,7 +26,7 @@ struct ViewsNeeded {
   std::size_t to_see = 0;         ///< void cells of the map that some pose of the first kind would make known
   std::vector<std::size_t> left;  ///< of these, the cells left after each view of the greedy set cover
   double at_least = 0.0;          ///< lower bound on the number of views (fewest_views_bound)
-  /// The same bound if every view also made known the neighbours of what it does.
+  /// Lower bound on the number of views if every view also made known the neighbours of what it does.
   double at_least_if_more_is_seen = 0.0;
 };
 

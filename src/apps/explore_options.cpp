@@ -14,11 +14,11 @@ namespace {
 void add_world_options(CLI::App& command, ExploreRequest& request) {
   command
       .add_option("--world", request.world,
-                  "By name (vantage list), a mesh, an OctoMap, or a nav2 map (.yaml); must be given")
+                  "A name (vantage list), a mesh, an OctoMap, or a nav2 map (.yaml); required")
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
-  command.add_option("--up", request.up, "Axis of a mesh file that points up; unless given as the file says, else z")
+  command.add_option("--up", request.up, "Axis of a mesh file that points up; default: from the file, otherwise z")
       ->type_name("y|z")
       ->group("World");
   command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
@@ -29,26 +29,29 @@ void add_world_options(CLI::App& command, ExploreRequest& request) {
   command.add_option("--size", request.size, "Extent of a generated world (office, maze), metres")
       ->type_name("LENGTH,WIDTH")
       ->group("World");
-  command.add_option("--region", request.region, "What to explore, metres; all of the world unless given")
+  command.add_option("--region", request.region, "Box to explore, metres; default: the whole world")
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("World");
 }
 
 void add_robot_options(CLI::App& command, ExploreRequest& request) {
-  command.add_option("--start", request.start, "First pose of the sensor, metres and degrees; drawn unless given")
+  command
+      .add_option("--start", request.start,
+                  "First pose of the sensor, metres and degrees; default: drawn from the seed")
       ->type_name("x,y,z[,yaw[,pitch]]")
       ->group("Robot");
   add_sensor_options(command, request, "Robot");
   command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
   command
       .add_option("--band", request.band,
-                  "It drives, and explores the plane of these heights; the sensor is in the middle")
+                  "The robot drives and explores the plane of these heights; default sensor height: the middle")
       ->type_name("LOW,HIGH[,SENSOR]")
       ->group("Robot");
   command
-      .add_flag("--look-around", request.look_around, "It turns once on the spot, scanning, before the first plan")
+      .add_flag("--look-around", request.look_around,
+                "The robot turns once on the spot and scans before the first plan")
       ->group("Robot");
-  command.add_option("--scan-spacing", request.scan_spacing_m, "Metres between scans on the way; 0: at goals only")
+  command.add_option("--scan-spacing", request.scan_spacing_m, "Path between scans, metres; 0: scans at goals only")
       ->type_name("M")
       ->check(a_number())
       ->capture_default_str()
@@ -59,11 +62,13 @@ void add_motion_options(CLI::App& command, ExploreRequest& request) {
   const auto option = [&](const char* name, std::optional<double>& value, const char* type, const char* about) {
     return command.add_option(name, value, about)->type_name(type)->check(a_number())->group("Robot in time");
   };
-  option("--max-speed", request.max_speed_m_s, "M/S", "The run is timed: how fast it moves");
-  option("--max-acceleration", request.max_acceleration_m_s2, "M/S2", "Speeding up, braking and in corners");
-  option("--max-yaw-rate", request.max_yaw_rate_deg_s, "DEG/S", "How fast it turns");
-  option("--max-yaw-acceleration", request.max_yaw_acceleration_deg_s2, "DEG/S2", "Unlimited unless given");
-  option("--scan-rate", request.scan_rate_hz, "HZ", "Scans a second; --max-views is an hour of them unless given");
+  option("--max-speed", request.max_speed_m_s, "M/S", "Timed run: largest speed");
+  option("--max-acceleration", request.max_acceleration_m_s2, "M/S2",
+         "Largest acceleration: speeding up, braking and cornering");
+  option("--max-yaw-rate", request.max_yaw_rate_deg_s, "DEG/S", "Largest turning rate");
+  option("--max-yaw-acceleration", request.max_yaw_acceleration_deg_s2, "DEG/S2",
+         "Largest angular acceleration; default: unlimited");
+  option("--scan-rate", request.scan_rate_hz, "HZ", "Scans per second; --max-views defaults to one hour of them");
   option("--planning-latency", request.planning_latency_s, "S",
          "From a scan until the plan made from it takes effect")
       ->default_str("0.05");

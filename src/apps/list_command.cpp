@@ -41,7 +41,7 @@ constexpr std::pair<std::string_view, std::string_view> kAbout[] = {
     {"crates-closed", "closed boxes and boxes with small openings, likewise"},
     {"frontier-gain", "the best of many random views, by the frontier seen from them; a baseline"},
     {"frontier-void", "the view of most void cells, through frontiers (Dornhege & Kleiner 2011)"},
-    {"harmonic", "down the steepest way of a harmonic field (Shade & Newman 2011)"},
+    {"harmonic", "steepest descent of a harmonic field (Shade & Newman 2011)"},
     {"nearest-frontier", "the nearest place from which a frontier is seen; a baseline"},
     {"next-best-view", "the view of most unknown cells, nearness counted (Vasquez-Gomez et al. 2013)"},
     {"tour", "a tour over all frontiers known to be left, in seconds or metres"},
@@ -70,8 +70,9 @@ void print_names(const char* title, std::span<const std::string_view> names) {
 void list() {
   print_names("worlds (or a mesh file, a .bt/.ot map, or a nav2 .yaml)", World::names());
   print_names("planners", planner_names());
-  print_names("planners to compare with (ours after the papers, explore and evaluate exploration only)",
-              exploration_peer_names());
+  print_names(
+      "planners to compare with (our implementations of published methods; explore and evaluate exploration only)",
+      exploration_peer_names());
   std::cout << "sensors (or a .json file)\n";
   for (const std::string_view name : RangeSensor::preset_names()) {
     print(name, described(name));

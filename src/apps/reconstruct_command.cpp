@@ -223,21 +223,21 @@ void add_object_options(CLI::App& command, ReconstructRequest& request) {
   const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
     return command.add_option(name, value, about)->type_name(type)->group("Object");
   };
-  option("--object", request.object, "FILE", "The object, a mesh; must be given")->required();
-  option("--up", request.run.up, "y|z", "Axis of the file that points up; unless given as the file says, else z");
+  option("--object", request.object, "FILE", "Mesh of the object; required")->required();
+  option("--up", request.run.up, "y|z", "Axis of the file that points up; default: from the file, otherwise z");
   option("--scale", request.run.scale, "S", "Metres per unit of the file")->check(a_number())->default_str("1");
   option("--place", request.place, "scale,x,y,z,qx,qy,qz,qw",
-         "Where it stands; in the middle of the table, or where the file has it, unless given");
+         "Pose of the object; default: the middle of the table, or as in the file");
   command
       .add_flag("--table", request.table,
-                "On the table of Vasquez-Gomez et al. in their empty room; else it hangs in free space")
+                "Object on the table of Vasquez-Gomez et al. in their empty room; default: in free space")
       ->group("Object");
   option("--object-box", request.object_box, "x0,y0,z0,x1,y1,z1",
-         "Box to be reconstructed, unknown at first, metres; all else is known. 3 cm around the object unless given");
+         "Box to reconstruct, unknown at first, metres; all else is known. Default: 3 cm around the object");
   option("--reference", request.reference, "FILE",
-         "Points of its surface, x y z in a line, to measure the coverage by; drawn from the mesh unless given");
+         "Surface points to measure coverage by, x y z per line; default: drawn from the mesh");
   option("--gap", request.gap_m, "M",
-         "A point counts as measured with a return this near; 0: a cell, or 5 mm with --reference")
+         "A point with a return within this distance is measured; 0: one cell, or 5 mm with --reference")
       ->check(a_number())
       ->capture_default_str();
 }
@@ -251,19 +251,17 @@ void add_view_options(CLI::App& command, ReconstructRequest& request) {
          "next-best-view; or to compare with: evenly-spaced (--max-views of them), furthest-view, random-views, and "
          "oracle-greedy, which knows the truth");
   option("--method", request.method, "default|hierarchical|uniform",
-         "By the surface that a view would be the first to show; or the paper's counts of unknown cells");
+         "default: by the surface that a view would show first; others: the paper's counts of unknown cells");
   option("--candidates", request.candidates, "N",
-         "How many views are tried: 20, 80, 320, 1280 evenly all around; other numbers at random in the room")
+         "Number of candidate views: 20, 80, 320 or 1280 evenly around the object; any other: random in the room")
       ->check(a_whole_number());
-  option(
-      "--radius", request.radii, "M[,M...]",
-      "Their distance from the middle of the box, metres; of several, as many views at each. From where the box fits "
-      "into the image unless given");
-  option("--aimed", request.aimed, "N", "So many more, drawn after every scan, aimed at what is left to be seen")
+  option("--radius", request.radii, "M[,M...]",
+         "Distances of the candidates from the middle of the box, metres; --candidates views at each. Default: "
+         "where the box fits into the image");
+  option("--aimed", request.aimed, "N", "Number of further candidates after every scan, aimed at unseen surface")
       ->check(a_whole_number());
   option("--start", run.start, "x,y,z[,yaw[,pitch]]",
-         "First pose of the sensor, metres and degrees; unless given drawn from the seed, where much of the box is "
-         "in view");
+         "First pose of the sensor, metres and degrees; default: drawn from the seed, with much of the box in view");
   add_sensor_options(command, run, "Views");
 }
 

@@ -192,12 +192,12 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->group("Run");
   command
       ->add_flag("--select", request->select,
-                 "Choose the order of the views, and compare how soon how much is known; without planners")
+                 "Compare orders of the recorded views by how soon they make cells known; without planners")
       ->excludes(planner)
       ->group("Run");
   command
       ->add_option("--object-box", request->object_box,
-                   "With --select: an object's box, metres; only its cells count, all around it is known to be free")
+                   "With --select: box of an object, metres; only its cells count, the rest is known to be free")
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("Run");
   add_setting_option(*command, request->run, "A setting of every planner named, as often as needed");

@@ -63,9 +63,9 @@ void add_report_command(CLI::App& app) {
   command->add_option("--out", request->out, "Folder for report.html and report.json; must be given")
       ->required()
       ->type_name("DIR");
-  command->add_flag("--ply", request->ply, "The last map besides, as a mesh (map.ply) and as points (points.ply)");
+  command->add_flag("--ply", request->ply, "Also write the last map as a mesh (map.ply) and as points (points.ply)");
   command->add_flag("--paraview", request->paraview,
-                    "The run besides, as time series for ParaView: cells, frontiers, path, field");
+                    "Also write the run as time series for ParaView: cells, frontiers, path, field");
   command->footer(
       "Examples:\n"
       "  vantage report night/run.record --out morning\n"

@@ -37,10 +37,10 @@ void add_run_options(CLI::App& command, ExploreRequest& request) {
   option("--resolution", request.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
   option("--max-views", request.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
   option("--memory-limit", request.memory_limit_mb, "MB",
-         "Most memory of the map alone; more is refused and counted; 0: no limit")
+         "Largest memory of the map alone; updates beyond it are refused and counted; 0: no limit")
       ->check(a_number());
-  option("--seed", request.seed, "N", "Of everything that is drawn at random")->check(a_whole_number());
-  option("--threads", request.threads, "N", "How many to use; the result is the same for any number")
+  option("--seed", request.seed, "N", "Random seed")->check(a_whole_number());
+  option("--threads", request.threads, "N", "Number of threads; the result does not depend on it")
       ->check(a_whole_number(kMostThreads));
 }
 
@@ -48,10 +48,10 @@ void add_output_options(CLI::App& command, ExploreRequest& request) {
   command.add_option("--out", request.out, "Folder for report.html, report.json, run.record, map.ot and pictures")
       ->type_name("DIR")
       ->group("Output");
-  command.add_option("--json", request.json, "The report; -: on stdout, and all else on stderr")
+  command.add_option("--json", request.json, "File for the report; -: to stdout, and all other output to stderr")
       ->type_name("FILE|-")
       ->group("Output");
-  command.add_flag("-q,--quiet", request.quiet, "Nothing on the terminal but errors")->group("Output");
+  command.add_flag("-q,--quiet", request.quiet, "Print only errors")->group("Output");
 }
 
 }  // namespace vantage::apps

@@ -40,8 +40,8 @@ std::shared_ptr<const detail::ClearSpace> Arm::clear_space(const OccupancyMap& m
   return memory_->clear_space(map, [&] { return detail::ClearSpace(map.frame(), passable_cells(map)); });
 }
 
-// The same, plus all cells that the body touches at these joint values. So the arm can leave a position where it
-// already touches something.
+// The clear space of the map, plus all cells that the body touches at these joint values. So the arm can leave a
+// position where it already touches something.
 std::shared_ptr<const detail::ClearSpace> Arm::clear_space_from(const OccupancyMap& map, const Joints& first) const {
   std::shared_ptr<const detail::ClearSpace> space = clear_space(map);
   std::vector<VoxelIndex> touched;

@@ -124,7 +124,7 @@ double expected_gain(const OccupancyMap& map, const Pose& pose, const std::vecto
   return chances.take_sum();
 }
 
-// Expected gains of views. It learns the ranges of the returns from view to view.
+// Expected gains of views. It updates the distribution of the returns' ranges from view to view.
 class ExpectedGains {
  public:
   ExpectedGains(const RecordedViews& views, const RangeSensor& sensor)

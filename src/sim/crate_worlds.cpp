@@ -35,7 +35,7 @@ class CrateScene {
     fill(outside);
     fill(outside.grown(-1), 0);
   }
-  // The same without a lid.
+  // A box with walls one cell thick and no lid.
   void open_box(const VoxelBox& outside) {
     fill(outside);
     fill({outside.lo + VoxelIndex{1, 1, 1}, outside.hi - VoxelIndex{1, 1, 0}}, 0);

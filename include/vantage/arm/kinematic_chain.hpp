@@ -60,7 +60,7 @@ class KinematicChain {
   /// continuous nor has limits, or a shape is a mesh.
   [[nodiscard]] static KinematicChain from_urdf(const std::filesystem::path& path, std::string_view base_link,
                                                 std::string_view sensor_link);
-  /// The same for a URDF text. `name` replaces the path in error messages.
+  /// Loads the chain from a URDF text. Throws as `from_urdf`; `name` replaces the path in error messages.
   [[nodiscard]] static KinematicChain from_urdf_text(const std::string& text, std::string_view base_link,
                                                      std::string_view sensor_link, const std::string& name = "URDF");
   /// Creates a chain from Denavit-Hartenberg parameters. Throws std::invalid_argument if there are no rows, a
@@ -96,7 +96,7 @@ class KinematicChain {
   /// Whether the body is in self-collision, given the poses of `link_poses`. Only pairs of capsules with at least two
   /// joints between them are tested.
   [[nodiscard]] bool touches_itself(std::span<const Pose> base_from_links) const;
-  /// The same, given the capsules of `body_at`.
+  /// Whether the body is in self-collision, given the capsules of `body_at`.
   [[nodiscard]] bool touches_itself(std::span<const Capsule> body) const;
 
   /// Inverse kinematics: searches joint values within their ranges that bring the sensor to a pose. The search starts

@@ -33,10 +33,10 @@ struct WorldClass {
 /// Tables in Markdown, one for each class of which there are runs: a row for each planner in each world, both in the
 /// order in which they first come. Figures are medians, with quartiles behind them where there are several starts;
 /// collisions are sums; the times of plans are quantiles over all plans of a row. A column without any figure is left
-/// out. A share of the world that less than half of the runs came to know was reached "never".
+/// out. "never": less than half of the runs reached that share of the world.
 [[nodiscard]] std::string exploration_tables(std::span<const WorldClass> classes, std::span<const EvaluatedRun> runs);
 
-/// The same figures and the curves of the runs as JSON, for scripts and for write_evaluation_html:
+/// The figures of `exploration_tables` and the curves of the runs as JSON, for scripts and for write_evaluation_html:
 ///   {"classes": [{name, about, command, worlds}], "columns": [{key, title, digits}],
 ///    "rows": [{world, planner, runs, outcomes, collisions, plan_p50_ms, plan_p99_ms, KEY: {median, q1, q3} | null}],
 ///    "runs": [{world, planner, start, outcome, curve: [[metres, seconds | null, share], ...]}]}

@@ -28,7 +28,7 @@ struct ViewOrderCurve {
 
   /// Area under the curve of the volume: its mean over the numbers of views, in [0, 1].
   [[nodiscard]] double volume_area() const;
-  /// The same of the surface.
+  /// Area under the curve of the surface: its mean over the numbers of views, in [0, 1].
   [[nodiscard]] double surface_area() const;
   /// The mean number of void cells left; less is better.
   [[nodiscard]] double void_area() const;

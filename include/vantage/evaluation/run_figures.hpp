@@ -38,7 +38,7 @@ struct RunFigures {
   std::vector<KnownSoFar> after_views;  ///< one per scan
 };
 
-/// Reads them from the report of a run (report_json). Throws std::invalid_argument if it is none.
+/// Reads the figures from the report of a run (report_json). Throws std::invalid_argument if the text is no report.
 [[nodiscard]] RunFigures run_figures(std::string_view report);
 
 /// The first view after which at least this share was known; none if it never was.

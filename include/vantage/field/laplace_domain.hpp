@@ -117,7 +117,7 @@ class LaplaceDomain {
 /// without a body.
 [[nodiscard]] LaplaceDomain known_free_domain(const OccupancyMap& map);
 
-/// The same for the map of a host (any OccupancyLookup) with `region` as its region.
+/// The domain of all free cells of `region` in the map of a host, with its frontier cells as sinks.
 template <OccupancyLookup Lookup>
 [[nodiscard]] LaplaceDomain known_free_domain(const Lookup& lookup, const VoxelBox& region) {
   LaplaceDomain domain;

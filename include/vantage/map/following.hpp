@@ -30,7 +30,7 @@ class Following {
   [[nodiscard]] const T& operator*() const { return *value_; }
   /// Members of the value for the last followed map. Requires a call of `follow`.
   [[nodiscard]] const T* operator->() const { return &*value_; }
-  /// The same, for members that change the value.
+  /// Members that change the value for the last followed map. Requires a call of `follow`.
   [[nodiscard]] T* operator->() { return &*value_; }
 
  private:

@@ -35,7 +35,7 @@ class MapFollower {
 
   /// Asks the host for the cells of a box, or of a set, that lie in the region of the map, and for no other; writes
   /// the bricks that differ. One call is one revision, also if nothing differs, because planners take a scan that
-  /// teaches nothing as evidence: call it once after each scan. Returns the number of cells that changed their state.
+  /// changes nothing as evidence: call it once after each scan. Returns the number of cells that changed their state.
   /// The memory limit of the map is kept to: a cell that does not fit stays unknown and is counted
   /// (OccupancyMap::cells_refused).
   ///
@@ -50,7 +50,7 @@ class MapFollower {
                   [&](const VoxelIndex& brick) { count += mirror(host, brick, plane_of(brick, cells)); });
     return count;
   }
-  /// The same for the cells of a set: blocks of a host, or single cells.
+  /// Updates the cells of a set (blocks of a host, or single cells) as the overload for a box does.
   template <class Host>
   requires OccupancyLookup<Host> || LogOddsLookup<Host> std::size_t update(const Host& host,
                                                                            const BrickSet& changed) {

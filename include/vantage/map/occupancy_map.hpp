@@ -53,11 +53,12 @@ class OccupancyMap {
   /// Copies the cells and the change log. The copy gets its own identity. Throws std::runtime_error if it needs a
   /// file (OccupancyMapOptions::resident_folder) and the disk is full.
   OccupancyMap(const OccupancyMap& other) = default;
-  /// The same into this map, which gets a new identity. It is unchanged if that throws.
+  /// Copies the cells and the change log into this map, which gets a new identity. Throws as the copy constructor;
+  /// this map is then unchanged.
   OccupancyMap& operator=(const OccupancyMap& other);
   /// Takes over the map. `other` becomes an empty map with the same options.
   OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it allocates
-  /// The same into this map.
+  /// Takes over `other` into this map. `other` becomes an empty map with the same options.
   OccupancyMap& operator=(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor)
   /// Exchanges two maps, identities included.
   void swap(OccupancyMap& other);
@@ -194,8 +195,8 @@ class OccupancyMap {
   /// octomap::OcTree::insertPointCloud. The cell of the sensor counts as passed. Rays that cannot be used are skipped
   /// and counted. Throws std::invalid_argument if the pose is not rigid or `max_range_m` is not positive.
   ScanReport insert(const Scan& scan, RayPolicy policy = RayPolicy::EveryReturn);
-  /// The same for points that lie in the memory of the host; they are not copied. The axes of the sensor do not
-  /// matter: points may be in any frame whose pose `world_from_sensor` is.
+  /// Integrates one scan whose points lie in the memory of the host; they are not copied. The points may be in any
+  /// frame whose pose is `world_from_sensor`. Throws as the overload above.
   ScanReport insert(const ScanView& scan, RayPolicy policy = RayPolicy::EveryReturn);
   /// Creates a new revision without a change, like a scan that only confirms known states.
   void confirm() { ++revision_; }

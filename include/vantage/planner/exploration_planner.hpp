@@ -63,7 +63,7 @@ struct Plan {
   /// know them.
   std::vector<VoxelIndex> sought;
   /// The views that were compared, with their utilities, for display. Includes the goal of a Move. Empty for planners
-  /// that compare none.
+  /// that do not compare views.
   std::vector<View> candidates;
   Leftover leftover;                             ///< frontier cells that no view is planned for
   std::string reason = "plan() was not called";  ///< one sentence for a person

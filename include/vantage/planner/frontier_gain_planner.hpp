@@ -21,7 +21,7 @@ struct FrontierGainOptions {
 
 /// Baseline planner: draws poses in the reachable space at random, counts by ray casting the frontier cells that the
 /// sensor would see from each, and takes the best. The path is found by A*. Unlike in the paper, cells beyond the
-/// resolving range of the sensor do not count, and the goal to which the robot is on its way is a candidate,
+/// resolving range of the sensor do not count, and the goal to which the robot is moving is a candidate,
 /// too: planning on the way, it would turn around for every other draw. (Shade & Newman 2011, III-B.1.)
 class FrontierGainPlanner final : public FrontierPlanner {
  public:

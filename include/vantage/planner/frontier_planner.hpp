@@ -26,8 +26,8 @@ struct ChosenView {
   std::string reason = {};
 };
 
-/// A view of the nearest target by way, and that way. Adds the number of visited cells to `operations`. Requires a
-/// target.
+/// A view of the target with the shortest route, and that route. Adds the number of visited cells to `operations`.
+/// Requires a target.
 [[nodiscard]] ChosenView nearest_view(const Situation& situation, std::uint64_t& operations);
 
 /// Base class of planners that look at frontiers. It contains everything but the choice: it updates the Situation,

@@ -15,7 +15,7 @@ struct NextBestViewExplorerOptions {
 
 /// Next-best-view planning without an object: draws views at random, every other one aimed at a target, and takes the
 /// one with the highest utility among those that see a target: unknown cells seen, divided by 1 + distance. All views
-/// are ranked with few rays, and the best 20 again with all. The goal to which the robot is on its way is a
+/// are ranked with few rays, and the best 20 again with all. The goal to which the robot is moving is a
 /// candidate, too. (Vasquez-Gomez et al. 2013, eq. 4 and 5, over the whole map.)
 class NextBestViewExplorer final : public FrontierPlanner {
  public:

@@ -21,7 +21,7 @@ struct ObjectPlannerOptions {
   /// Minimum weight of the sides of the surface that a view is expected to observe first, as a share of the weight
   /// observed so far, in [0, 1).
   double min_new_share = 0.001;
-  /// What a view costs beside the way to it, in radii of the first sphere, > 0. The view of most weight for its
+  /// What a view costs beside the path to it, in radii of the first sphere, > 0. The view of most weight for its
   /// cost is taken: a small price saves path, a large one saves views.
   double view_price = 4.0;
 };

@@ -87,7 +87,7 @@ class Situation {
   [[nodiscard]] const std::vector<VoxelIndex>& frontier_cells() const { return frontier_cells_; }
   /// The memory of tried views.
   [[nodiscard]] const TriedViews& tried() const { return tried_; }
-  /// The goal (world_from_sensor) to which the robot is on its way, see TriedViews::goal_ahead, if it can still be
+  /// The goal (world_from_sensor) to which the robot is moving, see TriedViews::goal_ahead, if it can still be
   /// reached.
   [[nodiscard]] std::optional<Pose> goal_ahead() const;
   /// Stores how following the last plan ended.
@@ -99,13 +99,13 @@ class Situation {
   /// Casts the rays of the sensor through the map of the last `sync`. The first call after a `sync` updates it, which
   /// has a cost; later calls may come from several threads.
   [[nodiscard]] const FollowingCaster& looking() const;
-  /// Lengths of ways through the reachable space, on blocks of cells. The first call after a `sync` updates them.
+  /// Path lengths through the reachable space, on blocks of cells. The first call after a `sync` updates them.
   [[nodiscard]] const detail::BlockWays& ways() const;
-  /// A way through the reachable space from its start to `goal`, both included. Empty if there is none. The shortest
-  /// one, unless the goal is more than 300 cells away: then the shortest from each eighth block to the next, of a way
-  /// over blocks. So the cost follows the way, not the space around it.
+  /// A route of cells through the reachable space from its start to `goal`, both included. Empty if there is none. It
+  /// is the shortest one up to 300 cells. Beyond, a route over blocks is found first, and the shortest route of cells
+  /// is taken between every eighth of its blocks. So the cost grows with the route, not with the space around it.
   [[nodiscard]] std::vector<VoxelIndex> way_to(const VoxelIndex& goal) const;
-  /// A path to a view along the reachable cells of `way`, or along the shortest way if it is empty; if the platform
+  /// A path to a view along the reachable cells of `way`, or along the shortest route if it is empty; if the platform
   /// cannot follow it, by the platform's own path search. None if there is none.
   [[nodiscard]] std::optional<std::vector<Pose>> path_to(const Pose& view,
                                                          std::span<const VoxelIndex> way = {}) const;

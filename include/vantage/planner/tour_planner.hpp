@@ -44,23 +44,24 @@ struct TourOptions {
 /// 1. Views: from places around the nearest parts, beside the others, and from where the robot is, towards the
 ///    middles of the parts; what each sees of the frontier is found by rays, for an even choice of its unknown cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
-/// 3. Order: of all orders of the chosen views the one with the least mean of two costs, that of the whole tour and
-///    the mean one until a cell is seen. So a view that shows little waits, unless it is on the way.
+/// 3. Order: the order of the chosen views that minimises the average of the cost of the whole tour and the mean cost
+///    until a cell is seen. So a view that shows little comes late, unless it lies on the path.
 /// 4. The first views of the tour are replaced by others that show nearly the same, so that the tour costs least.
 ///
 /// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, and the tour leads over one place for
 /// each part, the nearest that sees a cell of it. It sees much in passing, so the legs behind the first count half.
 ///
-/// A leg takes the longer of moving and turning. The first leaves from the motion that the robot is in: with a motion
-/// model in the setup, it is taken to follow the path of the last plan. So a robot turns back only if that pays.
+/// A leg takes the longer of moving and turning. The first leg starts from the current motion of the robot: with a
+/// motion model in the setup, the planner assumes that it follows the path of the last plan. So a robot turns back
+/// only if that saves time.
 ///
-/// On the way to the first view the sensor looks aside at parts of the frontier, where the motion model leaves it the
-/// time to turn there and on. So small parts are seen in passing. The robot is to pass these poses without a stop.
+/// On the path to the first view the sensor looks aside at parts of the frontier, where the motion model leaves time
+/// to turn there and on. So small parts are seen in passing. The robot is to pass these poses without a stop.
 ///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.
 ///
-/// Lengths of ways are computed on blocks of cells, so they are off by some per cent, but lead through no wall. The
+/// Path lengths are computed on blocks of cells, so they are off by some per cent, but lead through no wall. The
 /// blocks are kept from plan to plan, except where the reachable space has changed. The idea of views for each part
 /// and a tour over them is that of Zhou et al. 2021 (FUEL).
 class TourPlanner final : public FrontierPlanner {

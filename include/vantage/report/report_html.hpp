@@ -24,8 +24,8 @@ void write_report_html(std::span<const ReportedRun> runs, const std::filesystem:
 void write_report_html(const std::filesystem::path& record, const std::filesystem::path& html);
 
 /// Writes one HTML page of planners beside one another: tables and curves of the JSON text that exploration_json
-/// (evaluation/exploration_table.hpp) gives. Throws std::invalid_argument if it is none, std::runtime_error with the
-/// path if the page cannot be written.
+/// (evaluation/exploration_table.hpp) gives. Throws std::invalid_argument if the text is not such JSON, and
+/// std::runtime_error with the path if the page cannot be written.
 void write_evaluation_html(const std::string& results, const std::filesystem::path& html);
 
 }  // namespace vantage

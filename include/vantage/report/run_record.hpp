@@ -98,8 +98,8 @@ struct RunRecord {
   std::optional<double> seen_coverage;      ///< at the end; see ViewRecord::seen_coverage
   /// Samples seen, as a share of those that any admitted pose could see; none without an object.
   std::optional<double> seen_observable;
-  /// Time of the last scan that taught something the planner waited for, seconds: it made known a cell that the plan
-  /// of then sought (any cell, if the plan sought none in particular). None if the run is not timed.
+  /// Time of the last scan that made known a cell that the plan then sought (any cell, if the plan sought none in
+  /// particular), seconds. None if the run is not timed.
   std::optional<double> duration_s;
   double turned_deg = 0.0;                   ///< total turn of the sensor, degrees; only runs of ExplorationRun
   Leftover leftover;                         ///< frontier cells that no view was planned for at the end, by cause

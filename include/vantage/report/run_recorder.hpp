@@ -63,13 +63,14 @@ class RunRecorder {
   /// cycle. Throws std::invalid_argument if the resolution changes and std::logic_error if the record has ended.
   void record(const OccupancyMap& map, ViewRecord view, const Plan* plan = nullptr,
               const HarmonicField* field = nullptr);
-  /// The same for hosts that keep no ViewRecord: it counts the views and the metres, straight from pose to pose.
+  /// Records a scan and the plan after it, for hosts that keep no ViewRecord: counts the views and the metres,
+  /// straight from pose to pose. Throws as the overload above.
   void record(const OccupancyMap& map, const Pose& world_from_sensor, const Plan& plan, double insert_ms = 0.0,
               double plan_ms = 0.0);
 
   /// Ends the record. `run.views` may be empty. Recording again throws.
   void finish(const RunRecord& run);
-  /// The same for hosts that keep no RunRecord.
+  /// Ends the record, for hosts that keep no RunRecord. Recording again throws.
   void finish(RunOutcome outcome, const std::string& reason);
 
   /// Length of the file so far, bytes.

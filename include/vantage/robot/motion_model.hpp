@@ -6,27 +6,27 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How fast a robot moves, turns, scans and plans: what makes metres and degrees seconds. Speed and acceleration are
-/// bounded as vectors, turning by limits of its own; the two go on in parallel.
+/// How fast a robot moves, turns, scans and plans: from it follows how many seconds a path takes. Speed and
+/// acceleration are bounded as vectors. Turning has its own limits and goes on in parallel.
 struct MotionModel {
-  double max_speed_m_s = 1.0;  ///< in [1e-3, 1000]
-  /// Of speeding up, braking and going round a corner together, in [1e-3, 10000].
+  double max_speed_m_s = 1.0;  ///< largest norm of the velocity, in [1e-3, 1000]
+  /// Largest norm of the acceleration vector: speeding up, braking and cornering together, in [1e-3, 10000].
   double max_acceleration_m_s2 = 1.0;
-  double max_yaw_rate_rad_s =
-      1.0;  ///< of the sensor's orientation, about any axis it can turn about, in [1e-3, 1000]
-  /// The same of its change, in [1e-3, 10000]; none: a turn starts and ends at once.
+  /// Largest angular rate of the sensor's orientation, about any axis, in [1e-3, 1000].
+  double max_yaw_rate_rad_s = 1.0;
+  /// Largest angular acceleration, in [1e-3, 10000]; none: the angular rate changes at once.
   std::optional<double> max_yaw_acceleration_rad_s2 = std::nullopt;
-  double scan_rate_hz = 10.0;  ///< scans a second, at rest or not, in [1e-2, 1000]
-  /// From the scan that a plan is made from until the robot follows the plan, in [0, 60] seconds. Constant, so that a
-  /// run does not depend on who computes it.
+  double scan_rate_hz = 10.0;  ///< scans per second, at rest or not, in [1e-2, 1000]
+  /// Time from a scan until the robot follows the plan made from it, in [0, 60] seconds. Constant, so that a run does
+  /// not depend on the speed of the computer.
   double planning_latency_s = 0.05;
 
   /// Throws std::invalid_argument naming the field, its value and the rule.
   void validate() const;
-  /// How long a straight way takes from rest to rest, seconds.
+  /// How long a straight motion takes from rest to rest, seconds.
   [[nodiscard]] double travel_time_s(double length_m) const;
-  /// The same for a robot that moves already, at most as fast as it can: at `speed_m_s` along the way, or away from
-  /// its end if that is negative.
+  /// How long a straight motion takes from `speed_m_s` to rest at its end, seconds. The speed is negative if the
+  /// robot moves away from the end; its absolute value is at most `max_speed_m_s`.
   [[nodiscard]] double travel_time_s(double length_m, double speed_m_s) const;
   /// How long a turn takes from rest to rest, seconds.
   [[nodiscard]] double turn_time_s(double angle_rad) const;

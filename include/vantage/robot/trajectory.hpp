@@ -15,11 +15,11 @@ namespace VANTAGE_EXPORT vantage {
 /// Where a robot is and how fast it goes, in the world.
 struct MotionState {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();    ///< of the sensor
-  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< of the same
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< of the sensor
 };
 
-/// A way in time: pieces of constant acceleration, from a state to rest. On straight pieces the robot speeds up and
-/// brakes; corners are rounded by parabolas that it enters and leaves at the same speed, at the full acceleration.
+/// A motion over time, in pieces of constant acceleration, from a state to rest. On straight pieces the robot speeds
+/// up and brakes. Corners are rounded by parabolas at full acceleration, entered and left at the same speed.
 class Trajectory {
  public:
   /// Whether the robot may go straight from one position to the other.
@@ -28,29 +28,29 @@ class Trajectory {
   /// Stays where it is.
   explicit Trajectory(const Eigen::Vector3d& position_m) : end_m_(position_m) {}
 
-  /// From `start` to rest at the last of `corners`, at least one, by way of those between, which are rounded as far
-  /// as the robot may, or stopped at. The robot may be off the first corner or on the move: it then swings to one of
-  /// the first four corners, wherever that takes the least time, or brakes and goes back to one. Of all the speeds at
-  /// the corners, in 16 steps each, those that take the least time in sum. None if no way of swinging over is
-  /// admitted; the motions between `corners` are taken as admitted.
+  /// From `start` to rest at the last of `corners` (world, metres; at least one), through the corners between. These
+  /// are rounded as far as `admits` allows; otherwise the robot stops there. If the start is not the first corner, or
+  /// the robot moves, the trajectory first joins the corners at one of the first four, the one of least total time,
+  /// by a curve or after braking. The speeds at the corners, in 16 steps each, minimise the total time. None if no
+  /// such joining motion is admitted. The straight motions between `corners` are not checked.
   [[nodiscard]] static std::optional<Trajectory> through(const MotionState& start,
                                                          std::span<const Eigen::Vector3d> corners,
                                                          const MotionModel& motion, const Admits& admits);
-  /// The same by way of the positions of a path. The orientations do not count.
+  /// The trajectory through the positions of a path. Its orientations are ignored.
   [[nodiscard]] static std::optional<Trajectory> through(const MotionState& start, std::span<const Pose> path,
                                                          const MotionModel& motion, const Admits& admits);
 
-  /// The same until `time_s`, then straight on to rest.
+  /// This trajectory until `time_s`, then straight on while braking to rest.
   [[nodiscard]] Trajectory braked(double time_s, const MotionModel& motion) const;
 
-  /// From the start to rest.
+  /// Time from the start to rest.
   [[nodiscard]] double duration_s() const { return duration_s_; }
   /// The state at a time, >= 0; at rest at the end after it.
   [[nodiscard]] MotionState at(double time_s) const;
-  /// When it is nearest to each of the corners that it was made through; 0 for those left out.
+  /// Time at which it is nearest to each of the corners that it was made through; 0 for those left out.
   [[nodiscard]] const std::vector<double>& passes_at_s() const { return passes_at_s_; }
-  /// Points from `time_s` on to the end, so near to each other that the chords between them leave the way by no more
-  /// than 0.1 mm.
+  /// Points from `time_s` on to the end, world, metres. They are so close that the chords between them are within 0.1
+  /// mm of the curve.
   [[nodiscard]] std::vector<Eigen::Vector3d> points_from(double time_s) const;
 
  private:

@@ -7,23 +7,23 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// An orientation that turns towards others within a MotionModel's limits, the shorter way round, whatever the
-/// position does meanwhile.
+/// An orientation that turns towards others within a MotionModel's limits, by the smaller angle, independently of the
+/// position.
 class Turning {
  public:
   /// At rest.
   explicit Turning(const Eigen::Matrix3d& orientation);
 
-  /// Turns towards `target` for `step_s` seconds, > 0; the turn brakes in time to come to rest there. Neither the
-  /// rate nor its change within a step ever exceeds its limit. Without a limit of its acceleration the time of a turn
-  /// is MotionModel::turn_time_s to within a step, with one to within four.
+  /// Turns towards `target` for `step_s` seconds, > 0; the turn brakes in time to come to rest there. The
+  /// rate and its change within a step stay within their limits. A turn takes MotionModel::turn_time_s, to within one
+  /// step if the angular acceleration is not limited, and four steps if it is.
   void advance(const Eigen::Matrix3d& target, double step_s, const MotionModel& motion);
 
   /// world_from_sensor.
   [[nodiscard]] Eigen::Matrix3d orientation() const;
   /// Between the orientation now and another, radians.
   [[nodiscard]] double angle_to_rad(const Eigen::Matrix3d& other) const;
-  /// Turning now, as a vector about which to turn in the world, radians per second.
+  /// The angular velocity now, as a vector in the world, radians per second.
   [[nodiscard]] const Eigen::Vector3d& rate_rad_s() const { return rate_rad_s_; }
 
  private:

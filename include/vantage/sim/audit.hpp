@@ -23,10 +23,10 @@ struct ObservableCell {
 /// Result of `audit`.
 struct AuditResult {
   std::size_t cells_checked = 0;  ///< unknown cells beside free ones, inside the region
-  /// Of these, observable, but already in view of poses of the run: from two cells, or from each place that sees them
-  /// or a cell that touches it.
+  /// Checked cells that are observable, but were already in view of poses of the run: from two cells, or from each
+  /// place that sees them or a cell that touches it.
   std::size_t looked_at_in_vain = 0;
-  std::size_t observable_left = 0;   ///< of these, observable and not looked at in vain; 0 if everything is explored
+  std::size_t observable_left = 0;   ///< checked cells that are observable and not in `looked_at_in_vain`
   std::vector<ObservableCell> left;  ///< the `observable_left` cells, in raster order
 };
 

@@ -42,10 +42,10 @@ struct ExplorationRunOptions {
   /// How the map draws the rays of a scan.
   RayPolicy ray_policy = RayPolicy::EveryReturn;
   std::size_t max_views = 500;  ///< budget of scans, > 0
-  /// Budget of path, metres, > 0: the robot does not set out on a way that would make its path longer. None: no
+  /// Budget of path, metres, > 0: the robot starts no path that would exceed it. None: no
   /// limit.
   std::optional<double> max_path_m = std::nullopt;
-  double scan_spacing_m = 0.5;  ///< path between two scans on the way, metres, >= 0; 0: scans at goals only
+  double scan_spacing_m = 0.5;  ///< path length between two scans, metres, >= 0; 0: scans at goals only
   /// Limits of a timed run, in which the robot moves, turns, scans and plans in time; then `scan_spacing_m` has no
   /// effect. None: the robot is at each pose of its path at once.
   std::optional<MotionModel> motion = std::nullopt;
@@ -78,14 +78,14 @@ struct ExplorationRunOptions {
   std::vector<SurfaceSample> object_surface = {};
 };
 
-/// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the way to a goal
+/// Drives a planner through a known world to its end: scan, insert, plan, follow, and so on. On the path to a goal
 /// the sensor scans every `scan_spacing_m`. The run plans again when `check` says that the plan is no longer good.
 /// The same world, planner and options give the same record, except for computing times and memory.
 ///
 /// A timed run (ExplorationRunOptions::motion) scans at a fixed rate. It asks for a plan from the pose of a scan,
 /// under the same conditions as an untimed run, follows the previous plan for the planning latency, and joins the new
-/// one without a stop if it can. The robot only sets out on a way that is known to be free up to where it comes to
-/// rest. If a scan closes that way, the robot brakes.
+/// one without a stop if it can. The robot starts a trajectory only if it is known to be free up to where the robot
+/// comes to rest. If a later scan closes it, the robot brakes.
 class ExplorationRun {
  public:
   /// Called after every scan with its record and with the map that the planner plans in (`known`).

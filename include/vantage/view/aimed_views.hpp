@@ -39,7 +39,7 @@ void validate(const AimedViewOptions& options);
 /// std::invalid_argument as `validate`, and if a position is not addressable.
 [[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, const CellSet& sought,
                                             const AimedViewOptions& options, std::uint64_t seed);
-/// The same for given sides, across edges and corners too.
+/// Samples views aimed at given sides of cells, across edges and corners too. Otherwise as above.
 [[nodiscard]] std::vector<Pose> aimed_views(const RayCaster& caster, std::span<const CellSide> sides,
                                             const AimedViewOptions& options, std::uint64_t seed);
 

@@ -47,8 +47,8 @@ struct FrontierSurveyOptions {
 /// only at a corner, which then becomes known.
 ///
 /// For a sensor that does not report missing returns, the targets are only those whose unknown cell touches an
-/// occupied cell (26 neighbours), as long as there are any: a ray into open space teaches such a sensor nothing,
-/// while a ray along a known surface probably hits more of it.
+/// occupied cell (26 neighbours), as long as there are any: such a sensor observes nothing along a ray into open
+/// space, while a ray along a known surface probably hits more of it.
 struct FrontierSurvey {
   /// The observable frontier cells to go for now, in raster order of `frontier`.
   std::vector<FrontierTarget> targets = {};

@@ -21,8 +21,8 @@ enum class VisibilityMethod : std::uint8_t {
 /// Counts the cells of an object that views see and that the sensor would measure.
 class ObjectVisibility {
  public:
-  /// Of the cells `object` of the map that `looking` follows; both must outlive it and not change. The hierarchical
-  /// method has three levels (VI-B: start depth 14 of 16).
+  /// For the cells `object` of the map that `looking` follows. Map and `looking` must outlive it and not change. The
+  /// hierarchical method has three levels (VI-B: start depth 14 of 16).
   ObjectVisibility(const OccupancyMap& map, const FollowingCaster& looking, const RangeSensor& sensor,
                    const VoxelBox& object, VisibilityMethod method, const SensingOptions& sensing);
 

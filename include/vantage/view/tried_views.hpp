@@ -100,7 +100,7 @@ class TriedViews {
   bool try_resting_again();
 
   // --- queries
-  /// The goal (world_from_sensor) of the last planned view, if at the last `review` the robot was still on its way to
+  /// The goal (world_from_sensor) of the last planned view, if at the last `review` the robot was still moving to
   /// it and some of the cells that it is to resolve were unknown.
   [[nodiscard]] std::optional<Pose> goal_ahead() const {
     return expected_ ? std::optional(expected_->goal) : std::nullopt;

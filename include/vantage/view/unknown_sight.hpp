@@ -17,7 +17,7 @@ namespace VANTAGE_EXPORT vantage {
 struct UnknownSightOptions {
   /// Probability that a wanted cell stops a ray, in (0, 1]. With 1, only the first wanted cell of each ray is seen.
   double opaque_share = 1.0;
-  /// The same probability for a wanted cell with an occupied face neighbour, in (0, 1]. The surface probably
+  /// Probability that a wanted cell with an occupied face neighbour stops a ray, in (0, 1]: the surface probably
   /// continues there.
   double opaque_beside_surface = 1.0;
   /// Whether the sensor reports rays without a return, see RangeSensor::reports_no_return.
@@ -35,7 +35,7 @@ struct SightedCell {
 /// Model: a ray counts if its first cell that is not free is a wanted one. Each wanted cell stops it independently
 /// with probability p (see UnknownSightOptions); other unknown cells behind the first do not stop it. So the ray
 /// reaches a cell with the product of (1 - p) of the wanted cells before it. A sensor that does not report missing
-/// returns learns nothing from a ray that meets no surface. If no known surface lies behind the wanted cells, the
+/// returns observes nothing along a ray that meets no surface. If no known surface lies behind the wanted cells, the
 /// probability of a cell is therefore that the ray reaches it and stops in it or in a wanted cell behind it. A ray to
 /// a known surface within the minimum range also returns nothing. If several rays pass a cell, the best one counts,
 /// which is a lower bound.

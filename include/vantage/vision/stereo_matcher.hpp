@@ -24,7 +24,7 @@ struct StereoOptions {
   StereoMethod method = StereoMethod::SemiGlobal;  ///< matching algorithm
   int least_disparity_px = 0;                      ///< smallest disparity to search
   /// Number of disparities to search, a multiple of 16; 0: enough for surfaces 4 baselines away. A match at either
-  /// end of the range is none: a nearer or further surface is matched there as well.
+  /// end of the range is dropped: a nearer or further surface is matched there as well.
   int disparities_px = 0;
   int window_px = 5;            ///< edge of the matching window, odd, in [1, 255]; Block uses at least 5
   int uniqueness_percent = 10;  ///< margin in percent by which the best match must beat the second best, in [0, 100]

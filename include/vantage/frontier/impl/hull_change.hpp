@@ -42,7 +42,8 @@ class HullChange {
 
   /// Calls `visit` for every such brick of a box of bricks.
   void for_each_brick(const VoxelBox& bricks, const Visit& visit);
-  /// The same for those that `holds`. Returns by how many the cells inside the hull have become more in the others.
+  /// Calls `visit` for the bricks of a box for which `holds` is true. Returns by how many cells the hull has
+  /// grown in the other bricks.
   [[nodiscard]] std::int64_t growth(const VoxelBox& bricks, const Holds& holds, const Visit& visit);
 
  private:

@@ -11,7 +11,7 @@ namespace vantage::detail {
 [[nodiscard]] constexpr std::int32_t along(const VoxelIndex& cell, std::size_t axis) {
   return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
 }
-/// The same, to write to.
+/// The coordinate of a cell along an axis, to write to.
 [[nodiscard]] constexpr std::int32_t& along(VoxelIndex& cell, std::size_t axis) {
   return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
 }

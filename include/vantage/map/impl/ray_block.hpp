@@ -53,7 +53,7 @@ struct RayPlacer {
 
   /// Computes `fate` and `end` from `point`: returns if `are_returns`, otherwise directions without a return.
   void place_ends(bool are_returns, RayBlock& block, InstructionSet set = best_instruction_set()) const;
-  /// The same for directions that are stored elsewhere.
+  /// Computes `fate` and `end` for directions that are stored elsewhere.
   void place_ends(const RayBlock::Points& directions, RayBlock& block,
                   InstructionSet set = best_instruction_set()) const;
   /// Computes only the ends, for directions that are all usable. They are stored as x of all rays, then y, then z;

@@ -24,7 +24,7 @@ inline constexpr std::size_t kMostVectors = 50'000;  // see utility_vectors
 inline constexpr std::size_t kNearTargets = 20'000;
 // Views of targets that are tested before the planner concludes that no view sees a void.
 inline constexpr std::size_t kProofViews = 50;
-// Of so many views it is kept what they see. So memory does not grow with the number of views.
+// Number of views whose cells in sight are kept. So memory does not grow with the number of views.
 inline constexpr std::size_t kRememberedViews = 10;
 
 inline std::string volume(double cells, double cell_m) {
@@ -200,8 +200,8 @@ VANTAGE_INLINE std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(con
   return seen;
 }
 
-// Equation (3): the best view to which a path leads. A view must also see a target, because cells that are given up
-// or rest are none.
+// Equation (3): the best view to which a path leads. A view must also see a target: cells that are given up
+// or rest are no targets.
 VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& views,
                                                                       Plan& plan) const {
   plan.statistics.views_scored += views.size();

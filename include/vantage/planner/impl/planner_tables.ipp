@@ -19,9 +19,9 @@ VANTAGE_INLINE const SettingTable<FrontierGainOptions>& frontier_gain_settings()
   static const auto table =
       with_survey<O>("FrontierGainOptions", &O::survey)
           .number("hypotheses", "poses", "tried per plan", within(1, 1e6), &O::hypotheses)
-          .number("aimed_share", "", "share of the hypotheses that look at some frontier", within(0, 1),
+          .number("aimed_share", "", "share of the hypotheses that stand where a frontier is visible", within(0, 1),
                   &O::aimed_share)
-          .number("cost_per_m", "cells/m", "what a metre costs, in frontier cells", at_least(0), &O::cost_per_m);
+          .number("cost_per_m", "cells/m", "cost of a metre, in frontier cells", at_least(0), &O::cost_per_m);
   return table;
 }
 
@@ -37,9 +37,9 @@ VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings()
                   &VoidClusterOptions::min_score)
           .number("cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0), &O::strategy,
                   &S::cost_per_m)
-          .number("least_view_m3", "m^3", "a view that is expected to learn less of the voids is none", at_least(0),
+          .number("least_view_m3", "m^3", "a view that is expected to show less void does not count", at_least(0),
                   &O::strategy, &S::least_view_m3)
-          .flag("beyond_voids", "goes on to frontiers that border no void", &O::strategy, &S::beyond_voids)
+          .flag("beyond_voids", "continues with frontiers that border no void", &O::strategy, &S::beyond_voids)
           .limit("VoidSampling::orientations_per_place", at_least(1), &O::strategy, &S::sampling,
                  &VoidSampling::orientations_per_place)
           .limit("VoidSampling::place_spacing_m", within(0, 1e6), &O::strategy, &S::sampling,
@@ -68,17 +68,19 @@ VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
                                  &O::field, &F::neumann)
           .number("tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),
                   &O::field, &F::tolerance)
-          .number("uniform_source", "", "added everywhere, so that every cell has a way down; 0: the paper's field",
-                  at_least(0), &O::field, &F::uniform_source)
-          .number("detour_m", "m", "boundaries further than the nearest by more than this wait", at_least(0),
+          .number("uniform_source", "",
+                  "added everywhere, so that every cell has a lower neighbour; 0: the paper's field", at_least(0),
+                  &O::field, &F::uniform_source)
+          .number("detour_m", "m", "frontiers further than the nearest by more than this wait", at_least(0),
                   &O::strategy, &S::detour_m)
-          .flag("look_early", "looks from the first place on the way that sees the boundary", &O::strategy,
+          .flag("look_early", "looks from the first place of the path that sees the frontier", &O::strategy,
                 &S::look_early)
-          .number("look_spacing_m", "m", "after so much of the way any boundary in sight is looked at", at_least(0),
+          .number("look_spacing_m", "m", "after so much of the path, any frontier in sight is looked at", at_least(0),
                   &O::strategy, &S::look_spacing_m)
-          .number("look_again_m3", "m^3", "looks again from where it is while a view teaches that much", at_least(0),
+          .number("look_again_m3", "m^3",
+                  "looks again from the same place while a view is expected to show that much", at_least(0),
                   &O::strategy, &S::look_again_m3)
-          .flag("shortest_way", "takes the shortest way, not the streamline", &O::strategy, &S::shortest_way)
+          .flag("shortest_way", "takes the shortest path, not the streamline", &O::strategy, &S::shortest_way)
           .limit("HarmonicFieldOptions::max_sweeps", within(1, 1e7), &O::field, &F::max_sweeps);
   return table;
 }
@@ -110,10 +112,11 @@ VANTAGE_INLINE const SettingTable<NextBestViewChoices>& next_best_view_settings(
               })
         .number("subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6), &C::object,
                 &O::candidates, &V::subdivisions)
-        .number("random_candidates", "views", "drawn besides, anywhere", within(0, 1e6), &C::object, &O::candidates,
-                &V::random_candidates)
-        .number("aimed_candidates", "views", "drawn besides, at unknown cells, from up to the largest radius",
-                within(0, 1e6), &C::object, &O::candidates, &V::aimed, &AimedViewOptions::count)
+        .number("random_candidates", "views", "additional candidates drawn anywhere", within(0, 1e6), &C::object,
+                &O::candidates, &V::random_candidates)
+        .number("aimed_candidates", "views",
+                "additional candidates aimed at unknown cells, from up to the largest radius", within(0, 1e6),
+                &C::object, &O::candidates, &V::aimed, &AimedViewOptions::count)
         .number("min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
                 &C::object, &O::min_overlap_cells)
         .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1), &C::object,
@@ -124,7 +127,7 @@ VANTAGE_INLINE const SettingTable<NextBestViewChoices>& next_best_view_settings(
                                    {"uniform", VisibilityMethod::Uniform},
                                    {"hierarchical", VisibilityMethod::Hierarchical}},
                                   &C::object, &O::method)
-        .number("hypotheses", "views", "without an object: weighed per plan", within(1, 1e6), &C::exploration,
+        .number("hypotheses", "views", "without an object: scored per plan", within(1, 1e6), &C::exploration,
                 &NextBestViewExplorerOptions::hypotheses);
   }();
   return table;

@@ -18,7 +18,7 @@
 
 namespace vantage::detail {
 
-/// Lengths of ways through a set of cells, computed on blocks of cells.
+/// Lengths of routes (*ways*) through a set of cells, computed on blocks of cells.
 ///
 ///     +---------+---------+     A block is divided into pieces: cells that are connected within it. Two pieces are
 ///     | 1 ### 2 | 2       |     linked if a step through a face leads from one to the other, so no way leaks through

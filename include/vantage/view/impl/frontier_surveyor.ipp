@@ -21,7 +21,7 @@ namespace detail {
 
 // Cells that one survey visits at most, in about a second, if the sampled rays find no target.
 inline constexpr std::uint64_t kMostOperations = 100'000'000;
-// The same for cells that can only be seen in part, or only past others, of which a look teaches little.
+// The limit for cells that can only be seen in part, or only past others: a look makes little of them known.
 inline constexpr std::uint64_t kMostOperationsForParts = 10'000'000;
 
 // The range of the sensor, which may be unlimited, bounded by the extent of the known map.

@@ -22,8 +22,8 @@ class TargetsInSight {
     Eigen::Vector3d line;  ///< from the place to the centre of the cell, metres, world
   };
 
-  /// Of `targets`, from `position` (metres, world), up to `furthest_m`. Adds the number of visited cells to
-  /// `operations`.
+  /// Finds those of `targets` in sight of `position` (metres, world), up to `furthest_m`. Adds the number of visited
+  /// cells to `operations`.
   TargetsInSight(const SurveyedMap& surveyed, std::span<const FrontierTarget> targets,
                  const Eigen::Vector3d& position, double furthest_m, std::uint64_t& operations);
 

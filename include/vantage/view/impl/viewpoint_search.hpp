@@ -101,7 +101,7 @@ class ViewpointSearch {
   std::optional<VoxelIndex> try_parts(const VoxelIndex& unknown) {
     return place_of_all(unknown, [&](const VoxelIndex& cell) { return sees_a_part(cell, unknown); });
   }
-  // The same for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
+  // A target for lines that pass other unknown cells beside `unknown`: even if a line only cuts a corner of the first
   // one, that becomes known.
   std::optional<FrontierTarget> try_past(const VoxelIndex& unknown) {
     VoxelIndex before = unknown;
@@ -144,13 +144,13 @@ class ViewpointSearch {
                      unknown, [&](const VoxelIndex& cell) { return map_.at(cell) == Occupancy::Free; }, serves)
                : std::nullopt;
   }
-  // A reachable cell in range that serves; none if there is none, or if the operations are used up. A line of sight
+  // A reachable cell in range that serves; none if no cell serves, or if the operations are used up. A line of sight
   // never turns back along an axis. So only those cells are tested to which steps lead that are all away from
   // `unknown`, eight times: for each combination of directions along the axes.
   //
   //     # # # 6 7     1 to 7 are tested, up and to the right
   //     # 3 4 5 #     #  blocks
-  //     1 2 # # .     .  not tested: each way there turns back
+  //     1 2 # # .     .  not tested: each path there turns back
   //     u # . . .
   template <class Passes, class Serves>
   std::optional<VoxelIndex> first_place(const VoxelIndex& unknown, Passes&& passes_through, Serves&& serves) {
