@@ -55,6 +55,7 @@ int main() {
       std::cout << to_string(plan.outcome) << " after " << shared.scans << " scans: " << plan.reason << '\n';
       return plan.outcome == vantage::Outcome::Explored ? 0 : 1;
     }
-    shared.pose = plan.path.back();  // a controller moves there, without the lock
+    // The simulated robot is at the goal at once. A real controller moves there without holding the lock.
+    shared.pose = plan.path.back();
   }
 }

@@ -29,7 +29,7 @@ void add_map_command(CLI::App& app, int& exit_code) {
   command->add_option("FILE", request->file, "The map, as OctoMap writes it")
       ->required()
       ->type_name("FILE.bt|FILE.ot");
-  command->add_option("--json", request->json, "The same as JSON; -: on stdout")->type_name("FILE|-");
+  command->add_option("--json", request->json, "File for the same as JSON; -: to stdout")->type_name("FILE|-");
   command
       ->add_option("--memory-limit", request->memory_limit_mb,
                    "A map that needs more is refused, 10^6 bytes; 0: no limit")

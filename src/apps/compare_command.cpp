@@ -122,10 +122,10 @@ void compare(const CompareRequest& request) {
 void add_compare_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Lay the reports of several runs side by side");
   const auto request = std::make_shared<CompareRequest>();
-  command->add_option("REPORT.json", request->reports, "As runs wrote them; a run.record beside one is replayed")
+  command->add_option("REPORT.json", request->reports, "Reports of runs; a run.record beside one is replayed")
       ->required()
       ->type_name("REPORT.json...");
-  command->add_option("--out", request->out, "Folder for report.html; must be given")->required()->type_name("DIR");
+  command->add_option("--out", request->out, "Folder for report.html; required")->required()->type_name("DIR");
   command->add_flag("--by-folder", request->by_folder,
                     "Call runs by their folders: where settings differ, not planner, world and seed");
   command->footer(

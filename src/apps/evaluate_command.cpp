@@ -358,7 +358,7 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
     return objects->add_option(name, value, about)->type_name(type);
   };
   option("--objects", request->objects, "NAME[:SEED]|FILE[@SCALE[,y]];...",
-         "Generated ones, and meshes; nine generated ones and four meshes of VANTAGE_DATA unless given")
+         "Generated objects and meshes; default: nine generated ones and four meshes of VANTAGE_DATA")
       ->delimiter(';');
   option("--planners", request->planners, "NAME,...", "next-best-view, or a peer of vantage reconstruct --planner")
       ->delimiter(',')
@@ -369,8 +369,8 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
   option("--resolutions", request->resolutions_m, "M,...", "Edges of the cells, metres")
       ->delimiter(',')
       ->capture_default_str();
-  option("--starts", request->starts, "N", "First views of each")->capture_default_str();
-  option("--results", request->results, "FILE", "Keeps every run; those in it are not run again");
+  option("--starts", request->starts, "N", "Number of first views per object")->capture_default_str();
+  option("--results", request->results, "FILE", "File that stores every run; stored runs are not repeated");
   option("--max-views", request->run.max_views, "N", "Scans after which a run ends")->capture_default_str();
   objects->add_flag("--quick", request->quick, "One start, one sensor, 0.02 m");
   add_setting_option(*objects, request->run, "A setting of the planner next-best-view");

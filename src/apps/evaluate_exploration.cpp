@@ -294,7 +294,7 @@ int evaluate_exploration(const EvaluateExplorationRequest& request) {
 void add_evaluate_exploration_command(CLI::App& evaluate, int& exit_code) {
   CLI::App* command = evaluate.add_subcommand("exploration", "Planners in the same worlds from the same starts");
   const auto request = std::make_shared<EvaluateExplorationRequest>();
-  command->add_option("--out", request->out, "Folder for runs, table.md, results.json, index.html; must be given")
+  command->add_option("--out", request->out, "Folder for runs, table.md, results.json, index.html; required")
       ->required()
       ->type_name("DIR");
   command

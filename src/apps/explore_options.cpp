@@ -44,7 +44,7 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
   command.add_flag("--yaw-only", request.yaw_only, "The sensor stays level")->group("Robot");
   command
       .add_option("--band", request.band,
-                  "The robot drives and explores the plane of these heights; default sensor height: the middle")
+                  "The robot drives in the plane of these heights; default SENSOR: the middle")
       ->type_name("LOW,HIGH[,SENSOR]")
       ->group("Robot");
   command
@@ -70,7 +70,7 @@ void add_motion_options(CLI::App& command, ExploreRequest& request) {
          "Largest angular acceleration; default: unlimited");
   option("--scan-rate", request.scan_rate_hz, "HZ", "Scans per second; --max-views defaults to one hour of them");
   option("--planning-latency", request.planning_latency_s, "S",
-         "From a scan until the plan made from it takes effect")
+         "Time from a scan until the plan made from it takes effect")
       ->default_str("0.05");
 }
 
@@ -80,7 +80,7 @@ void add_explore_options(CLI::App& command, ExploreRequest& request) {
   add_world_options(command, request);
   add_robot_options(command, request);
   add_motion_options(command, request);
-  command.add_option("--planner", request.planner, "By name (vantage list)")
+  command.add_option("--planner", request.planner, "A name (vantage list)")
       ->type_name("NAME")
       ->capture_default_str()
       ->group("Run");

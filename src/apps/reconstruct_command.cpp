@@ -277,7 +277,7 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
   add_run_options(*command, request->run);
   command
       ->add_option("--max-path", request->max_path_m,
-                   "The run ends before the path gets longer than this, metres; no limit unless given")
+                   "The run ends before the path gets longer than this, metres; default: no limit")
       ->type_name("M")
       ->check(a_number())
       ->group("Run");

@@ -154,23 +154,23 @@ void add_recording_options(CLI::App& command, ReplayRequest& request) {
   const auto option = [&](const char* name, auto& value, const std::string& type, const char* about) {
     return command.add_option(name, value, about)->type_name(type)->group("Recording");
   };
-  option("--dataset", request.dataset, "DIR", "Folder of the recording; must be given")->required();
-  option("--format", request.format, formats, "How its files are laid out; must be given")->required();
-  option("--every", request.every, "N", "Plays every Nth frame only")->check(a_whole_number())->capture_default_str();
+  option("--dataset", request.dataset, "DIR", "Folder of the recording; required")->required();
+  option("--format", request.format, formats, "Layout of its files; required")->required();
+  option("--every", request.every, "N", "Play only every Nth frame")->check(a_whole_number())->capture_default_str();
   option("--intrinsics", request.intrinsics, "fx,fy,cx,cy",
-         "Of the depth images, pixels, where the files do not tell");
+         "Intrinsics of the depth images, pixels, if the files have none");
   option("--max-range", request.max_range_m, "M", "Returns further than this only clear, metres; 0: by the format")
       ->check(a_number())
       ->capture_default_str();
   option("--disparities", request.disparities_px, "N",
-         "Of a stereo pair, searched, pixels, a multiple of 16; what is nearer has no match. Down to 4 baselines "
-         "unless given")
+         "Disparities searched in a stereo pair, pixels, a multiple of 16; nearer surfaces get no match. Default: "
+         "surfaces down to 4 baselines away")
       ->check(a_whole_number());
-  option("--window", request.window_px, "N", "Edge of the window that is matched, pixels, odd; 5 unless given")
+  option("--window", request.window_px, "N", "Edge of the matching window, pixels, odd; default: 5")
       ->check(a_whole_number());
   option("--up", request.up, "x|-x|y|-y|z|-z",
-         "Axis of the poses that points up; unless given the one that is up in the images");
-  option("--region", request.run.region, "x0,y0,z0,x1,y1,z1", "What to map, metres; all that is seen unless given");
+         "Axis of the poses that points up; default: the one that is up in the images");
+  option("--region", request.run.region, "x0,y0,z0,x1,y1,z1", "Box to map, metres; default: all that is seen");
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   const auto request = std::make_shared<ReplayRequest>();
   add_recording_options(*command, *request);
   CLI::Option* const planner =
-      command->add_option("--planner", request->run.planner, "By name (vantage list), several with commas between")
+      command->add_option("--planner", request->run.planner, "Names (vantage list), separated by commas")
           ->type_name("NAME,...")
           ->capture_default_str()
           ->group("Run");

@@ -60,7 +60,7 @@ void add_report_command(CLI::App& app) {
   command->add_option("RUN.record", request->record, "As a run left it, finished or not")
       ->required()
       ->type_name("RUN.record");
-  command->add_option("--out", request->out, "Folder for report.html and report.json; must be given")
+  command->add_option("--out", request->out, "Folder for report.html and report.json; required")
       ->required()
       ->type_name("DIR");
   command->add_flag("--ply", request->ply, "Also write the last map as a mesh (map.ply) and as points (points.ply)");

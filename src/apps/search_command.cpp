@@ -256,12 +256,12 @@ void add_arm_options(CLI::App& command, SearchRequest& request) {
     return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group("Robot");
   };
   option("--arm", request.arm, "tracked|FILE.urdf", "The arm: the one built in has five joints and reaches 1 m");
-  option("--links", request.links, "BASE,SENSOR", "Its first and last link");
-  option("--base", request.base, "x,y,z[,yaw]", "Where its base stands, metres and degrees");
-  option("--joints", request.joints, "DEG,DEG,...", "Where its joints begin; looking forward unless given");
+  option("--links", request.links, "BASE,SENSOR", "First and last link of the arm");
+  option("--base", request.base, "x,y,z[,yaw]", "Pose of the base of the arm, metres and degrees");
+  option("--joints", request.joints, "DEG,DEG,...", "Joint values at the start; default: the sensor looks forward");
   option("--clear", request.clear_m, "M", "Space around the arm at its start that is declared clear, metres")
       ->check(a_number());
-  option("--sensor", request.run.sensor, "NAME|FILE.json", "By name (vantage list) or from a file");
+  option("--sensor", request.run.sensor, "NAME|FILE.json", "A name (vantage list) or a file");
   option("--noise", request.run.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
 }
 
@@ -272,17 +272,17 @@ void add_search_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("search", "Let a simulated sensor on an arm search the voids of a known world");
   const auto request = std::make_shared<SearchRequest>();
   ExploreRequest& run = request->run;
-  command->add_option("--world", run.world, "By name (vantage list), a mesh, or an OctoMap; must be given")
+  command->add_option("--world", run.world, "A name (vantage list), a mesh, or an OctoMap; required")
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
-  command->add_option("--region", run.region, "What to search, metres; all of the world unless given")
+  command->add_option("--region", run.region, "Box to search, metres; default: the whole world")
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("World");
   add_arm_options(*command, *request);
   command
       ->add_option("--planner", run.planner,
-                   "By name (vantage list), or exhaustive, which weighs thousands of poses for every view")
+                   "A name (vantage list), or exhaustive, which scores thousands of poses for every view")
       ->type_name("NAME")
       ->capture_default_str()
       ->group("Run");

@@ -12,12 +12,11 @@ void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* 
   const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
     return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group(group);
   };
-  option("--sensor", request.sensor, "NAME|FILE.json", "By name (vantage list) or from a file");
+  option("--sensor", request.sensor, "NAME|FILE.json", "A name (vantage list) or a file");
   option("--robot-radius", request.robot_radius_m, "M", "The robot is a sphere about its sensor, metres")
       ->check(a_number());
   option("--noise", request.noise, "X", "Depth noise, as a multiple of a Kinect's")->check(a_number());
-  option("--pose-noise", request.pose_noise, "M,DEG",
-         "Error of the poses it reports, standard deviation in each axis");
+  option("--pose-noise", request.pose_noise, "M,DEG", "Error of the reported poses, standard deviation in each axis");
 }
 
 void add_setting_option(CLI::App& command, ExploreRequest& request, const char* about) {
@@ -37,7 +36,7 @@ void add_run_options(CLI::App& command, ExploreRequest& request) {
   option("--resolution", request.resolution_m, "M", "Edge of a cell of the map, metres")->check(a_number());
   option("--max-views", request.max_views, "N", "Scans after which the run ends")->check(a_whole_number());
   option("--memory-limit", request.memory_limit_mb, "MB",
-         "Largest memory of the map alone; updates beyond it are refused and counted; 0: no limit")
+         "Largest memory of the map; updates beyond it are refused; 0: no limit")
       ->check(a_number());
   option("--seed", request.seed, "N", "Random seed")->check(a_whole_number());
   option("--threads", request.threads, "N", "Number of threads; the result does not depend on it")

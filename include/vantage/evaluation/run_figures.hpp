@@ -33,7 +33,7 @@ struct RunFigures {
   std::optional<double> duration_s;     ///< RunRecord::duration_s
   std::optional<double> covered;        ///< at the end: what was seen of an object, or else the coverage of the world
   std::size_t collisions = 0;           ///< motions in which the body touched a true surface
-  double computing_s = 0.0;             ///< of inserting and planning, seconds
+  double computing_s = 0.0;             ///< time of inserting and planning, seconds
   std::vector<double> plan_ms;          ///< time of each plan, milliseconds
   std::vector<KnownSoFar> after_views;  ///< one per scan
 };

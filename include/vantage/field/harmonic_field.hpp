@@ -34,7 +34,7 @@ struct HarmonicField {
   Potential potential;                      ///< the solution: domain, sinks, source and values
   std::vector<Eigen::Vector3d> streamline;  ///< from the sensor to the chosen sink, metres, world
   std::size_t sweeps = 0;                   ///< sweeps of the solver, or its iterations
-  std::uint64_t cell_updates = 0;           ///< in these sweeps
+  std::uint64_t cell_updates = 0;           ///< updates of cells in these sweeps
   /// Cells without a strictly lower neighbour. 0: descent from every cell ends at a sink.
   std::size_t stuck_cells = 0;
   /// False: the field is not certified (Multigrid), or descent from the source does not reach a sink (GaussSeidel).

@@ -37,7 +37,8 @@ struct OccupancyMapOptions {
   /// next scans. If the disk is full, updates are refused as beyond `max_bytes`, which counts bricks on disk too.
   std::size_t resident_bytes = 0;
   /// The folder for the bricks that are not in memory; needed with `resident_bytes`. Its file has no name and ends
-  /// with the process, however that ends. Copies of the map have files of their own.
+  /// with the process, however that ends. Copies of the map have files of their own. If the disk fails and
+  /// a brick cannot be read back, the kernel ends the process by SIGBUS.
   std::filesystem::path resident_folder = {};
 
   /// Options that reproduce `octomap::OcTree::insertPointCloud` update for update.

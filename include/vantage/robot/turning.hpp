@@ -11,7 +11,7 @@ namespace VANTAGE_EXPORT vantage {
 /// position.
 class Turning {
  public:
-  /// At rest.
+  /// Starts at rest with this orientation (world_from_sensor).
   explicit Turning(const Eigen::Matrix3d& orientation);
 
   /// Turns towards `target` for `step_s` seconds, > 0; the turn brakes in time to come to rest there. The
@@ -21,7 +21,7 @@ class Turning {
 
   /// world_from_sensor.
   [[nodiscard]] Eigen::Matrix3d orientation() const;
-  /// Between the orientation now and another, radians.
+  /// Angle between the current orientation and another, radians.
   [[nodiscard]] double angle_to_rad(const Eigen::Matrix3d& other) const;
   /// The angular velocity now, as a vector in the world, radians per second.
   [[nodiscard]] const Eigen::Vector3d& rate_rad_s() const { return rate_rad_s_; }

@@ -15,8 +15,8 @@ namespace VANTAGE_EXPORT vantage {
 /// takes one calls `validate`.
 struct GroundPlan {
   double pixel_m = 0.05;  ///< edge of a pixel, metres, > 0
-  double x_m = 0.0;       ///< world position of the lower left corner of pixel (0, 0), metres
-  double y_m = 0.0;       ///< the same along y
+  double x_m = 0.0;       ///< world x of the lower left corner of pixel (0, 0), metres
+  double y_m = 0.0;       ///< world y of that corner, metres
   double yaw_rad = 0.0;   ///< angle from the world's x axis to that of the pixels, counter-clockwise
   /// Pixels (x, y, 0) with (0, 0) at the lower left; nonzero is solid. Everything outside is solid.
   VoxelGrid<std::uint8_t> solid = {};

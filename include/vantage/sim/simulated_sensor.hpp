@@ -20,7 +20,7 @@ struct SensorNoise {
   double dropped_share = 0.0;  ///< share of the returns that are lost at random, in [0, 1]
   /// Error of the reported pose: standard deviation of the position along each axis, metres, in [0, 10].
   double position_m = 0.0;
-  double angle_rad = 0.0;  ///< the same of the rotation about each axis, radians, in [0, pi]
+  double angle_rad = 0.0;  ///< standard deviation of the rotation about each axis, radians, in [0, pi]
 };
 
 /// A range sensor in a world of triangles.

@@ -18,9 +18,9 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Options of generated worlds.
 struct WorldOptions {
-  std::uint64_t seed = 1;  ///< of `office` and `maze`
+  std::uint64_t seed = 1;  ///< random seed of `office` and `maze`
   double length_m = 0.0;   ///< extent along x of `office` and `maze`, metres: 0 (default of the world) or in [4, 200]
-  double width_m = 0.0;    ///< the same along y
+  double width_m = 0.0;    ///< extent along y, as `length_m`
 };
 
 /// A known world: its surfaces and the region to explore.
