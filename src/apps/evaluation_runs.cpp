@@ -186,7 +186,7 @@ void make_runs(const EvaluationFolder& folder, const EvaluationStart& at, const 
     observer.on_run(planner, {.figures = run_figures(report_json(record)), .wall_s = wall_s});
   }
   if (wants_bound && !observer.stop()) {
-    observer.on_work("the shortest way that sees all");
+    observer.on_work("the shortest route that sees all");
     folder.keep(at, world->bound());
   }
 }

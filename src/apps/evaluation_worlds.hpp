@@ -23,7 +23,7 @@ struct EvaluationWorld {
   std::string_view name;
   std::string_view in_class;  ///< name of its EvaluationClass
   std::string_view options;   ///< of `vantage explore`, besides those of its class
-  bool bound = false;         ///< whether the shortest way that sees all is found in minutes
+  bool bound = false;         ///< whether the shortest route that sees all is found in minutes
   bool quick = false;         ///< whether --quick takes it
 
   [[nodiscard]] bool needs_data() const { return options.find("$VANTAGE_DATA") != std::string_view::npos; }

@@ -90,7 +90,7 @@ Plan ExhaustivePlanner::plan(const OccupancyMap& map, const Pose& current) {
       return plan;
     }
   }
-  plan.reason = "there is no way to the best poses of the arm";
+  plan.reason = "there is no path to the best poses of the arm";
   return plan;
 }
 

@@ -89,7 +89,7 @@ int explore(const ExploreRequest& request) {
     printer.audit(record);
   }
   if (request.bound && !interruption.asked()) {
-    printer.working("bound", "seeking the shortest way that sees all ...");
+    printer.working("bound", "computing the shortest route that sees all ...");
     const PathBound bound = bound_of(run, carrier, record.views.front().pose, request.threads,
                                      [&interruption] { return interruption.asked(); });
     if (!interruption.asked()) {

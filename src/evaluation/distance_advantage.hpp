@@ -7,7 +7,7 @@
 
 namespace vantage::detail {
 
-/// For each place: the mean way to it from all cells of the set, less the way to it from `start`, metres.
+/// For each place: the mean path length to it from all cells of the set, minus the path length from `start`, metres.
 [[nodiscard]] std::vector<double> distance_advantages(const BlockWays& ways, const VoxelIndex& start,
                                                       const std::vector<VoxelIndex>& places);
 

@@ -20,7 +20,7 @@ struct TreeNode {
   double gain = 0.0;       ///< of this view alone
 };
 
-/// For each node: the sum of gain * exp(-lambda * way) over the nodes from the root to it, the root left out.
+/// For each node: the sum of gain * exp(-lambda * path length) over the nodes from the root to it, the root left out.
 [[nodiscard]] std::vector<double> branch_values(const std::vector<TreeNode>& tree, double lambda_per_m);
 
 /// `rh-nbv`, see make_exploration_peer.

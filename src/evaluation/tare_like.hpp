@@ -7,7 +7,7 @@
 
 namespace vantage::detail {
 
-/// The parts of the frontier beyond the horizon, one for each cube that holds some: that with the shortest way.
+/// The parts of the frontier beyond the horizon, one for each cube that holds some: the part with the shortest route.
 /// `parts` are nearest first; those within `horizon_m` by way are left out.
 [[nodiscard]] std::vector<std::size_t> coarse_places(const std::vector<ViewedSite>& parts, double horizon_m,
                                                      double cube_m, const VoxelFrame& frame);

@@ -34,7 +34,7 @@ class Zones {
   [[nodiscard]] const std::vector<Zone>& all() const { return zones_; }
   /// The zone of a cell, or kNone.
   [[nodiscard]] std::size_t zone_of(const VoxelIndex& cell) const;
-  /// Lengths of the shortest ways from a zone to all others, over the centres of zones that touch; a step to or from
+  /// Lengths of the shortest paths from a zone to all others, over the centres of zones that touch; a step to or from
   /// unknown space counts twice. Infinite if there is no way.
   [[nodiscard]] std::vector<double> lengths_from(std::size_t zone) const;
 

@@ -86,8 +86,8 @@ class RecordedViews {
   std::vector<std::vector<std::uint32_t>> inside_;  // of those known, the ones inside the hull
 };
 
-/// Chooses one of the views `left` (never empty) for the map so far; `last` is the view taken last. Those made
-/// below learn from view to view, so each serves one order.
+/// Chooses one of the views `left` (never empty) for the map so far; `last` is the view taken last. The functions
+/// made below keep state from view to view, so each serves one order.
 using ChooseView =
     std::function<std::size_t(const OccupancyMap& map, std::size_t last, std::span<const std::size_t> left)>;
 

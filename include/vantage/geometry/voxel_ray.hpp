@@ -68,8 +68,9 @@ class VoxelRay {
   /// returned true. The cells are those of the forward walk; a walk from `to` to `from` may visit others.
   template <class Holds>
   [[nodiscard]] bool all_from_the_end(Holds&& holds) const;
-  /// As above, in the order of the walk, and where the segment passes through an edge or a corner (up to 1e-9 of its
-  /// length), for all cells around that point.
+  /// Calls `holds(cell)` for the cells in the order of the walk until a call returns false. Where the segment passes
+  /// through an edge or a corner (within 1e-9 of its length), it calls it for all cells around that point. Returns
+  /// whether all calls returned true.
   template <class Holds>
   [[nodiscard]] bool all_touched(Holds&& holds) const;
 

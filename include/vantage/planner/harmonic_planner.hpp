@@ -24,10 +24,10 @@ struct HarmonicStrategy {
   bool look_early = true;
   /// With look_early: after this length of the path, metres, >= 0, any other frontier in sight is looked at, too.
   double look_spacing_m = 0.5;
-  /// For a sensor that does not see all around: before it moves on, it looks from where it is in the direction of
-  /// highest expected gain, as long as that gain is at least this volume of unknown space, m^3, >= 0. At its goal it
-  /// also takes the direction of highest gain. Infinity: one look per place, at most of the frontier. Ignored for a
-  /// map of one layer of cells.
+  /// For a sensor that does not see all around: before it moves on, it looks from its current place in the direction
+  /// of highest expected gain, as long as that gain is at least this volume of unknown space, m^3, >= 0. At its goal
+  /// it also takes the direction of highest gain. Infinity: one look per place, at most of the frontier. Ignored for
+  /// a map of one layer of cells.
   double look_again_m3 = 0.1;
   /// True: takes the shortest path to the place of the view, not the streamline.
   bool shortest_way = true;

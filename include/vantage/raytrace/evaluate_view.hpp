@@ -14,7 +14,7 @@ namespace VANTAGE_EXPORT vantage {
 
 /// What a view sees of an object box, in distinct cells (Vasquez-Gomez et al. 2013, IV-A).
 struct ViewEvaluation {
-  std::size_t unknown = 0;   ///< visible unknown cells, `un_o(v)`: what the view may learn
+  std::size_t unknown = 0;   ///< visible unknown cells, `un_o(v)`: what the view may make known
   std::size_t occupied = 0;  ///< visible occupied cells, `oc_o(v)`: the overlap with the known surface
 
   /// Whether all counts are equal.

@@ -29,7 +29,7 @@ class Platform {
   /// Distance from the sensor to the end of the body, metres: cells further away must not affect whether a cell is
   /// admitted. Infinite if unknown.
   [[nodiscard]] virtual double reach_m() const { return std::numeric_limits<double>::infinity(); }
-  /// Whether the body may move the sensor straight from one pose to the other: all cells that it touches on the way
+  /// Whether the body may move the sensor straight from one pose to the other: all cells that it touches in between
   /// are clear, or are already touched at `from`. So a body can leave a place that is found too narrow.
   [[nodiscard]] virtual bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const = 0;
   /// The pose at `position_m` (metres, world) whose optical axis is as close to `direction` (world) as the platform

@@ -25,7 +25,7 @@ struct ObjectSceneOptions {
   std::vector<double> radii_m =
       {};  ///< radii of the shells of views, metres; empty: one from which the whole box is in view
   double resolution_m = 0.02;   ///< edge of a cell of the map, metres, > 0
-  double body_radius_m = 0.05;  ///< of the robot, metres: there is room for it on the shells
+  double body_radius_m = 0.05;  ///< radius of the robot, metres: there is room for it on the shells
   /// Where the robot starts in the room of the table, metres; none: on the first shell.
   std::optional<Eigen::Vector3d> start = std::nullopt;
 };

@@ -44,7 +44,7 @@ class FrontierSurveyor {
   /// raster order (FrontierTracker, frontier_cells). Unknown cells that `tried` has given up are no targets.
   [[nodiscard]] FrontierSurvey survey(const OccupancyMap& map, const Pose& current, const TriedViews& tried,
                                       const std::vector<VoxelIndex>& frontier);
-  /// As above, for a sensor that could be brought to each of `places`, at least one, and nowhere else.
+  /// Surveys the map for a sensor that can be brought to each of `places`, at least one, and nowhere else.
   [[nodiscard]] FrontierSurvey survey_from(const std::vector<VoxelIndex>& places, const OccupancyMap& map,
                                            const TriedViews& tried, const std::vector<VoxelIndex>& frontier);
   /// After a survey of this map that found no target: the frontier cells with an unknown neighbour that was looked

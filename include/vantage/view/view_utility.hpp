@@ -20,7 +20,7 @@ struct UtilityFactors {
   std::function<bool(const Pose&)> position = nullptr;
   /// Registration: whether a scan from the pose would overlap enough with known surface (eq. 2).
   std::function<double(const Pose&, const ViewEvaluation&)> registration = nullptr;
-  /// New surface: what the view may learn (eq. 3, 4).
+  /// New surface: how much the view may make known (eq. 3, 4).
   std::function<double(const Pose&, const ViewEvaluation&)> surface = nullptr;
   /// Distance: what it costs to reach the pose (eq. 5).
   std::function<double(const Pose&)> distance = nullptr;

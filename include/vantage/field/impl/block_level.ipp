@@ -62,7 +62,7 @@ struct BlocksAround {
   }
 };
 
-// The same as Smooth below for x = 0 everywhere. It overwrites x without reading it.
+// As Smooth below, for x = 0 everywhere. It overwrites x without reading it.
 template <std::size_t parity>
 struct SmoothFromZero {
   const std::uint32_t* packed;

@@ -77,7 +77,8 @@ class DenseNumbers {
   std::array<std::int32_t, 3> highest_{};
 };
 
-// The same interface for scattered cells: stores one number per void cell. A position is an index in raster order.
+// The interface of DenseNumbers, for scattered cells: stores one number per void cell. A position is an index in
+// raster order.
 class SparseNumbers {
  public:
   explicit SparseNumbers(std::span<const VoxelIndex> cells) : cells_(cells.begin(), cells.end()) {

@@ -92,7 +92,7 @@ VANTAGE_INLINE void RayPlacer::place_ends(const std::array<RayBlock::PerRay<floa
   });
 }
 
-// The same as VoxelFrame::cell_of, without branches and without the clamp, because all ends are addressable.
+// As VoxelFrame::cell_of, without branches and without the clamp, because all ends are addressable.
 VANTAGE_INLINE void RayPlacer::place_cells(RayBlock& block, InstructionSet set) const {
   compiled_for(set, [&] {
     for (std::size_t axis = 0; axis < 3; ++axis) {

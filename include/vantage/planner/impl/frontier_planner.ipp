@@ -41,7 +41,7 @@ VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& c
 
 // Makes the plan a Move to a chosen view, if a path leads to one. Returns what the view hopes for.
 VANTAGE_INLINE std::vector<VoxelIndex> FrontierPlanner::take_a_view(Plan& plan) {
-  plan.reason = "the platform cannot follow the way to any view of a frontier";
+  plan.reason = "the platform cannot follow the path to any view of a frontier";
   while (!situation_.survey().targets.empty()) {
     detail::Stopwatch watch;
     std::optional<ChosenView> choice = choose(plan);

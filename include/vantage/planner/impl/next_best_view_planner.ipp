@@ -160,7 +160,7 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
   const bool cut_off = any_worthwhile || tried_.any_rests();
   plan.outcome = cut_off ? Outcome::Unreachable : Outcome::Explored;
   (cut_off ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
-  plan.reason = cut_off ? "there is no way to any view that sees enough of the object"
+  plan.reason = cut_off ? "there is no path to any view that sees enough of the object"
                         : "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
                               " unknown cells of the object; all together see " + std::to_string(left.size());
   return plan;

@@ -155,7 +155,7 @@ VANTAGE_INLINE Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pos
   } else {
     plan.outcome = Outcome::Unreachable;
     plan.leftover.unreachable = best;
-    plan.reason = "there is no way to any view that would show more of the object";
+    plan.reason = "there is no path to any view that would show more of the object";
   }
   return plan;
 }

@@ -26,7 +26,7 @@ inline const PlannerSetup& valid(const PlannerSetup& setup, const FrontierSurvey
   return setup;
 }
 
-// A goal further away is far: the search for the shortest way would meet most of a large space.
+// A goal further away is far: the search for the shortest route would visit most of a large space.
 inline constexpr double kFarCells = 300.0;
 inline constexpr std::size_t kBlocksAtOnce = 8;
 

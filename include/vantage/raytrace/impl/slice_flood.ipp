@@ -180,7 +180,7 @@ VANTAGE_TARGET_AVX512 inline __m512i without(__m512i cells, __m512i others) {
   return _mm512_maskz_andnot_epi32(kAllRows, others, cells);
 }
 
-// The same as `flood`, with the 16 rows of a window in one register.
+// As `flood`, with the 16 rows of a window in one register.
 VANTAGE_TARGET_AVX512 inline bool flood_avx512(const SliceWindows& windows, const Course& course, WindowRows& rows,
                                                WindowCells& met) {
   const auto all = [](std::uint32_t value) { return static_cast<std::int32_t>(value); };

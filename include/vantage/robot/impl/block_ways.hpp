@@ -25,10 +25,10 @@ namespace vantage::detail {
 ///     | 1 ### 2-|-2       |     a wall one cell thick; diagonally, if both ways around the corner are linked.
 ///     +---------+---------+
 ///
-/// Lengths are between the centroids of pieces, the ends of a way are exact: within a few per cent for ways of many
-/// blocks. Pieces and links are made where a search first reaches them, and kept until the set changes beside them.
-/// So the cost follows the searches and the changes, not the set. The lengths depend only on the set as it is, not on
-/// what was kept.
+/// Lengths are between the centroids of pieces, but exact at both ends of a way. They are off by a few per cent for
+/// ways of many blocks. Pieces and links are made where a search first reaches them, and kept until the set changes
+/// beside them. So the cost follows the searches and the changes, not the set. The lengths depend only on the set as
+/// it is, not on what was kept.
 class BlockWays {
  public:
   /// A piece by its number.
@@ -56,8 +56,8 @@ class BlockWays {
   /// The brick of a piece.
   [[nodiscard]] const VoxelIndex& brick_of(Piece piece) const { return pieces_[piece].brick; }
   /// The length of the way from the centre of `cell` to the centroid of each piece, metres; kNoWay if there is none.
-  /// If cells are wanted, the search ends once `length_to` the nearest `most`
-  /// of them is known, and pieces further away have kNoWay.
+  /// If cells are wanted, the search ends once `length_to` the nearest `most` of them is known; pieces further away
+  /// then have kNoWay.
   [[nodiscard]] std::vector<double> lengths_from(const VoxelIndex& cell, std::span<const VoxelIndex> wanted = {},
                                                  std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// The length of the way to the centre of `cell`, by the result of `lengths_from(from)`.

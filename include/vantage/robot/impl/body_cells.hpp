@@ -20,7 +20,7 @@ namespace vantage::detail {
   return cells > static_cast<double>(map.brick_count() * Brick::kCells);
 }
 
-/// As above, for a disc in one layer of cells, of which each brick has at most 64.
+/// Whether a disc touches more cells than the map has stored in one layer, of which each brick has at most 64 cells.
 [[nodiscard]] inline bool disc_is_larger_than_known(const OccupancyMap& map, double radius_m) {
   const double cells = std::numbers::pi * std::pow(radius_m / map.resolution_m(), 2.0);
   return cells > static_cast<double>(map.brick_count() * 64);
