@@ -47,7 +47,7 @@ Pose pose_from(ByteReader& in) {
   const double length = q.norm();
   constexpr double kOff = 1e-3;
   if (!at.allFinite() || !(std::abs(length - 1.0) < kOff)) {
-    throw std::runtime_error("a pose is none");
+    throw std::runtime_error("a pose is invalid");
   }
   Pose pose = Pose::Identity();
   pose.linear() = q.normalized().toRotationMatrix();

@@ -63,7 +63,7 @@ TEST(CycleCodec, RefusesPosesThatAreNone) {
   for (const double value : {std::nan(""), HUGE_VAL}) {
     RecordedCycle cycle = full_cycle();
     cycle.view.pose.translation().y() = value;
-    EXPECT_EQ(decode_error(encoded_cycle(cycle)), "a pose is none");
+    EXPECT_EQ(decode_error(encoded_cycle(cycle)), "a pose is invalid");
   }
 }
 
