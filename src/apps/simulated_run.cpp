@@ -2,6 +2,8 @@
 #include "apps/simulated_run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -59,6 +61,24 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
   }
 }
 
+// Where the floor is deeper than the robot can drive down, scans show a drop everywhere.
+void check_floor(const ExploreRequest& request, const TriangleScene& scene, const Eigen::Vector3d& start) {
+  const std::optional<HeightBandOptions> band = band_of(request);
+  const auto below_m = scene.hit_distance(start, -Eigen::Vector3d::UnitZ(), std::numeric_limits<double>::infinity());
+  if (!band || !below_m) {
+    return;
+  }
+  const double floor_m = std::round(1e3 * (start.z() - *below_m)) / 1e3;  // a ray is off by some 1e-8
+  const double highest_m = floor_m + band->step_height_m;
+  if (band->min_height_m >= highest_m) {
+    std::ostringstream message;
+    message << "--band " << request.band << ": the floor at the start is at " << floor_m
+            << " m, more than the step of " << band->step_height_m
+            << " m that the robot can drive down: LOW must be less than " << highest_m;
+    throw std::invalid_argument(message.str());
+  }
+}
+
 // Why a robot that drives may fit nowhere: a floor that reaches into the band stands in its way everywhere.
 std::string floor_of_band(const ExploreRequest& request) {
   const std::optional<HeightBandOptions> options = band_of(request);
@@ -69,7 +89,7 @@ std::string floor_of_band(const ExploreRequest& request) {
   std::ostringstream why;
   why << "; it is too large, or the lowest cells of --band " << request.band << " begin at "
       << band.plane().frame().corner_of({0, 0, band.layers().first}).z()
-      << " m, and the floor must lie below that: raise LOW";
+      << " m, and the floor must lie below that and at most " << options->step_height_m << " m below LOW";
   return why.str();
 }
 
@@ -161,6 +181,7 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
     throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region" +
                                 floor_of_band(request));
   }
+  check_floor(request, run.scene(), start->translation());
   return *start;
 }
 

@@ -168,7 +168,8 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused(table + "--robot-radius 9", "fits nowhere");
   expect_refused("--world rooms --sensor stereo --resolution 0.15 --band 0.2,1.4", "begin at 0.15 m, and the floor");
   expect_refused("--world rooms --sensor stereo --band 0.3,1.4 --robot-radius 9", "region; it is too large, or");
-  EXPECT_EQ(refused_, 16);
+  expect_refused("--world rooms --sensor stereo --band 0.44,1.4", "the floor at the start is at 0.19 m");
+  EXPECT_EQ(refused_, 17);
 }
 
 TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {

@@ -27,7 +27,8 @@ enum class FloorRule : std::uint8_t {
 /// its centre lies between `min_height_m` and `max_height_m`. All heights are z coordinates in the world frame.
 struct HeightBandOptions {
   /// Lower end of the band: the lowest z of an obstacle. It must lie above the floor by more than half a cell and the
-  /// noise of the sensor. Otherwise the floor is found in a cell of the band, and is an obstacle.
+  /// noise of the sensor, and by less than `step_height_m`. Otherwise the floor is found in a cell of the band, and
+  /// is an obstacle, or it is a drop.
   double min_height_m = 0.1;
   double max_height_m = 1.0;     ///< upper end of the band, >= min_height_m
   double sensor_height_m = 0.5;  ///< z of the sensor; the plane is the layer of cells that holds it

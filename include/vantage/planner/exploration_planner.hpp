@@ -105,7 +105,8 @@ class ExplorationPlanner {
   /// What the planner remembers of tried views, as text, to be saved beside the map. Empty if it remembers nothing.
   [[nodiscard]] virtual std::string memory() const;
   /// Goes on with a memory that belongs to this map, so that a robot that starts again from its saved map does not
-  /// look again at what it looked at in vain. Throws std::runtime_error if the text is no memory for this map.
+  /// look again at what it looked at in vain. Throws std::runtime_error if the text is no memory, or one of cells
+  /// of another size; nothing else tells to which map a text belongs.
   virtual void recall(const OccupancyMap& map, std::string_view memory);
 };
 

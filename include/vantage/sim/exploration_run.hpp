@@ -97,6 +97,8 @@ class ExplorationRun {
 
   /// The ground truth that the run is measured by.
   [[nodiscard]] const Truth& truth() const { return truth_; }
+  /// The surfaces of the world.
+  [[nodiscard]] const TriangleScene& scene() const { return scene_; }
   /// The map of the last run; with a band too, the map of space.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   /// The map that the planner plans in: the plane of the band, or else `map()`.

@@ -43,13 +43,31 @@ TEST(Orthonormalised, FindsTheNearestRotationOfOneWrittenWithFewDigits) {
   EXPECT_GE(mended, 90);
 }
 
+TEST(Orthonormalised, TakesEveryRotationWithEntriesThatAreOffByAThousandth) {
+  std::mt19937 engine(5);
+  std::normal_distribution<double> draw;
+  std::uniform_real_distribution<double> off(-1e-3, 1e-3);
+  for (int i = 0; i < 1000; ++i) {
+    const Pose exact(Eigen::Quaterniond(draw(engine), draw(engine), draw(engine), draw(engine)).normalized());
+    Pose pose = exact;
+    if (i % 2 == 0) {
+      pose.linear() = (1e3 * pose.linear()).array().round() / 1e3;
+    } else {
+      pose.linear() += Eigen::Matrix3d::NullaryExpr([&] { return i % 4 == 1 ? off(engine) : 1e-3; });
+    }
+    const Pose rigid = orthonormalised(pose);
+    EXPECT_TRUE(is_rigid(rigid));
+    EXPECT_LT((rigid.linear() - exact.linear()).norm(), 6.1e-3);
+  }
+}
+
 TEST(Orthonormalised, RefusesWhatIsNoRigidTransform) {
   const auto refused = [](auto&& spoil) {
     Pose pose = pose_looking({1.0, 2.0, 3.0}, 0.7, 0.2);
     spoil(pose);
     EXPECT_THROW((void)orthonormalised(pose), std::invalid_argument);
   };
-  refused([](Pose& pose) { pose.linear() *= 1.01; });
+  refused([](Pose& pose) { pose.linear() *= 1.003; });
   refused([](Pose& pose) { pose.linear().col(0) *= -1.0; });
   refused([](Pose& pose) { pose.linear().setZero(); });
   refused([](Pose& pose) { pose.linear()(1, 1) = std::numeric_limits<double>::quiet_NaN(); });

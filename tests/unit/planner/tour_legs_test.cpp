@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <vantage/planner/situation.hpp>
+#include <vantage/planner/tour_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vector>
 

@@ -44,13 +44,16 @@ VANTAGE_INLINE Pose orthonormalised(const Pose& pose) {
   if (is_rigid(pose)) {
     return pose;
   }
-  if (!is_rigid(pose, 1e-3)) {
-    throw std::invalid_argument("the pose is not a rigid transform");
+  if (pose.matrix().allFinite()) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Pose rigid = pose;
+    rigid.linear() = parts.matrixU() * parts.matrixV().transpose();
+    constexpr double kMostOff = 3.0 * 1e-3;  // the norm of nine entries that are off by 1e-3 each
+    if (rigid.linear().determinant() > 0.0 && (rigid.linear() - pose.linear()).norm() <= kMostOff) {
+      return rigid;
+    }
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Pose rigid = pose;
-  rigid.linear() = parts.matrixU() * parts.matrixV().transpose();
-  return rigid;
+  throw std::invalid_argument("the pose is not a rigid transform");
 }
 
 }  // namespace vantage
