@@ -116,8 +116,10 @@ class TriedViews {
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
   /// Whether the evidence suffices to end a run, with lines that are still clear in this map.
   [[nodiscard]] bool looked_closely(const OccupancyMap& map, const VoxelIndex& unknown) const;
-  /// Whether a clear look at it was taken from this place or one that touches it, or it was missed from this place.
-  [[nodiscard]] bool looked_from_beside(const VoxelIndex& unknown, const VoxelIndex& place) const;
+  /// Whether a look at it along a line that is still clear was taken from this place or one that touches it, or it
+  /// was missed from this place.
+  [[nodiscard]] bool looked_from_beside(const OccupancyMap& map, const VoxelIndex& unknown,
+                                        const VoxelIndex& place) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.
@@ -149,7 +151,7 @@ class TriedViews {
   // Evidence about one unknown cell.
   struct Looks {
     std::vector<VoxelIndex> in_vain;  // places that differ
-    std::vector<VoxelIndex> clear;    // places of looks along clear lines; none touches another
+    std::vector<VoxelIndex> clear;    // places of looks along lines that were clear; none touches another
     std::vector<VoxelIndex> missed;   // goals from which the cell was sought without new evidence, or far from them
     std::vector<VoxelIndex> hoped;    // goals from which a view hoped for the cell, but resolved nothing it hoped for
     int known_neighbours = 0;         // at the latest look
@@ -205,7 +207,8 @@ class TriedViews {
   Place& place_of(const VoxelIndex& cell);
   void remember_scan(const Pose& pose);
   [[nodiscard]] bool arrived(const Pose& current) const;
-  bool add_clear_look(Looks& looks, const VoxelIndex& place) const;
+  bool add_clear_look(const OccupancyMap& map, Looks& looks, const VoxelIndex& unknown,
+                      const VoxelIndex& place) const;
   [[nodiscard]] bool was_in_view(const OccupancyMap& map, const Pose& pose, const VoxelIndex& unknown) const;
 
   RangeSensor sensor_;

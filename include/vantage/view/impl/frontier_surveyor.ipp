@@ -85,10 +85,8 @@ inline void take_any_seen(ViewpointSearch& search, std::vector<VoxelIndex>& hidd
   if (survey.targets.empty()) {
     search.limit_to(kMostOperationsForParts);
     take_seen(hidden, survey.targets, try_parts);
-    survey.exhausted = survey.exhausted && !search.used_up();
   }
   const auto past = survey.targets.empty() ? one_seen_past_another(search, hidden) : std::nullopt;
-  survey.exhausted = survey.exhausted && !search.used_up();
   if (past) {
     survey.targets.push_back(*past);
     std::erase(hidden, past->frontier);

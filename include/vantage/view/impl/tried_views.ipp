@@ -55,6 +55,10 @@ inline bool touch(const VoxelIndex& a, const VoxelIndex& b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
 }
 
+inline bool is_clear_from(const OccupancyMap& map, const VoxelIndex& place, const VoxelIndex& unknown) {
+  return is_clear_line(map, map.frame().centre_of(place), unknown);
+}
+
 // Whether there is more than jitter between two poses.
 inline bool is_more_than_jitter(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm() > kNearer || angle_rad(a, b) > kNearer;
@@ -208,7 +212,7 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
       const bool looked = was_in_view(map, current, cell);
       const bool differs = looked && detail::add_if_it_differs(cell, here, looks.in_vain);
       const bool is_clear_look =
-          looked && detail::is_clear_line(map, current.translation(), cell) && add_clear_look(looks, here);
+          looked && detail::is_clear_line(map, current.translation(), cell) && add_clear_look(map, looks, cell, here);
       // The robot comes no nearer to the goal than this.
       if (!(differs || is_clear_look) || detail::differ(cell, here, goal)) {
         std::vector<VoxelIndex>& goals = looks.*unseen;
@@ -245,8 +249,18 @@ VANTAGE_INLINE bool TriedViews::was_in_view(const OccupancyMap& map, const Pose&
              });
 }
 
-// Returns whether the look is one from a new place.
-VANTAGE_INLINE bool TriedViews::add_clear_look(Looks& looks, const VoxelIndex& place) const {
+// Returns whether the look is one from a new place. Looks from beside it whose lines are clear no more count as
+// missed: so a cell that changes back and forth does not ask for looks without end.
+VANTAGE_INLINE bool TriedViews::add_clear_look(const OccupancyMap& map, Looks& looks, const VoxelIndex& unknown,
+                                               const VoxelIndex& place) const {
+  std::erase_if(looks.clear, [&](const VoxelIndex& other) {
+    const bool is_replaced =
+        other != place && detail::touch(place, other) && !detail::is_clear_from(map, other, unknown);
+    if (is_replaced && std::find(looks.missed.begin(), looks.missed.end(), other) == looks.missed.end()) {
+      looks.missed.push_back(other);
+    }
+    return is_replaced;
+  });
   const bool is_new = looks.clear.size() < 4 * static_cast<std::size_t>(options_.patience) &&
                       std::none_of(looks.clear.begin(), looks.clear.end(),
                                    [&](const VoxelIndex& other) { return detail::touch(place, other); });
@@ -316,7 +330,7 @@ VANTAGE_INLINE TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& ma
 VANTAGE_INLINE void TriedViews::in_vain(const OccupancyMap& map, const VoxelIndex& unknown, const VoxelIndex& place) {
   Looks& looks = new_look_at(map, unknown);
   detail::add_if_it_differs(unknown, place, looks.in_vain);
-  add_clear_look(looks, place);
+  add_clear_look(map, looks, unknown, place);
 }
 
 VANTAGE_INLINE const TriedViews::Looks* TriedViews::looks_at(const VoxelIndex& unknown) const {
@@ -353,18 +367,19 @@ VANTAGE_INLINE bool TriedViews::looked_closely(const OccupancyMap& map, const Vo
   if (looks == nullptr) {
     return false;
   }
-  const auto is_still_clear = [&](const VoxelIndex& place) {
-    return detail::is_clear_line(map, map.frame().centre_of(place), unknown);
-  };
+  const auto is_still_clear = [&](const VoxelIndex& place) { return detail::is_clear_from(map, place, unknown); };
   const auto most = 4 * static_cast<std::size_t>(options_.patience);
   return looks->in_vain.size() + looks->missed.size() >= most || looks->clear.size() >= most ||
          std::count_if(looks->clear.begin(), looks->clear.end(), is_still_clear) >= options_.patience;
 }
 
-VANTAGE_INLINE bool TriedViews::looked_from_beside(const VoxelIndex& unknown, const VoxelIndex& place) const {
+VANTAGE_INLINE bool TriedViews::looked_from_beside(const OccupancyMap& map, const VoxelIndex& unknown,
+                                                   const VoxelIndex& place) const {
   const Looks* looks = looks_at(unknown);
-  return looks != nullptr && (std::any_of(looks->clear.begin(), looks->clear.end(),
-                                          [&](const VoxelIndex& other) { return detail::touch(place, other); }) ||
+  const auto is_beside = [&](const VoxelIndex& other) {
+    return detail::touch(place, other) && detail::is_clear_from(map, other, unknown);
+  };
+  return looks != nullptr && (std::any_of(looks->clear.begin(), looks->clear.end(), is_beside) ||
                               std::find(looks->missed.begin(), looks->missed.end(), place) != looks->missed.end());
 }
 

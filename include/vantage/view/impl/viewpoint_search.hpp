@@ -264,7 +264,8 @@ class ViewpointSearch {
   }
   bool can_face(const VoxelIndex& viewpoint, const VoxelIndex& unknown) const {
     const Eigen::Vector3d from = frame_.centre_of(viewpoint);
-    return !(closely_ ? tried_.looked_from_beside(unknown, viewpoint) : tried_.tried_from(unknown, viewpoint)) &&
+    return !(closely_ ? tried_.looked_from_beside(map_, unknown, viewpoint)
+                      : tried_.tried_from(unknown, viewpoint)) &&
            detail::can_face(platform_, sensor_, from, frame_.centre_of(unknown) - from);
   }
 
