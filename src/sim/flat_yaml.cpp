@@ -47,7 +47,9 @@ class FlatYamlReader {
     }
     std::ifstream in(path_);
     for (std::string line; std::getline(in, line);) {
-      ++line_;
+      if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) {
+        line.erase(0, 3);  // the mark that some editors put before UTF-8
+      }
       take(without_comment(line));
     }
     if (in.bad() || line_ == 0) {

@@ -8,10 +8,12 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -145,6 +147,41 @@ std::string bytes_of(const std::filesystem::path& path) {
   return bytes;
 }
 
+// The text of an attribute of an XML tag, without quotes.
+std::optional<std::string_view> attribute_in(std::string_view tag, std::string_view name) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
+    const std::size_t equals = tag.find_first_not_of(kBlank, at + name.size());
+    if (equals == std::string_view::npos || tag[equals] != '=' ||
+        kBlank.find(tag[at - 1]) == std::string_view::npos) {
+      continue;
+    }
+    const std::size_t quote = tag.find_first_of("\"'", equals);
+    const std::size_t end = quote == std::string_view::npos ? quote : tag.find(tag[quote], quote + 1);
+    return end == std::string_view::npos ? std::nullopt : std::optional(tag.substr(quote + 1, end - quote - 1));
+  }
+  return std::nullopt;
+}
+
+// Assimp reads any text as some number, and takes that for the unit.
+void check_collada_unit(const std::filesystem::path& path) {
+  const std::string text = bytes_of(path);
+  const std::size_t unit = text.find("<unit ");
+  const std::string_view tag = unit == std::string::npos
+                                   ? std::string_view()
+                                   : std::string_view(text).substr(unit, text.find('>', unit) - unit);
+  const std::optional<std::string_view> value = attribute_in(tag, "meter");
+  if (!value) {
+    return;
+  }
+  double metres = 0.0;
+  const char* const last = value->data() + value->size();
+  const auto [end, error] = std::from_chars(value->data(), last, metres);
+  if (error != std::errc{} || end != last || !std::isfinite(metres) || metres <= 0.0) {
+    refuse(path, "its unit is meter=\"" + std::string(*value) + "\", must be a number > 0");
+  }
+}
+
 // Assimp trusts the counts and indices of a PLY file, so PLY files are checked first.
 const aiScene* parsed(const std::filesystem::path& path, Assimp::Importer& importer) {
   std::array<char, 3> start{};
@@ -190,6 +227,9 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
   }
   if (!std::filesystem::is_regular_file(path, error)) {
     refuse(path, "is not a file");
+  }
+  if (ending_of(path) == ".dae") {
+    check_collada_unit(path);
   }
   Assimp::Importer importer;
   // Assimp obeys the axis of a COLLADA file: the y axis of its scene is up.

@@ -87,7 +87,7 @@ TEST_F(Nav2MapFile, EveryWayToWriteItSaysTheSame) {
     windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   }
   std::size_t ways = 0;
-  for (const std::string& yaml : {kSaved, block, flow, windows}) {
+  for (const std::string& yaml : {kSaved, "\xEF\xBB\xBF" + kSaved, block, flow, windows}) {
     for (const std::string& image : {kThreeByTwo, plain, deep}) {
       ASSERT_EQ(refusal(yaml, image), "") << yaml;
       const GroundPlan plan = read_nav2_map(folder_ / "room.yaml");
@@ -99,7 +99,7 @@ TEST_F(Nav2MapFile, EveryWayToWriteItSaysTheSame) {
       ++ways;
     }
   }
-  EXPECT_EQ(ways, 12U);
+  EXPECT_EQ(ways, 15U);
 }
 
 TEST_F(Nav2MapFile, NegateMakesBrightPixelsOccupied) {

@@ -107,6 +107,11 @@ TEST_F(MeshFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(complaint([&] { (void)read_mesh_file(nan); }), nan.string() + ": vertex 1 is not finite");
   const auto garbage = write("garbage.ply", "this is no mesh");
   EXPECT_NE(complaint([&] { (void)read_mesh_file(garbage); }).find("cannot be read as a mesh"), std::string::npos);
+  for (const char* unit : {"abc", "-1", "0", "1 m", ""}) {
+    const auto dae = write("unit.dae", collada_triangle("Z_UP", unit));
+    EXPECT_EQ(complaint([&] { (void)read_mesh_file(dae); }),
+              dae.string() + ": its unit is meter=\"" + unit + "\", must be a number > 0");
+  }
   EXPECT_EQ(complaint([&] { (void)read_mesh_file(nan, {.scale = 0.0}); }),
             "MeshFileOptions::scale is 0, must be > 0");
 }
