@@ -2,6 +2,7 @@
 #include "apps/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -44,6 +45,29 @@ void add_map_command(CLI::App& app, int& exit_code) {
   });
 }
 
+// Refuses what a command was given and does not take.
+void check_extras(const CLI::App& command, const std::string& name) {
+  const std::vector<std::string> strangers = command.remaining();
+  const auto option =
+      std::find_if(strangers.begin(), strangers.end(), [](const std::string& word) { return word.front() == '-'; });
+  if (!strangers.empty()) {
+    throw std::invalid_argument(
+        name + (option != strangers.end() ? " has no option " + *option : " takes no '" + strangers.front() + "'") +
+        "; what it takes: vantage " + name + " --help");
+  }
+  for (const CLI::App* part : command.get_subcommands()) {
+    check_extras(*part, name + ' ' + part->get_name());
+  }
+}
+
+// Lets check_extras word the error.
+void allow_extras(CLI::App& command) {
+  command.allow_extras();
+  for (CLI::App* part : command.get_subcommands({})) {
+    allow_extras(*part);
+  }
+}
+
 // Called before any command runs.
 void check_command(const CLI::App& app) {
   const std::vector<std::string> strangers = app.remaining();
@@ -58,6 +82,9 @@ void check_command(const CLI::App& app) {
     throw std::invalid_argument(
         (strangers.empty() ? "no command was given" : "there is no command '" + strangers.front() + "'") +
         "; there are: " + names);
+  }
+  for (const CLI::App* command : app.get_subcommands()) {
+    check_extras(*command, command->get_name());
   }
 }
 
@@ -96,7 +123,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   for (CLI::App* command : app.get_subcommands({})) {
     command->group("Commands");
   }
-  app.allow_extras();
+  allow_extras(app);
   app.parse_complete_callback([&app] { check_command(app); });
   app.footer(
       "What a command takes: vantage COMMAND --help\n"

@@ -186,8 +186,8 @@ void print_views_needed(std::ostream& out, const ViewsNeeded& needed, double cel
       "%.0f if every view made one cell more known all around (%.2f, %.2f)\n"
       "  left         dm^3 after each view of the greedy choice:",
       needed.poses_now, needed.to_see, litres_of(needed.to_see, cell_m), needed.poses, needed.left.size(),
-      std::ceil(needed.at_least - 1e-9), std::ceil(needed.at_least_if_more_is_seen - 1e-9), needed.at_least,
-      needed.at_least_if_more_is_seen);
+      std::ceil(needed.at_least - 1e-9) + 0.0, std::ceil(needed.at_least_if_more_is_seen - 1e-9) + 0.0,
+      needed.at_least, needed.at_least_if_more_is_seen);
   out << line;
   for (const std::size_t cells : needed.left) {
     std::snprintf(line, sizeof line, " %.2f", litres_of(cells, cell_m));

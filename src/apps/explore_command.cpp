@@ -32,18 +32,6 @@ AuditRecord audit_of(const ExplorationRun& run, const SensorCarrier& carrier, co
           .observable_left = found.observable_left};
 }
 
-void tell_doubts(const ExploreRequest& request, const Box& bounds) {
-  if (request.quiet || !is_world_file(request, World::FileKind::Mesh)) {
-    return;
-  }
-  if (request.scale.value_or(1.0) == 1.0) {
-    std::cerr << doubt_about_world_unit(request.world, bounds);
-  }
-  if (request.up.empty()) {
-    std::cerr << doubt_about_axis(request.world, bounds);
-  }
-}
-
 // NOLINTNEXTLINE(readability-function-size): a run from its options to its files
 int explore(const ExploreRequest& request) {
   Interruption interruption;
@@ -52,7 +40,9 @@ int explore(const ExploreRequest& request) {
   const SensorCarrier carrier = carrier_of(request);
   const auto planner = planner_of(request, carrier);
   const auto [world, region] = explored_world(request);
-  tell_doubts(request, world.mesh.bounds());
+  if (!request.quiet) {
+    std::cerr << doubts_about_world(request, world.mesh.bounds());
+  }
 
   ExplorationRunOptions options = run_options_of(request, carrier, region);
   options.stop = [&interruption] { return interruption.asked(); };

@@ -18,14 +18,7 @@ void add_world_options(CLI::App& command, ExploreRequest& request) {
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
-  command.add_option("--up", request.up, "Axis of a mesh file that points up; default: from the file, otherwise z")
-      ->type_name("y|z")
-      ->group("World");
-  command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
-      ->type_name("S")
-      ->check(a_number())
-      ->default_str("1")
-      ->group("World");
+  add_mesh_options(command, request, "World");
   command.add_option("--size", request.size, "Extent of a generated world (office, maze), metres")
       ->type_name("LENGTH,WIDTH")
       ->group("World");
@@ -90,10 +83,7 @@ void add_explore_options(CLI::App& command, ExploreRequest& request) {
       .add_flag("--bound", request.bound,
                 "At the end, find the shortest route with full knowledge of the world; slow")
       ->group("Run");
-  command
-      .add_flag("--no-coverage", request.no_coverage,
-                "Do not measure coverage, so that the first view need not wait for it")
-      ->group("Run");
+  add_coverage_option(command, request);
   command
       .add_flag("--audit", request.audit,
                 "At the end, check by brute force that nothing is left that could be observed; slow")

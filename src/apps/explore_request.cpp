@@ -90,15 +90,27 @@ SensorNoise noise_of(const ExploreRequest& request) {
   return noise;
 }
 
-void check_cell_count(const Box& region, double resolution_m) {
+void check_cells(const std::string& source, bool is_mesh, const Box& region, double resolution_m) {
   constexpr double kMostCells = 1e9;
-  const double cells = (region.extent() / resolution_m).prod();
-  if (!(cells <= kMostCells)) {
-    std::ostringstream message;
-    message << "--resolution " << resolution_m << " makes " << cells << " cells of the region, must be at most "
-            << kMostCells << "; a mesh whose unit is not the metre needs --scale";
-    throw std::invalid_argument(message.str());
+  const VoxelFrame frame{resolution_m};
+  const Eigen::Vector3d extent = region.extent();
+  const double cells = (extent / resolution_m).prod();
+  std::ostringstream what;
+  if (!frame.addressable(region.min) || !frame.addressable(region.max)) {
+    what << "the region begins at " << region.min.x() << ',' << region.min.y() << ',' << region.min.z()
+         << " m, further from 0 than cells of --resolution " << resolution_m
+         << " reach: move it, or take larger cells";
+  } else if (frame.cells_centred_in(region).empty()) {
+    what << "the region of " << extent.x() << " x " << extent.y() << " x " << extent.z() << " m holds no cell of "
+         << resolution_m << " m: take smaller cells, --resolution";
+  } else if (!(cells <= kMostCells)) {
+    what << "--resolution " << resolution_m << " makes " << cells << " cells of the region, must be at most "
+         << kMostCells << ": take larger cells, or a smaller region";
+  } else {
+    return;
   }
+  throw std::invalid_argument(source + ": " + what.str() +
+                              (is_mesh ? "; a mesh whose unit is not the metre needs --scale" : ""));
 }
 
 MeshFileOptions mesh_options_of(const ExploreRequest& request) {
@@ -153,11 +165,8 @@ World world_of(const ExploreRequest& request) {
     return World::from_file(request.world, mesh_options_of(request));
   }
   const WorldOptions options = world_options_of(request);
-  try {
-    return World::by_name(request.world, options);
-  } catch (const std::invalid_argument& error) {  // about its size; the name is known to exist
-    throw std::invalid_argument("--size '" + request.size + "': " + error.what());
-  }
+  // The name is known to exist, so an error is about the size.
+  return naming("--size '" + request.size + "'", [&] { return World::by_name(request.world, options); });
 }
 
 bool is_world_file(const ExploreRequest& request, World::FileKind kind) {

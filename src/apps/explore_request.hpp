@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
@@ -56,6 +57,16 @@ struct ExploreRequest {
   std::vector<std::string> settings;
 };
 
+/// Calls `act`; the message of a std::invalid_argument from it gets the option in front.
+template <class Act>
+auto naming(const std::string& option, const Act& act) {
+  try {
+    return act();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + ": " + error.what());
+  }
+}
+
 // What the options mean. Each function throws std::invalid_argument or std::runtime_error with the option or file
 // at fault.
 [[nodiscard]] World world_of(const ExploreRequest& request);
@@ -83,7 +94,8 @@ struct ExploreRequest {
 [[nodiscard]] Box box_of(const char* flag, const std::string& text);
 /// Checks numbers and ranges that need no file.
 void check_numbers(const ExploreRequest& request);
-/// Checks that a region has no more cells than fit into memory. The ground truth takes at least a byte per cell.
-void check_cell_count(const Box& region, double resolution_m);
+/// Checks that a region holds a cell, can be addressed, and has no more cells than fit into memory: the ground truth
+/// takes at least a byte per cell. `source` is what gave the region, for example "--world rooms".
+void check_cells(const std::string& source, bool is_mesh, const Box& region, double resolution_m);
 
 }  // namespace vantage::apps

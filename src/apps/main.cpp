@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 #include "apps/commands.hpp"
 
@@ -16,6 +17,18 @@ void check_stdout() {
   if (!std::cout) {
     throw std::runtime_error("stdout: not all could be written to it");
   }
+}
+
+// CLI11's words for an option that is given more than once are replaced.
+std::string message_of(const CLI::ArgumentMismatch& error) {
+  const std::string message = error.what();
+  const std::string repeated = ": At Most 1 required but received ";
+  const std::size_t at = message.find(repeated);
+  if (at == std::string::npos) {
+    return message;
+  }
+  const std::string times = message.substr(at + repeated.size());
+  return message.substr(0, at) + " is given " + (times == "2" ? "twice" : times + " times") + ", must be given once";
 }
 
 }  // namespace
@@ -33,6 +46,9 @@ int main(int argc, char** argv) {
     }
     check_stdout();
     return exit_code;
+  } catch (const CLI::ArgumentMismatch& error) {
+    std::cerr << "vantage: " << message_of(error) << '\n';
+    return vantage::apps::kBadInput;
   } catch (const std::bad_alloc&) {
     std::cerr << "vantage: there is not enough memory for this\n";
     return vantage::apps::kBadInput;

@@ -5,8 +5,8 @@
 
 namespace vantage::apps {
 
-/// Shows the progress of the search for observable cells, which precedes the first view: one line on stderr, if
-/// that is a terminal, which is removed at the end.
+/// Shows the progress of the search for observable cells, which precedes the first view, on stderr: on a terminal one
+/// line, which is removed at the end; otherwise a line every ten seconds.
 class ObservableProgress {
  public:
   explicit ObservableProgress(bool quiet);
@@ -17,6 +17,7 @@ class ObservableProgress {
   [[nodiscard]] double seconds() const { return seconds_; }
 
  private:
+  bool quiet_;
   bool terminal_;
   std::chrono::steady_clock::time_point start_;
   double seconds_ = 0.0;

@@ -16,6 +16,7 @@
 #include "apps/help_format.hpp"
 #include "apps/mesh_doubts.hpp"
 #include "apps/object_run.hpp"
+#include "apps/observable_progress.hpp"
 #include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
@@ -50,7 +51,8 @@ struct ReconstructRequest {
 };
 
 constexpr std::uint64_t kMostCandidates = 1'000'000;
-constexpr double kMostBodyCells = 100.0;  // radius; the time of a plan grows with its cube
+constexpr std::uint64_t kMostAimed = 10'000;  // scored after every scan, about a millisecond each
+constexpr double kMostBodyCells = 100.0;      // radius; the time of a plan grows with its cube
 
 // The object at its place: as given, in the middle of the table, or where its file has it.
 TriangleMesh placed_object(const ReconstructRequest& request) {
@@ -94,6 +96,9 @@ std::vector<double> radii_of(const ReconstructRequest& request) {
 // Reads rows of x y z, metres.
 std::vector<Eigen::Vector3d> points_in(const std::string& path) {
   std::ifstream file(path);
+  if (!file || !std::filesystem::is_regular_file(path)) {
+    throw std::runtime_error("--reference " + path + ": is no file that can be read");
+  }
   std::vector<double> numbers;
   for (double number = 0.0; file >> number;) {
     numbers.push_back(number);
@@ -103,7 +108,7 @@ std::vector<Eigen::Vector3d> points_in(const std::string& path) {
     points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
   }
   if (points.empty() || !file.eof() || numbers.size() % 3 != 0) {
-    throw std::runtime_error(path + ": is not a list of points, x y z in every line");
+    throw std::runtime_error("--reference " + path + ": is not a list of points, x y z in every line");
   }
   return points;
 }
@@ -139,7 +144,7 @@ int reconstruct(const ReconstructRequest& request) {
   check_targets(shared.out, shared.json);
   detail::require_option(request.candidates > 0 && request.candidates <= kMostCandidates, "--candidates",
                          request.candidates, "in [1, 1000000]");
-  detail::require_option(request.aimed <= kMostCandidates, "--aimed", request.aimed, "at most 1000000");
+  detail::require_option(request.aimed <= kMostAimed, "--aimed", request.aimed, "at most 10000");
   const std::vector<double> radii_m = radii_of(request);
   detail::require_option(request.max_path_m.value_or(1.0) > 0.0, "--max-path", request.max_path_m.value_or(1.0),
                          "> 0");
@@ -173,7 +178,10 @@ int reconstruct(const ReconstructRequest& request) {
     }
   }
   const ObjectScene scene = object_scene(object, sensor, placing);
-  check_cell_count(scene.world.region, shared.resolution_m);
+  if (scene.world.region.empty()) {
+    throw std::invalid_argument("--place " + request.place + " puts the object outside of the room of --table");
+  }
+  check_cells("--object " + request.object, true, scene.world.region, shared.resolution_m);
   const auto platform = std::make_shared<const FreeFlyer>(
       FreeFlyerOptions{.radius_m = shared.robot_radius_m, .yaw_only = shared.yaw_only});
 
@@ -182,6 +190,8 @@ int reconstruct(const ReconstructRequest& request) {
   options.max_path_m = request.max_path_m;
   options.threads = shared.threads;
   options.stop = [&interruption] { return interruption.asked(); };
+  ObservableProgress observable(shared.quiet);
+  options.on_observable_share = [&](double share) { observable.tell(share); };
   if (request.reference.empty()) {
     for (const SurfaceSample& sample : options.object_surface) {
       options.surface_samples.push_back(sample.point);
@@ -196,6 +206,9 @@ int reconstruct(const ReconstructRequest& request) {
   const ObjectRunPlanner made = object_run_planner(
       shared, {.sensor = sensor, .platform = platform, .seed = shared.seed, .threads = shared.threads}, scene, run,
       options.object_surface, settings_for(request, scene));
+  if (typed) {
+    naming("--start " + shared.start, [&] { run.check_start(*typed); });
+  }
   std::optional<Pose> start = typed ? typed : made.first_view;
   start = start ? start : draw_first_view(scene, run.truth(), *platform, shared.seed);
 
@@ -213,6 +226,9 @@ int reconstruct(const ReconstructRequest& request) {
   });
   record.command = "reconstruct";
   printer.summary(record);
+  if (record.coverage) {
+    printer.observable(observable.seconds());
+  }
   recording.finish(record);
   progress << recording.cost(record);
   write_outputs(shared.out, shared.json, record, run.map(), sensor, {}, progress, recording.file());
@@ -224,8 +240,7 @@ void add_object_options(CLI::App& command, ReconstructRequest& request) {
     return command.add_option(name, value, about)->type_name(type)->group("Object");
   };
   option("--object", request.object, "FILE", "Mesh of the object; required")->required();
-  option("--up", request.run.up, "y|z", "Axis of the file that points up; default: from the file, otherwise z");
-  option("--scale", request.run.scale, "S", "Metres per unit of the file")->check(a_number())->default_str("1");
+  add_mesh_options(command, request.run, "Object");
   option("--place", request.place, "scale,x,y,z,qx,qy,qz,qw",
          "Pose of the object; default: the middle of the table, or as in the file");
   command
@@ -274,6 +289,7 @@ void add_reconstruct_command(CLI::App& app, int& exit_code) {
   add_object_options(*command, *request);
   add_view_options(*command, *request);
   add_setting_option(*command, request->run, "A setting of the planner next-best-view; a wrong key lists them");
+  add_coverage_option(*command, request->run);
   add_run_options(*command, request->run);
   command
       ->add_option("--max-path", request->max_path_m,

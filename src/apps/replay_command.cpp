@@ -54,6 +54,10 @@ std::string doubt_about_up(const ReplayRequest& request, const Recording& record
                    recording.up_of_format() + '\n';
 }
 
+std::string doubt_about_camera(const Recording& recording) {
+  return recording.assumed().empty() ? "" : recording.assumed() + "; if they are others, say so: --intrinsics\n";
+}
+
 void print_summary(std::ostream& out, const ReplayRecord& record, const Recording& recording, bool after_bar) {
   char text[128];
   std::snprintf(text, sizeof text, "%s\n  %-12s %zu, over a path of %.1f m\n", after_bar ? "\n" : "", "frames",
@@ -98,7 +102,7 @@ int replay(const ReplayRequest& request) {
   std::ostream& progress = told.stream();
   progress << request.dataset << ": " << recording.frames().size() << " frames, cells of " << request.run.resolution_m
            << " m, range " << recording.camera().trusted_range_m() << " m\n"
-           << doubt_about_up(request, recording);
+           << doubt_about_up(request, recording) << doubt_about_camera(recording);
   if (request.select) {
     try {
       return select_views(request, recording, told);
@@ -131,6 +135,9 @@ int replay(const ReplayRequest& request) {
                        write_frame_sheet(request.run.out, so_far, recording, reading, known);
                      }
                    });
+  if (map.bounds().empty() && !request.run.region.empty() && record.run.outcome != RunOutcome::Interrupted) {
+    record.run.reason = "--region " + request.run.region + " holds nothing that a frame shows";
+  }
   record.run.command = "replay";
   record.run.world = request.dataset;
   record.run.planner = first->name();

@@ -44,6 +44,9 @@ void check_numbers(const ReplayRequest& request) {
   if (request.select && request.run.memory_limit_mb > 0.0) {
     throw std::invalid_argument("--memory-limit does not go with --select, which compares all that the views show");
   }
+  if (const std::optional<Box> object = object_of(request)) {
+    check_cells("--object-box " + request.object_box, false, *object, request.run.resolution_m);
+  }
   detail::require_option(request.every > 0, "--every", request.every, "> 0");
 }
 

@@ -21,11 +21,13 @@
 #include "apps/exhaustive_search.hpp"
 #include "apps/explore_request.hpp"
 #include "apps/help_format.hpp"
+#include "apps/mesh_doubts.hpp"
 #include "apps/progress_stream.hpp"
 #include "apps/run_files.hpp"
 #include "apps/run_printer.hpp"
 #include "apps/run_recording.hpp"
 #include "apps/shared_options.hpp"
+#include "apps/simulated_run.hpp"
 #include "apps/tracked_arm.hpp"
 
 namespace vantage::apps {
@@ -68,11 +70,7 @@ KinematicChain chain_of(const SearchRequest& request) {
 
 std::shared_ptr<const Arm> arm_of(const SearchRequest& request, const KinematicChain& chain,
                                   const ArmOptions& options) {
-  try {
-    return std::make_shared<const Arm>(chain, options);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("--arm " + request.arm + ": " + error.what());
-  }
+  return naming("--arm " + request.arm, [&] { return std::make_shared<const Arm>(chain, options); });
 }
 
 Pose base_of(const SearchRequest& request) {
@@ -121,6 +119,11 @@ Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pos
   }
   // The base stands on the floor.
   box.min.z() = std::max(box.min.z(), world_from_base.translation().z());
+  if (box.empty()) {
+    throw std::invalid_argument("--arm " + request.arm +
+                                (chain.capsules().empty() ? " has no collision shapes" : " hangs below its --base") +
+                                ", so there is no space to declare clear at its start");
+  }
   return box;
 }
 
@@ -170,7 +173,7 @@ ExplorationRunOptions options_of(const ExploreRequest& shared, const World& worl
   options.map.resolution_m = shared.resolution_m;
   options.map.region = region_of(shared).value_or(world.region);
   options.map.max_bytes = max_bytes_of(shared.memory_limit_mb);
-  check_cell_count(*options.map.region, shared.resolution_m);
+  check_region(shared, world, *options.map.region);
   options.max_views = shared.max_views;
   options.scan_spacing_m = 0.0;
   options.seed = shared.seed;
@@ -204,10 +207,16 @@ int search(const SearchRequest& request) {
   if (world.plan) {
     throw std::invalid_argument("--world " + shared.world + ": an arm cannot search a plane");
   }
+  if (!shared.quiet) {
+    std::cerr << doubts_about_world(shared, world.mesh.bounds());
+  }
 
   ExplorationRunOptions options = options_of(shared, world, arm_options.declared_clear);
   options.stop = [&interruption] { return interruption.asked(); };
   ExplorationRun run(world, sensor, arm, options);
+  const Pose start = arm->sensor_pose(joints);
+  naming("--base " + request.base + (request.joints.empty() ? "" : " and --joints " + request.joints),
+         [&] { run.check_start(start); });
 
   ProgressStream told(shared);
   std::ostream& progress = told.stream();
@@ -233,7 +242,7 @@ int search(const SearchRequest& request) {
       pictures.look(*planner, map, view);
     }
   };
-  RunRecord record = run.run(recording, arm->sensor_pose(joints), on_view);
+  RunRecord record = run.run(recording, start, on_view);
   record.command = "search";
   record.world = shared.world;
   printer.summary(record);
@@ -276,6 +285,7 @@ void add_search_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("NAME|FILE")
       ->group("World");
+  add_mesh_options(*command, run, "World");
   command->add_option("--region", run.region, "Box to search, metres; default: the whole world")
       ->type_name("x0,y0,z0,x1,y1,z1")
       ->group("World");
@@ -303,9 +313,9 @@ void add_search_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  vantage search --world crates-open --out crates\n"
       "  vantage search --world crates-closed --arm my_arm.urdf --links base_link,camera --exhaustive --json -\n"
-      "Exit codes: 0 no view of the arm sees more of a void, 2 bad input (nothing was written) or a file that\n"
-      "cannot be written, 3 the views were spent, 4 something is left that cannot be reached, 130 and 143\n"
-      "interrupted.");
+      "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written) or a file that cannot be\n"
+      "written, 3 the views were spent, 4 something is left: frontiers where no view sees enough more of a void\n"
+      "(--set least_view_m3, beyond_voids), or what cannot be reached, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = search(*request); });
 }
 

@@ -112,7 +112,14 @@ RecordedViews views_of(const ReplayRequest& request, const Recording& recording,
     throw std::runtime_error(request.dataset + ": there are " + std::to_string(scans.size()) +
                              " frames to choose among, must be two");
   }
-  return {std::move(scans), map_options_of(request), object_of(request)};
+  RecordedViews views(std::move(scans), map_options_of(request), object_of(request));
+  if (!views.show_any()) {
+    throw std::runtime_error((!request.object_box.empty()   ? "--object-box " + request.object_box
+                              : !request.run.region.empty() ? "--region " + request.run.region
+                                                            : "--dataset " + request.dataset) +
+                             " holds nothing that a frame shows");
+  }
+  return views;
 }
 
 Contender chosen(const RecordedViews& views, const std::string& name, const ChooseView& choose,

@@ -8,6 +8,17 @@
 
 namespace vantage::apps {
 
+void add_mesh_options(CLI::App& command, ExploreRequest& request, const char* group) {
+  command.add_option("--up", request.up, "Axis of a mesh file that points up; default: from the file, otherwise z")
+      ->type_name("y|z")
+      ->group(group);
+  command.add_option("--scale", request.scale, "Metres per unit of a mesh file")
+      ->type_name("S")
+      ->check(a_number())
+      ->default_str("1")
+      ->group(group);
+}
+
 void add_sensor_options(CLI::App& command, ExploreRequest& request, const char* group) {
   const auto option = [&](const char* name, auto& value, const char* type, const char* about) {
     return command.add_option(name, value, about)->type_name(type)->capture_default_str()->group(group);
@@ -25,6 +36,13 @@ void add_setting_option(CLI::App& command, ExploreRequest& request, const char* 
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
+      ->group("Run");
+}
+
+void add_coverage_option(CLI::App& command, ExploreRequest& request) {
+  command
+      .add_flag("--no-coverage", request.no_coverage,
+                "Do not measure coverage, so that the first view need not wait for it")
       ->group("Run");
 }
 

@@ -44,23 +44,6 @@ std::optional<Pose> start_in_world(const ExploreRequest& request) {
   return start;
 }
 
-void check_region(const ExploreRequest& request, const World& world, const Box& region) {
-  const Box bounds = world.mesh.bounds();
-  if (!(region.min.array() < bounds.max.array()).all() || !(region.max.array() > bounds.min.array()).all()) {
-    std::ostringstream message;
-    message << (request.region.empty() ? "--world " + request.world + " spans no space: "
-                                       : "--region " + request.region + " holds nothing of the world, which spans ")
-            << bounds.min.x() << ',' << bounds.min.y() << ',' << bounds.min.z() << ',' << bounds.max.x() << ','
-            << bounds.max.y() << ',' << bounds.max.z();
-    throw std::invalid_argument(message.str());
-  }
-  check_cell_count(region, request.resolution_m);
-  const std::optional<Pose> start = start_in_world(request);
-  if (start && !region.contains(start->translation())) {
-    throw std::invalid_argument("--start " + request.start + " lies outside the region");
-  }
-}
-
 // Where the floor is deeper than the robot can drive down, scans show a drop everywhere.
 void check_floor(const ExploreRequest& request, const TriangleScene& scene, const Eigen::Vector3d& start) {
   const std::optional<HeightBandOptions> band = band_of(request);
@@ -94,6 +77,24 @@ std::string floor_of_band(const ExploreRequest& request) {
 }
 
 }  // namespace
+
+void check_region(const ExploreRequest& request, const World& world, const Box& region) {
+  const Box bounds = world.mesh.bounds();
+  if (!(region.min.array() < bounds.max.array()).all() || !(region.max.array() > bounds.min.array()).all()) {
+    std::ostringstream message;
+    message << (request.region.empty() ? "--world " + request.world + " spans no space: "
+                                       : "--region " + request.region + " holds nothing of the world, which spans ")
+            << bounds.min.x() << ',' << bounds.min.y() << ',' << bounds.min.z() << ',' << bounds.max.x() << ','
+            << bounds.max.y() << ',' << bounds.max.z();
+    throw std::invalid_argument(message.str());
+  }
+  check_cells(request.region.empty() ? "--world " + request.world : "--region " + request.region,
+              is_world_file(request, World::FileKind::Mesh), region, request.resolution_m);
+  const std::optional<Pose> start = start_in_world(request);
+  if (start && !region.contains(start->translation())) {
+    throw std::invalid_argument("--start " + request.start + " lies outside the region");
+  }
+}
 
 SensorCarrier carrier_of(const ExploreRequest& request) {
   if (is_plan(request) && !request.band.empty()) {
@@ -175,8 +176,11 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
 }
 
 Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
-  const std::optional<Pose> given = start_in_world(request);
-  const std::optional<Pose> start = given ? given : run.truth().draw_start(platform, request.seed);
+  if (const std::optional<Pose> given = start_in_world(request)) {
+    naming("--start " + request.start, [&] { run.check_start(*given); });
+    return *given;
+  }
+  const std::optional<Pose> start = run.truth().draw_start(platform, request.seed);
   if (!start) {
     throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region" +
                                 floor_of_band(request));

@@ -31,6 +31,8 @@ struct ExploredWorld {
   World world;
   Box region = {};
 };
+/// Refuses a region that holds nothing of the world or cannot be mapped, and a `--start` outside of it.
+void check_region(const ExploreRequest& request, const World& world, const Box& region);
 [[nodiscard]] ExploredWorld explored_world(const ExploreRequest& request);
 
 [[nodiscard]] ExplorationRunOptions run_options_of(const ExploreRequest& request, const SensorCarrier& carrier,

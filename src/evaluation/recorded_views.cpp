@@ -158,6 +158,10 @@ RecordedViews::RecordedViews(std::vector<Scan> scans, const OccupancyMapOptions&
   }
 }
 
+bool RecordedViews::show_any() const {
+  return std::any_of(known_.begin(), known_.end(), [](const auto& cells) { return !cells.empty(); });
+}
+
 // With an object the map has a region that ends with what is known around it, because nothing beyond counts.
 OccupancyMap RecordedViews::map_before() const {
   if (!object_) {

@@ -25,6 +25,7 @@ class RecordingReader {
   void count_normalised() { ++recording_.normalised_; }
   /// Sets the axis of the poses' world that points up in this format, unless options or the poses say otherwise.
   void set_up(std::string axis) { recording_.up_ = std::move(axis); }
+  void assume(std::string what) { recording_.assumed_ = std::move(what); }
   /// Sets how a frame is read, if it is not a depth image.
   void read_by(std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read) {
     recording_.read_ = std::move(read);

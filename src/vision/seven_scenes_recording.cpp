@@ -87,6 +87,9 @@ Recording open_seven_scenes(RecordingReader reader) {
   reader.set_up("-y");
   reader.read_depth_png_as({.units_per_m = 1000.0});
   const std::filesystem::path intrinsics = reader.folder() / "camera-intrinsics.txt";
+  if (!std::filesystem::exists(intrinsics) && !reader.options().intrinsics) {
+    reader.assume("there is no camera-intrinsics.txt: fx = fy = 585, cx = 320, cy = 240 are assumed");
+  }
   return reader.finish(camera_in(intrinsics), intrinsics);
 }
 

@@ -217,6 +217,25 @@ TEST_F(ProgramOutput, ASignalBeforeTheFirstViewLeavesNothing) {
   EXPECT_FALSE(fs::exists(out()));
 }
 
+TEST_F(ProgramOutput, ALongSearchBeforeTheFirstViewIsToldWithoutATerminal) {
+  const std::string object = (folder_ / "corner.obj").string();
+  std::ofstream(object) << "v 0 4 3\nv 0 0 3\nv 0 0 0\nf 1 2 3\n";
+  for (const std::string& arguments :
+       {std::string("explore --world office --size 60,60 --resolution 0.1 --planner nearest-frontier"),
+        "reconstruct --object " + object}) {
+    const pid_t child = start(arguments);
+    std::string told;
+    for (int i = 0; i < 6000 && told.find('\n') == std::string::npos; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      told = test::read_all(folder_ / "stderr.txt");
+    }
+    ::kill(child, SIGKILL);
+    EXPECT_EQ(code_of(child), -SIGKILL);
+    EXPECT_EQ(told.rfind("looking for what can be observed, about ", 0), 0U) << arguments << '\n' << told;
+    EXPECT_NE(told.find(" left; --no-coverage skips this\n"), std::string::npos) << told;
+  }
+}
+
 // SIGKILL at any moment leaves complete files and a readable record.
 TEST_F(ProgramOutput, KilledItLeavesWholeFilesOnly) {
   std::size_t opened = 0;

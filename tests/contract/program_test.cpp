@@ -107,11 +107,11 @@ std::string ply(const std::string& vertices, std::size_t vertex_count, const std
 
 TEST_F(Program, RefusesNumbersOutOfRange) {
   const std::string table(kTable);
-  expect_refused(table + "--resolution 0", "--resolution");
-  expect_refused(table + "--resolution -0.1", "--resolution");
-  expect_refused(table + "--resolution nan", "--resolution");
-  expect_refused(table + "--resolution 1e-7", "--resolution");
-  expect_refused(table + "--resolution two", "--resolution: 'two' is not a number");
+  expect_refused("--world table --resolution 0", "--resolution is 0");
+  expect_refused("--world table --resolution -0.1", "--resolution");
+  expect_refused("--world table --resolution nan", "--resolution is nan");
+  expect_refused("--world table --resolution 1e-7", "--resolution");
+  expect_refused("--world table --resolution two", "--resolution: 'two' is not a number");
   expect_refused(table + "--size 8,8", "WorldOptions::length_m is 8, must be 0: table has a size of its own");
   expect_refused(table + "--band 0.2,1.4,2.5", "--band '0.2,1.4,2.5' must hold LOW <= SENSOR <= HIGH");
   expect_refused(table + "--band 900,901", "--band '900,901': HeightBandOptions::min_height_m is 900, must be below");
@@ -133,7 +133,9 @@ TEST_F(Program, RefusesNumbersOutOfRange) {
   expect_refused(table + "--pose-noise 0.01,-1", "--pose-noise");
   expect_refused(table + "--up x", "--up");
   expect_refused(table + "--scale 0", "--scale");
-  EXPECT_EQ(refused_, 26);
+  expect_refused(table + "--seed 1 --seed 2", "--seed is given twice, must be given once");
+  expect_refused(table + "--seed 1 --seed 2 --seed 3", "--seed is given 3 times");
+  EXPECT_EQ(refused_, 28);
 }
 
 TEST_F(Program, RefusesNamesThatDoNotExist) {
@@ -145,9 +147,12 @@ TEST_F(Program, RefusesNamesThatDoNotExist) {
   expect_refused(std::string(kTable) + "--set gain=3", "gain");
   expect_refused(std::string(kTable) + "--set =3", "=3");
   expect_refused("--world rooms --planner harmonic --set tolerance=small", "tolerance");
-  expect_refused(std::string(kTable) + "--fast", "--fast");
+  expect_refused(std::string(kTable) + "--fast",
+                 "explore has no option --fast; what it takes: vantage explore --help");
+  expect_refused("--world rooms --planer tour", "explore has no option --planer");
+  expect_refused("--world rooms tour", "explore takes no 'tour'");
   expect_refused("--planner harmonic", "--world");
-  EXPECT_EQ(refused_, 10);
+  EXPECT_EQ(refused_, 12);
 }
 
 TEST_F(Program, RefusesRegionsAndStarts) {
@@ -158,11 +163,11 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused(table + "--region 0,0,0,inf,1,1", "'inf'");
   expect_refused(table + "--region 50,50,0,51,51,1", "--region 50,50,0,51,51,1 holds nothing of the world");
   expect_refused("--world table --resolution 30", "no cell of 30 m");
-  expect_refused("--world table --resolution 0.0001", "needs --scale");
+  expect_refused("--world table --resolution 0.0001", "at most 1e+09: take larger cells, or a smaller region\n");
   expect_refused(table + "--start 0,0", "--start");
   expect_refused(table + "--start 0,0,high", "'high'");
   expect_refused(table + "--start 50,0,1", "--start 50,0,1");
-  expect_refused(table + "--start 1.79,0,1", "start");
+  expect_refused(table + "--start 1.79,0,1", "--start 1.79,0,1: the start (1.79, 0, 1) is in or too near a wall");
   expect_refused("--world rooms --yaw-only --start 2,2,1,0,45", "an orientation that the robot cannot take");
   expect_refused(table + "--region -1,-1,0,1,1,2 --start 1.5,0,1", "--start 1.5,0,1");
   expect_refused(table + "--robot-radius 9", "fits nowhere");
@@ -182,6 +187,12 @@ TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
   expect_refused("--world " + nan + tail, nan);
   const std::string line = file("line.ply", ply("0 0 0\n1 0 0\n2 0 0\n", 3, "3 0 1 2\n", 1));
   expect_refused("--world " + line + tail, line + ": holds no triangle with an area");
+  const std::string faces = "3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n";
+  const std::string tiny = file("tiny.ply", ply("0 0 0\n1e-3 0 0\n0 1e-3 0\n0 0 1e-3\n", 4, faces, 4));
+  expect_refused("--world " + tiny + tail + " --up z",
+                 tiny +
+                     ": the region of 0.001 x 0.001 x 0.001 m holds no cell of 0.2 m: take smaller cells, "
+                     "--resolution; a mesh whose unit is not the metre needs --scale");
   const std::string text = file("text.ply", "this is no mesh\n");
   expect_refused("--world " + text + tail, text);
   const std::string empty = file("empty.bt", "");
@@ -194,7 +205,7 @@ TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {
       file("range.json", R"({"width": 64, "height": 48, "fx": 60, "fy": 60, "max_range_m": -4})");
   expect_refused("--world table --sensor " + range, "max_range_m is -4");
   expect_refused("--world table --sensor /nowhere/sensor.json", "/nowhere/sensor.json");
-  EXPECT_EQ(refused_, 11);
+  EXPECT_EQ(refused_, 12);
 }
 
 TEST_F(Program, TimesARun) {
@@ -430,6 +441,9 @@ TEST_F(Program, RecordsAndCompares) {
   for (const char* name : {"report.html", "report.json", "map.ply", "points.ply"}) {
     EXPECT_TRUE(fs::exists(fs::path(morning) / name)) << name;
   }
+  const nlohmann::json cut = nlohmann::json::parse(vantage::test::read_all(fs::path(morning) / "report.json"));
+  EXPECT_GT(cut["coverage"], 0.0);
+  EXPECT_TRUE(cut["observable_cells"].is_null()) << "only the end of a record tells it";
   const std::string nowhere = (folder_ / "nowhere").string();
   for (const char* arguments : {"report /nowhere/run.record", "compare /nowhere/report.json",
                                 "report '" VANTAGE_PROGRAM "'", "compare '" VANTAGE_PROGRAM "'"}) {
@@ -538,6 +552,12 @@ TEST_F(Program, ReconstructsAnObjectOnTheTable) {
   EXPECT_EQ(same["surface_coverage"], report["surface_coverage"]);
   const Ran spent = run("reconstruct " + object + "--resolution 0.04 --max-views 1 --candidates 30");
   EXPECT_EQ(spent.code, 3) << spent.err;
+  const Ran unmeasured =
+      run("reconstruct " + object + "--table --resolution 0.04 --max-views 1 --no-coverage --json -");
+  const nlohmann::json without = nlohmann::json::parse(unmeasured.out);
+  EXPECT_TRUE(without["coverage"].is_null());
+  EXPECT_TRUE(without["observable_cells"].is_null());
+  EXPECT_GT(without["seen_observable"], 0.1) << "the object's surface is measured all the same";
   const double most_m = report["path_length_m"].get<double>() - 0.001;
   const Ran shorter = run("reconstruct " + object + "--table --candidates 80 --resolution 0.04 --json - --max-path " +
                           std::to_string(most_m));
@@ -585,8 +605,15 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--object-box 0,0,0,1,-1,1", "--object-box");
   refused(object + "--object-box 90,90,90,91,91,91", "--object-box 90,90,90,91,91,91 holds nothing of the object");
   refused(object + "--planner oracle-greedy --set gain=3", "--set: --planner oracle-greedy has no settings");
+  refused(object + "--planner harmonic", "no planner 'harmonic' looks at an object; there are: next-best-view, ");
+  refused(object + "--table --place 1,99,0,0,0,0,0,1",
+          "--place 1,99,0,0,0,0,0,1 puts the object outside of the room");
+  refused(object + "--place 1,1e6,0,0,0,0,0,1 --resolution 1e-4 --robot-radius 0.001",
+          ": the region begins at 999999,");
+  refused(object + "--reference /nowhere.txt", "--reference /nowhere.txt: is no file that can be read");
   refused(object + "--method best", "'best', must be one of default, uniform, hierarchical");
   refused(object + "--candidates 0", "--candidates");
+  refused(object + "--aimed 10001", "--aimed is 10001, must be at most 10000");
   refused(object + "--radius 0", "--radius");
   refused(object + "--robot-radius 3", "--robot-radius is 3, must be at most 100 cells of --resolution");
   refused(object + "--resolution 1e-6", "--resolution");
@@ -596,7 +623,7 @@ TEST_F(Program, RefusesToReconstructWhatIsNone) {
   refused(object + "--reference '" + file("points.txt", "1 2 three\n") + "'", "points.txt");
   refused(object + "--start 99,0,0", "start");
   refused(object + "--set gain=3", "gain");
-  EXPECT_EQ(refused_, 19);
+  EXPECT_EQ(refused_, 24);
 }
 
 }  // namespace

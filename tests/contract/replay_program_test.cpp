@@ -190,6 +190,20 @@ TEST_F(ReplayProgram, ComparesOrdersOfViews) {
   EXPECT_NE(err_.find("expected cells"), std::string::npos);
 }
 
+TEST_F(ReplayProgram, SaysWhatItAssumedOfTheCamera) {
+  EXPECT_EQ(run(on_data() + "--max-views 1 --planner harmonic"), 3) << err_;
+  EXPECT_EQ(out_.find("camera-intrinsics.txt"), std::string::npos) << out_;
+  fs::remove(data() / "camera-intrinsics.txt");
+  EXPECT_EQ(run(on_data() + "--max-views 1 --planner harmonic"), 3) << err_;
+  EXPECT_NE(out_.find("there is no camera-intrinsics.txt: "), std::string::npos) << out_;
+  EXPECT_NE(out_.find("; if they are others, say so: --intrinsics\n"), std::string::npos) << out_;
+}
+
+TEST_F(ReplayProgram, SaysThatARegionHoldsNothing) {
+  EXPECT_EQ(run(on_data() + "--planner harmonic --region 90,90,90,91,91,91 --json -"), 0) << err_;
+  EXPECT_EQ(nlohmann::json::parse(out_).at("reason"), "--region 90,90,90,91,91,91 holds nothing that a frame shows");
+}
+
 TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused("--format tum", "--dataset");
   expect_refused("--dataset '" + (folder_ / "no").string() + "' --format tum", "no: is not a folder");
@@ -208,6 +222,11 @@ TEST_F(ReplayProgram, RefusesBadInput) {
   expect_refused(on_data() + "--select --set a=1", "--set does not go with --select");
   expect_refused(on_data() + "--select --memory-limit 5", "--memory-limit does not go with --select");
   expect_refused(on_data() + "--select --object-box 0,0,0,1,1", "--object-box has 5 numbers");
+  expect_refused(on_data() + "--select --object-box 90,90,90,91,91,91",
+                 "--object-box 90,90,90,91,91,91 holds nothing that a frame shows");
+  expect_refused(on_data() + "--select --object-box 0,0,0,900,900,900",
+                 "--object-box 0,0,0,900,900,900: --resolution");
+  expect_refused(on_data() + "--select --region 90,90,90,91,91,91", "--region 90,90,90,91,91,91 holds nothing");
   expect_refused(on_data() + "--max-range -1", "--max-range is -1");
   expect_refused(on_data() + "--up north", "--up is 'north'");
   expect_refused(on_data() + "--disparities 64",

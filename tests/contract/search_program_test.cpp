@@ -84,6 +84,7 @@ TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
   EXPECT_GT(report["cycles"][0]["utility"].get<double>(), 5.0);
   EXPECT_NE(err_.find("  exhaustive   of "), std::string::npos) << err_;
   EXPECT_NE(err_.find("  bound        after the first view "), std::string::npos) << err_;
+  EXPECT_EQ(err_.find("fewer than -"), std::string::npos) << err_;
   EXPECT_NE(err_.find("  left         dm^3 after each view of the greedy choice: "), std::string::npos) << err_;
   const std::string told = err_.substr(err_.find("  exhaustive"));
   ASSERT_NE(run(arguments + " --threads 3"), 2) << err_;
@@ -94,6 +95,14 @@ TEST_F(SearchProgram, WeighsAllPosesAndTellsHowFewViewsCouldDo) {
   expect_refused("--world crates-open --planner exhaustive --set least_view_m3=-1", "must be one number >= 0");
 }
 
+TEST_F(SearchProgram, TakesTheUnitAndTheAxisOfAMesh) {
+  const std::string mesh = (folder_ / "wall.obj").string();
+  std::ofstream(mesh) << "v 300 -500 -100\nv 300 500 -100\nv 300 500 300\nv 0 -500 300\nv -500 500 -100\n"
+                         "f 1 2 3\nf 1 3 4\nf 2 3 5\n";
+  expect_refused("--world '" + mesh + "'", "; a mesh whose unit is not the metre needs --scale");
+  EXPECT_NE(run("--world '" + mesh + "' --scale 0.01 --up z --max-views 1 --resolution 0.1"), 2) << err_;
+}
+
 TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {
   expect_refused("--world crates-open --arm /tmp", "/tmp: cannot be opened");
   expect_refused("--world crates-open --arm /dev/zero", "/dev/zero: holds more than");
@@ -102,6 +111,14 @@ TEST_F(SearchProgram, RefusesWhatMakesNoSenseInOneLine) {
   expect_refused("--world crates-open --links base_link,hand", "has no link 'hand'");
   expect_refused("--world crates-open --joints 0,0,0", "--joints must be 5 angles in degrees");
   expect_refused("--world crates-open --base 1,2", "--base has 2 numbers");
+  expect_refused("--world table", "--base 0,0,0,0: the start (");
+  expect_refused("--world table --joints 0,-0.7,1.5,0,0", "--base 0,0,0,0 and --joints 0,-0.7,1.5,0,0: the start (");
+  expect_refused("--world crates-open --scale 2", "--scale: crates-open is no mesh file");
+  expect_refused("--world crates-open --resolution 1e-4", "of the region, must be at most 1e+09: take larger cells");
+  const std::string bare = (folder_ / "bare.urdf").string();
+  std::ofstream(bare) << R"(<robot name="bare"><link name="base_link"/><link name="sensor"/>
+    <joint name="j" type="continuous"><parent link="base_link"/><child link="sensor"/><axis xyz="0 0 1"/></joint></robot>)";
+  expect_refused("--world crates-open --arm " + bare, "bare.urdf has no collision shapes");
   expect_refused("--world moon", "there is no world \"moon\"");
   EXPECT_EQ(run("--help"), 0);
   EXPECT_NE(out_.find("--exhaustive"), std::string::npos);

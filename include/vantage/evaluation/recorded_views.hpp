@@ -57,6 +57,9 @@ class RecordedViews {
   /// The map before the first view: empty, except for what is known around an object.
   [[nodiscard]] OccupancyMap map_before() const;
 
+  /// Whether any view makes a cell known that counts.
+  [[nodiscard]] bool show_any() const;
+
   /// Void cells before the first view: all cells inside the convex hull of what the views together hit. 0 if that
   /// hull is empty.
   [[nodiscard]] std::size_t void_cells() const { return void_cells_; }

@@ -104,15 +104,17 @@ class ExplorationRun {
   /// The map that the planner plans in: the plane of the band, or else `map()`.
   [[nodiscard]] const OccupancyMap& known() const { return band_ ? band_->plane() : map_; }
 
+  /// Throws std::invalid_argument if a run cannot start here: `start` is not rigid, outside the region, or not
+  /// admitted in the true world.
+  void check_start(const Pose& start) const;
+
   /// Runs until the planner is done, the budget is spent or ExplorationRunOptions::stop ends it. The space of the
-  /// body at `start` is declared free first. Throws std::invalid_argument if `start` is not rigid, outside the
-  /// region, or not admitted in the true world. A further run from the same start does not look for the observable
-  /// cells again.
+  /// body at `start` is declared free first. Throws as `check_start`. A further run from the same start does not look
+  /// for the observable cells again.
   RunRecord run(ExplorationPlanner& planner, const Pose& start, const OnView& on_view = {});
 
  private:
   struct Progress;
-  void check_start(const Pose& start) const;
   void assume_start_free(const Pose& start);
   void scan(Progress& progress);
   // At once without a robot.

@@ -95,6 +95,8 @@ class Recording {
   [[nodiscard]] const std::string& up() const { return up_; }
   /// The axis that points up in this format; it differs from `up` where an option or the images say otherwise.
   [[nodiscard]] const std::string& up_of_format() const { return up_of_format_; }
+  /// What was taken for granted about the camera because a file of the format is missing, one sentence; else empty.
+  [[nodiscard]] const std::string& assumed() const { return assumed_; }
   /// The depth camera of the recording.
   [[nodiscard]] const DepthCamera& camera() const { return camera_; }
   /// The sensor model of the depth camera, for planners.
@@ -117,6 +119,7 @@ class Recording {
   std::size_t normalised_ = 0;
   std::string up_ = "z";
   std::string up_of_format_;
+  std::string assumed_;
   std::function<RecordedReading(const RecordedFrame&, const DepthCamera&)> read_;
 };
 

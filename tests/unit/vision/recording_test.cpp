@@ -70,6 +70,7 @@ TEST(SevenScenes, LeavesOutWhatIsIncompleteAndNamesIt) {
   EXPECT_TRUE(names(recording, 3, "frame-000004", "no frame-000004.depth.png"));
   EXPECT_EQ(recording.camera().width, 8U);
   EXPECT_EQ(recording.camera().fx, 585.0);
+  EXPECT_EQ(recording.assumed().rfind("there is no camera-intrinsics.txt: fx = fy = 585", 0), 0U);
   EXPECT_EQ(recording.read(1).scan.report.used, 48U);
 
   write_text(folder / "frame-000005.pose.txt", "1 0 0 0\n0 x 0 0\n");
@@ -84,6 +85,7 @@ TEST(SevenScenes, LeavesOutWhatIsIncompleteAndNamesIt) {
             std::string::npos);
   const Recording mended = Recording::open("7scenes", folder / ".", {.intrinsics = {{500.0, 500.0, 3.5, 2.5}}});
   EXPECT_EQ(mended.camera().fx, 500.0) << "options override what the file says";
+  EXPECT_EQ(mended.assumed(), "");
 }
 
 // A damaged image is reported; the frames before and after it are not affected.
