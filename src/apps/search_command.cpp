@@ -315,7 +315,7 @@ void add_search_command(CLI::App& app, int& exit_code) {
       "  vantage search --world crates-closed --arm my_arm.urdf --links base_link,camera --exhaustive --json -\n"
       "Exit codes: 0 nothing observable is left, 2 bad input (nothing was written) or a file that cannot be\n"
       "written, 3 the views were spent, 4 something is left: frontiers where no view sees enough more of a void\n"
-      "(--set least_view_m3, beyond_voids), or what cannot be reached, 130 and 143 interrupted.");
+      "(see --set least_view_m3 and beyond_voids), or what cannot be reached, 130 and 143 interrupted.");
   command->callback([request, &exit_code] { exit_code = search(*request); });
 }
 

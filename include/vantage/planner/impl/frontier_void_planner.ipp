@@ -128,7 +128,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan)
     plan.reason = (any_void ? "no view sees a void (the best utility is 0); "
                             : "the best utility is below " + detail::volume(least, map.resolution_m()) + "; ") +
                   std::to_string(situation().survey().targets.size()) + " observable frontier cells are left: " +
-                  (any_void ? "the setting beyond_voids goes on with them"
+                  (any_void ? "the setting beyond_voids=true goes on with them"
                             : "a smaller setting least_view_m3 goes on with smaller voids");
     return std::nullopt;
   }
