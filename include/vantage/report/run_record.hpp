@@ -93,7 +93,7 @@ struct RunRecord {
   RunOutcome outcome = RunOutcome::Budget;  ///< how the run ended
   std::string reason;                       ///< one sentence, for a person
   std::optional<double> coverage;           ///< at the end; see ViewRecord::coverage
-  std::size_t observable_cells = 0;         ///< cells that the sensor could see at all, by the ground truth; 0: not known
+  std::size_t observable_cells = 0;         ///< cells that the sensor could see at all, by the truth; 0: not known
   std::optional<double> surface_coverage;   ///< at the end; see ViewRecord::surface_coverage
   std::optional<double> seen_coverage;      ///< at the end; see ViewRecord::seen_coverage
   /// Samples seen, as a share of those that any admitted pose could see; none without an object.
