@@ -91,7 +91,8 @@ ordered_json summary_json(const RunRecord& record) {
       {"seen_coverage", or_null(record.seen_coverage)},
       {"seen_observable", or_null(record.seen_observable)},
       {"coverage", or_null(record.coverage)},
-      {"observable_cells", record.coverage && record.observable_cells > 0 ? ordered_json(record.observable_cells) : ordered_json(nullptr)},
+      {"observable_cells", record.coverage && record.observable_cells > 0 ? ordered_json(record.observable_cells)
+                                                                          : ordered_json(nullptr)},
       {"surface_coverage", or_null(record.surface_coverage)},
       {"leftover",
        {{"unreachable", record.leftover.unreachable},
