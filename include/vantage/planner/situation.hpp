@@ -33,6 +33,7 @@ namespace VANTAGE_EXPORT vantage {
 ///       |  TriedViews        what became of the last view; unknown cells in sight after the scan
 ///       |  FrontierSurveyor  admitted cells -> reachable space -> targets
 ///       |                    (no target left: places that rest are allowed again, one more survey)
+///       |                    targets in refused directions wait until others are gone
 ///       v
 ///     end()  --- no target --->  Explored | Unreachable | Blocked | a turn, a step or a closer look (Move)
 ///       |
@@ -58,7 +59,8 @@ class Situation {
   void sync(const OccupancyMap& map, const Pose& current);
   /// If no target is left: the plan that ends the run, or that turns the sensor on the spot, steps aside or looks
   /// closely at what was looked at in vain (TriedViews::looked_closely). If the robot does not move although goals
-  /// are asked for: Blocked. None if there are targets otherwise. Leftover and counts are those of the survey.
+  /// are asked for (TriedViews::is_stuck), and targets are left in refused directions alone: Blocked. None if there
+  /// are targets otherwise. Leftover and counts are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
@@ -115,6 +117,7 @@ class Situation {
  private:
   void note_what_was_in_vain();
   void find_targets();
+  void set_refused_aside();
   [[nodiscard]] bool hardly_moves() const;
   [[nodiscard]] bool stands_beside_unknown() const;
   [[nodiscard]] std::optional<Plan> turn_on_the_spot();
@@ -132,6 +135,8 @@ class Situation {
   TriedViews tried_;
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;
+  std::vector<FrontierTarget> set_aside_;  // of the survey: from here, goals in their directions failed
+  bool is_stuck_ = false;
   mutable FollowingCaster looking_;
   mutable bool looking_follows_ = false;             // whether looking_ is up to date with the map of the last sync
   mutable std::shared_ptr<detail::BlockWays> ways_;  // shared, because the type is incomplete here
@@ -143,4 +148,5 @@ class Situation {
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/planner/impl/situation.ipp>
+#include <vantage/planner/impl/situation_end.ipp>
 #endif

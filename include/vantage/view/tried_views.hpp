@@ -60,17 +60,18 @@ struct TriedViewsOptions {
 /// asked for a third time although the robot came no nearer: the rest of the path is no shorter or, within the goal
 /// tolerance, the rest of the turn is no smaller.
 ///
-///     asked for --- fails ---> rests 8 plans (then 16, 32, ...) ---> may be asked for again
-///                                |
+///     asked for --- fails ---> rests 8 plans ---> may be asked for again; each further rest is longer: 64, 512, 4096
+///                                |                plans if failures are reported, otherwise 16, 32, ...
 ///                                +--- reported, and no other target is left: allowed again at once, until the
 ///                                     third failure; if the robot came nearer, only the latest one counts
 ///
 /// A place rests together with all places within the goal tolerance. Once all that a view sought is known, only the
-/// places that have failed are remembered. If three places rest because the robot came no nearer, and it still is
-/// where it was when they were asked for, it does not move at all.
+/// places that have failed are remembered. If three places rest and the robot still is where it was when they were
+/// asked for, planners ask for goals in other directions first (`refused_directions`). If none is left, it does not
+/// move at all (`is_stuck`).
 ///
-/// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first. As text it can
-/// be saved with the map.
+/// The memory belongs to one map and its copies, and is bounded: the oldest entries are dropped first, places without
+/// a failure before others. As text it can be saved with the map.
 class TriedViews {
  public:
   /// Throws std::invalid_argument, which names the invalid option.
@@ -98,6 +99,8 @@ class TriedViews {
   void recall(const OccupancyMap& map, std::string_view text);
   /// Ends the rest of all places that are not given up. Returns whether there were any.
   bool try_resting_again();
+  /// No place rests for more than 32 further plans. For a plan that is no Move: a host that waits is asked again.
+  void end_run();
 
   // --- queries
   /// The goal (world_from_sensor) of the last planned view, if at the last `review` the robot was still moving to
@@ -124,13 +127,16 @@ class TriedViews {
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.
   [[nodiscard]] bool any_rests() const { return !resting_.empty(); }
-  /// Boxes of cells that contain all resting places, one for each goal that rests.
+  /// Boxes of cells that contain all resting places, one for each goal that rests, in raster order of the goals.
   [[nodiscard]] std::vector<VoxelBox> resting() const;
   /// The number of resting places that failed three times, or to which the robot came no nearer.
   [[nodiscard]] std::size_t places_given_up() const;
-  /// Whether a robot at `current` (world_from_sensor) does not move: three places further away than the goal
-  /// tolerance rest because it came no nearer, and it is within half of the tolerance of where it was asked for each
-  /// of them.
+  /// The directions (unit vectors, world) from `current` (world_from_sensor) to the goals that failed from there and
+  /// rest: they are further away than the goal tolerance, and the robot is within half of it of where it was when
+  /// they were asked for. Empty if there are fewer than three.
+  [[nodiscard]] std::vector<Eigen::Vector3d> refused_directions(const Pose& current) const;
+  /// Whether a robot at `current` does not move, as far as the goals in refused directions tell: it came no nearer to
+  /// three of them, or goals failed 150 times from there and not all lie in one half of the compass.
   [[nodiscard]] bool is_stuck(const Pose& current) const;
   /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.
   [[nodiscard]] const std::deque<Pose>& scanned_from() const { return scanned_from_; }
@@ -195,6 +201,10 @@ class TriedViews {
   };
 
   [[nodiscard]] double rest_reach() const;
+  [[nodiscard]] VoxelBox box_of_rest(const VoxelIndex& goal) const;
+  [[nodiscard]] VoxelIndex rest_block(const VoxelIndex& cell) const;
+  [[nodiscard]] std::vector<const Place*> failed_from(const Pose& current) const;
+  [[nodiscard]] Eigen::Vector3d direction_of(const Place& place, const Pose& current) const;
   [[nodiscard]] const Looks* looks_at(const VoxelIndex& unknown) const;
   Looks& new_look_at(const OccupancyMap& map, const VoxelIndex& unknown);
   void forget(const OccupancyMap& map);
@@ -216,13 +226,15 @@ class TriedViews {
   KnownMap map_;  // of the last review
   double cell_m_ = 0.0;
   OccupancyMap::Revision reviewed_ = 0;
-  std::uint64_t plans_ = 0;  // number of reviews after a change of the map
+  std::uint64_t plans_ = 0;  // number of reviews after a change of the map or a reported failure
   std::optional<Expectation> expected_;
   std::optional<GoalResult> reported_;
   std::unordered_map<VoxelIndex, Looks> looks_;
   MayHold may_hold_;
-  std::deque<Place> places_;  // planned goals, the newest last
-  std::vector<VoxelIndex> resting_;
+  std::deque<Place> places_;         // planned goals, the newest last
+  std::vector<VoxelIndex> resting_;  // in raster order
+  // The same by blocks of cells: all that are near enough to a cell of the block for it to rest.
+  std::unordered_map<VoxelIndex, std::vector<VoxelIndex>> rest_blocks_;
   std::deque<Pose> scanned_from_;
 };
 
@@ -230,5 +242,6 @@ class TriedViews {
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/view/impl/tried_views.ipp>
+#include <vantage/view/impl/tried_views_places.ipp>
 #include <vantage/view/impl/tried_views_text.ipp>
 #endif

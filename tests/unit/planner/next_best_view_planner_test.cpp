@@ -234,6 +234,47 @@ TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
   EXPECT_GE(plans, 2U);
 }
 
+TEST(NextBestViewPlanner, IsBlockedIfNoViewIsAdmittedOrTheRobotDoesNotMove) {
+  std::size_t blocked = 0;
+  for (const Settings& more : {Settings{{"min_unknown_cells", "5"}}, Settings{}}) {
+    Settings settings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"radii_m", "0.7"}};
+    settings.insert(more.begin(), more.end());
+    const auto expect_blocked = [&](const Plan& plan, std::string_view remedy) {
+      EXPECT_EQ(plan.outcome, Outcome::Blocked) << plan.reason;
+      EXPECT_NE(plan.reason.find(remedy), std::string::npos) << plan.reason;
+      ++blocked;
+    };
+    RobotAtTable run(2);
+    const OccupancyMap empty({.resolution_m = 0.05, .region = run.world.frame.box_of(run.world.solid.box())});
+    expect_blocked(make_planner("next-best-view", run.setup(), settings)->plan(empty, run.pose), "assume_free");
+
+    Pose outside = run.pose;
+    outside.translation().z() = 5.0;
+    EXPECT_EQ(make_planner("next-best-view", run.setup(), settings)->plan(run.map, run.pose).outcome, Outcome::Move);
+    expect_blocked(make_planner("next-best-view", run.setup(), settings)->plan(run.map, outside), "does not admit");
+
+    for (const bool reports : {false, true}) {
+      const auto planner = make_planner("next-best-view", run.setup(), settings);
+      Plan plan = planner->plan(run.map, run.pose);
+      std::size_t plans = 0;
+      for (; plan.outcome == Outcome::Move && plans < 600; ++plans) {
+        if (reports) {
+          planner->report(run.map, run.pose, GoalResult::Failed);
+        }
+        run.map.confirm();
+        plan = planner->plan(run.map, run.pose);
+      }
+      EXPECT_LT(plans, 600U);
+      if (!reports || plan.outcome == Outcome::Blocked) {
+        expect_blocked(plan, "free it");
+      } else {  // all views lie on one side of the robot
+        EXPECT_NE(plan.reason.find("does not get to"), std::string::npos) << plan.reason;
+      }
+    }
+  }
+  EXPECT_GE(blocked, 6U);
+}
+
 TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
   std::size_t gains = 0;
   for (const std::string_view name : ray_gain_names()) {

@@ -240,6 +240,75 @@ TEST(Situation, NoGoalIsAskedForAThirdTimeByARobotThatNeverMoves) {
   EXPECT_GT(stuck, 0U);
 }
 
+// A hall whose cells are unknown from 2 m and more from its middle. The robot stands nearer to one end.
+struct Hall {
+  Hall() {
+    for_each_cell(VoxelFrame{0.2}.cells_centred_in({{-2.0, -1.0, 0.2}, {2.0, 1.0, 1.2}}),
+                  [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  }
+  OccupancyMap map{{.resolution_m = 0.2, .region = Box{{-6.0, -1.0, 0.2}, {6.0, 1.0, 1.2}}}};
+  Pose pose = pose_looking({0.3, 0.1, 0.7}, 0.0);
+};
+
+// A host that refuses one end of the hall is sent to the other end before the run ends.
+TEST(Situation, OneSideThatIsRefusedIsNoReasonToEnd) {
+  std::size_t refused = 0;
+  for (const bool reports : {false, true}) {
+    for (const std::string_view name : planner_names()) {
+      Hall hall;
+      const std::unique_ptr<ExplorationPlanner> planner = make_planner(name, robot_with(round_about(), 0.25));
+      Plan plan = planner->plan(hall.map, hall.pose);
+      for (int plans = 0; plans < 60 && plan.outcome == Outcome::Move && plan.goal.pose.translation().x() > 0.3;
+           ++plans) {
+        if (reports) {
+          planner->report(hall.map, hall.pose, GoalResult::Failed);
+        }
+        hall.map.confirm();
+        plan = planner->plan(hall.map, hall.pose);
+        ++refused;
+      }
+      EXPECT_EQ(plan.outcome, Outcome::Move) << name << ": " << plan.reason;
+      EXPECT_LE(plan.goal.pose.translation().x(), 0.3) << name;
+    }
+  }
+  EXPECT_GT(refused, 20U);
+}
+
+// A host that reports a failure for every goal is told soon that its robot does not move, with or without new scans,
+// and again if it waits.
+TEST(Situation, ARobotThatFailsToGoAnywhereIsBlocked) {
+  std::size_t planners = 0;
+  for (const bool scans : {false, true}) {
+    for (const std::string_view name : planner_names()) {
+      Hall hall;
+      const std::unique_ptr<ExplorationPlanner> planner = make_planner(name, robot_with(round_about(), 0.25));
+      const auto drive = [&] {
+        int plans = 0;
+        Plan plan = planner->plan(hall.map, hall.pose);
+        for (; plan.outcome == Outcome::Move && plans < 500; ++plans) {
+          planner->report(hall.map, hall.pose, GoalResult::Failed);
+          if (scans) {
+            hall.map.confirm();
+          }
+          plan = planner->plan(hall.map, hall.pose);
+        }
+        EXPECT_EQ(plan.outcome, Outcome::Blocked) << name << ": " << plan.reason;
+        EXPECT_NE(plan.reason.find("free it"), std::string::npos) << name << ": " << plan.reason;
+        return plans;
+      };
+      EXPECT_LT(drive(), 200) << name;
+      int waits = 0;
+      for (; waits < 40 && planner->plan(hall.map, hall.pose).outcome != Outcome::Move; ++waits) {
+        hall.map.confirm();
+      }
+      EXPECT_LT(waits, 40) << "a host that waits is asked again";
+      EXPECT_LT(drive(), 200) << name;
+      ++planners;
+    }
+  }
+  EXPECT_EQ(planners, 2 * planner_names().size());
+}
+
 // A robot between two obstacles that are known: there is nothing to declare free, but there is more to see.
 TEST(Situation, ARobotThatIsHemmedInByTheKnownIsNotBlocked) {
   OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 6}});

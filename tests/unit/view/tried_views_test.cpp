@@ -334,6 +334,121 @@ TEST(TriedViews, ARobotThatComesNoNearerToThreeGoalsIsStuck) {
   EXPECT_FALSE(stuck_after(3, 1.0, 0.0, 0.2)) << "it was freed";
 }
 
+// A host that reports refuses a whole part of the world. Each place gets its three tries, and that is the end.
+TEST(TriedViews, HundredsOfPlacesAreGivenUpAfterThreeTriesOfEach) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around(), {.goal_tolerance_m = 0.0});
+  const Pose robot = at(map, {-8, 5, 5});
+  std::vector<int> tries(700);
+  tried.review(map, robot);
+  for (std::size_t next = 0; next < tries.size() && tries[next] < 10;) {
+    const VoxelIndex place{3 * static_cast<std::int32_t>(next), 5, 5};
+    if (tried.rests(place)) {
+      ++next;
+      next = next == tries.size() && tried.try_resting_again() ? 0 : next;
+      continue;
+    }
+    ++tries[next];
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 5.0), {kHidden}));
+    tried.report(GoalResult::Failed);
+    map.confirm();
+    tried.review(map, robot);
+    next = 0;
+  }
+  EXPECT_EQ(tried.places_given_up(), tries.size());
+  EXPECT_GE(*std::min_element(tries.begin(), tries.end()), 3);
+  EXPECT_LE(*std::max_element(tries.begin(), tries.end()), 4);
+}
+
+TEST(TriedViews, NoPlaceRestsForLongOnceTheRunHasEnded) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const VoxelIndex place{2, 5, 5};
+  const Pose robot = at(map, {-8, 5, 5});
+  tried.review(map, robot);
+  for (int failure = 0; failure < 3; ++failure) {
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 5.0), {kHidden}));
+    tried.report(GoalResult::Failed);
+    tried.review(map, robot);
+    EXPECT_EQ(tried.try_resting_again(), failure < 2);
+  }
+  int waits = 0;
+  for (; tried.rests(place) && waits < 500; ++waits) {
+    tried.end_run();
+    map.confirm();
+    tried.review(map, robot);
+  }
+  EXPECT_EQ(waits, 32);
+}
+
+// By definition: the last eight places that failed once, and all within the tolerance of them.
+TEST(TriedViews, WhatRestsIsWithinTheToleranceOfAFailure) {
+  std::mt19937 engine(31);
+  const auto draw = [&] {
+    const auto coordinate = [&](std::int32_t side) {
+      return static_cast<std::int32_t>(engine() % static_cast<std::uint32_t>(2 * side)) - side;
+    };
+    return VoxelIndex{coordinate(15), coordinate(15), coordinate(5)};
+  };
+  std::size_t at_rest = 0;
+  for (const double tolerance_m : {0.0, 0.3, 0.45, 1.0}) {
+    const OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around(), {.goal_tolerance_m = tolerance_m});
+    tried.review(map, at(map, {}));
+    std::vector<VoxelIndex> failed;
+    for (std::int32_t i = 0; i < 40; ++i) {
+      failed.push_back(draw() + VoxelIndex{0, 0, 100 * (i / 20)});  // no place fails twice within eight
+      EXPECT_TRUE(tried.expect(map, path_to(at(map, failed.back()), 5.0), {}));
+      tried.report(GoalResult::Failed);
+      tried.review(map, at(map, {}));
+      const std::vector<VoxelIndex> latest(failed.end() - std::min(i + 1, 8), failed.end());
+      EXPECT_EQ(tried.resting().size(), latest.size());
+      for (int question = 0; question < 500; ++question) {
+        const VoxelIndex place = draw() + VoxelIndex{0, 0, 100 * (i / 20)};
+        const bool rests = std::any_of(latest.begin(), latest.end(), [&](const VoxelIndex& other) {
+          const VoxelIndex d = place - other;
+          const double cells = std::sqrt(static_cast<double>(d.x * d.x + d.y * d.y + d.z * d.z));
+          return cells <= std::max(tolerance_m / map.resolution_m(), 1.0);
+        });
+        EXPECT_EQ(tried.rests(place), rests);
+        at_rest += rests ? 1U : 0U;
+      }
+    }
+  }
+  EXPECT_GT(at_rest, 1000U);
+}
+
+// One that reports is stuck if goals all around failed, not if one side of the world is refused.
+TEST(TriedViews, ARobotThatFailsInAllDirectionsIsStuck) {
+  const auto stuck_after = [](int goals, double spread_rad, bool is_level, double then_moved_m) {
+    const OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    Pose here = at(map, {0, 5, 5});
+    tried.review(map, here);
+    for (int failure = 0; failure < 5 * goals; ++failure) {
+      Pose goal = here;
+      const double heading_rad = spread_rad * (failure * 7 % goals) / goals;
+      const double up_m = is_level ? 0.0 : 0.1 * (failure % goals % 3);
+      goal.translation() += Eigen::Vector3d(3.0 * std::cos(heading_rad), 3.0 * std::sin(heading_rad), up_m);
+      EXPECT_TRUE(tried.expect(map, {here, goal}, {kHidden}));
+      tried.report(GoalResult::Failed);
+      tried.review(map, here);
+    }
+    EXPECT_EQ(tried.refused_directions(here).empty(), goals < 3);
+    here.translation().x() += then_moved_m;
+    return tried.is_stuck(here);
+  };
+  for (const bool is_level : {false, true}) {
+    EXPECT_TRUE(stuck_after(30, 6.28, is_level, 0.0));
+    EXPECT_TRUE(stuck_after(30, 5.0, is_level, 0.0));
+    EXPECT_FALSE(stuck_after(30, 3.0, is_level, 0.0)) << "one side";
+    EXPECT_FALSE(stuck_after(30, 1.0, is_level, 0.0));
+    EXPECT_FALSE(stuck_after(20, 6.28, is_level, 0.0)) << "it may come by chance";
+    EXPECT_FALSE(stuck_after(2, 6.28, is_level, 0.0));
+    EXPECT_FALSE(stuck_after(30, 6.28, is_level, 0.2)) << "it was freed";
+  }
+}
+
 // From afar, exactly through a corner between a free and an occupied cell: hardly a ray passes there.
 TEST(TriedViews, ALookThroughACornerIsNoEvidence) {
   for (const bool is_free : {false, true}) {
@@ -459,7 +574,7 @@ TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
   const VoxelIndex place{2, 5, 5};
   const Pose robot = at(map, {-8, 5, 5});
   tried.review(map, robot);
-  for (const int rest : {8, 16, 32}) {
+  for (const int rest : {8, 64, 512}) {
     EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 5.0), {kHidden}));
     tried.report(GoalResult::Failed);
     for (int plan = 0; plan < rest; ++plan) {
@@ -468,9 +583,9 @@ TEST(TriedViews, PlacesRestLongerAfterEveryFailureAndAreTriedThreeTimesInAll) {
       EXPECT_TRUE(tried.rests(place)) << rest << ", plan " << plan;
       EXPECT_TRUE(tried.rests({2, 7, 5})) << "0.4 m beside it";
       EXPECT_FALSE(tried.rests({2, 5, 8})) << "0.6 m beside it";
-      EXPECT_EQ(tried.places_given_up(), rest == 32 ? 1U : 0U);
+      EXPECT_EQ(tried.places_given_up(), rest == 512 ? 1U : 0U);
     }
-    if (rest == 32) {
+    if (rest == 512) {
       EXPECT_FALSE(tried.try_resting_again());
       EXPECT_TRUE(tried.rests(place));
     }
@@ -624,6 +739,32 @@ TEST(TriedViews, IsBoundedWhateverHappens) {
   EXPECT_LE(largest, kMost + 90'000);
   EXPECT_TRUE(tried.gave_up({latest, 0, 0}));
   EXPECT_FALSE(tried.gave_up({100, 0, 0}));
+}
+
+// Places that failed stay longest, as text, too.
+TEST(TriedViews, RemembersAFewThousandPlaces) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const Pose robot = at(map, {-8, 5, 5});
+  tried.review(map, robot);
+  const auto ask = [&](std::int32_t number, bool fails) {
+    EXPECT_TRUE(tried.expect(map, path_to(at(map, {3 * number, 5, 5}), 5.0), {}));
+    if (fails) {
+      tried.report(GoalResult::Failed);
+    }
+    tried.review(map, robot);
+  };
+  for (std::int32_t number = 0; number < 9000; ++number) {
+    ask(number, number % 3 == 0);
+  }
+  const std::string text = tried.text();
+  std::size_t places = 0;
+  for (std::size_t line = text.find("\nplace "); line != std::string::npos; line = text.find("\nplace ", line + 1)) {
+    ++places;
+  }
+  EXPECT_EQ(places, 4096U);
+  EXPECT_NE(text.find("\nplace 0 5 5"), std::string::npos) << "it failed";
+  EXPECT_EQ(text.find("\nplace 3 5 5"), std::string::npos) << "it did not";
 }
 
 // Random histories: what is saved as text and recalled answers every question as before, also after more history.

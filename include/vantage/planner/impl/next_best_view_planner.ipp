@@ -12,6 +12,7 @@
 #include <vantage/robot/way_around.hpp>
 #include <vantage/view/view_utility.hpp>
 
+#include <vantage/planner/impl/blocked_reasons.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/raytrace/impl/shared_work.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
@@ -120,6 +121,9 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
   plan.statistics.views_scored = tried.size();
   plan.statistics.evaluate_ms = stopwatch.lap_ms();
 
+  const bool any_asked_for = options_.candidates.subdivisions >= 0 || options_.candidates.random_candidates > 0;
+  const bool none_admitted = any_asked_for && tried.empty() && !tried_.any_rests();
+  const std::vector<Eigen::Vector3d> refused = detail::refused_by_a_stuck_robot(tried_, current);
   // Line 21: the best view first.
   std::erase_if(tried, [](const Candidate& one) { return one.view.utility <= 0.0; });
   std::stable_sort(tried.begin(), tried.end(),
@@ -136,6 +140,9 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
       continue;
     }
     any_worthwhile = true;
+    if (!detail::leads_elsewhere(refused, current.translation(), view.pose.translation())) {
+      continue;
+    }
     plan.statistics.choose_ms += stopwatch.lap_ms();
     auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
     plan.statistics.path_ms += stopwatch.lap_ms();
@@ -157,12 +164,17 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
   if (tried_.try_resting_again()) {
     return this->plan(map, current);
   }
-  const bool cut_off = any_worthwhile || tried_.any_rests();
-  plan.outcome = cut_off ? Outcome::Unreachable : Outcome::Explored;
-  (cut_off ? plan.leftover.unreachable : plan.leftover.unobservable) = left.size();
-  plan.reason = cut_off ? "there is no path to any view that sees enough of the object"
-                        : "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
-                              " unknown cells of the object; all together see " + std::to_string(left.size());
+  if (none_admitted) {
+    plan.reason = detail::kNoViewIsAdmitted;
+  } else if (any_worthwhile || tried_.any_rests()) {
+    detail::end_without_a_path(map, *setup_.platform, current, tried_, plan);
+    plan.leftover.unreachable = left.size();
+  } else {
+    plan.outcome = Outcome::Explored;
+    plan.leftover.unobservable = left.size();
+    plan.reason = "no admitted view sees " + std::to_string(options_.min_unknown_cells) +
+                  " unknown cells of the object; all together see " + std::to_string(left.size());
+  }
   return plan;
 }
 

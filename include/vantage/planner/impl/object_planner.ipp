@@ -9,6 +9,7 @@
 #include <vantage/planner/object_planner.hpp>
 #include <vantage/robot/way_around.hpp>
 
+#include <vantage/planner/impl/blocked_reasons.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/raytrace/impl/shared_work.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
@@ -97,9 +98,11 @@ VANTAGE_INLINE std::vector<std::size_t> ObjectPlanner::order_of(const std::vecto
 VANTAGE_INLINE bool ObjectPlanner::take_first(const OccupancyMap& map, const Pose& current,
                                               const std::vector<Candidate>& all,
                                               const std::vector<std::size_t>& worthwhile, Plan& plan) {
+  const std::vector<Eigen::Vector3d> refused = detail::refused_by_a_stuck_robot(tried_, current);
   for (const std::size_t i : worthwhile) {
     const Candidate& candidate = all[i];
-    if (tried_.rests(map.frame().cell_of(candidate.pose.translation()))) {
+    if (tried_.rests(map.frame().cell_of(candidate.pose.translation())) ||
+        !detail::leads_elsewhere(refused, current.translation(), candidate.pose.translation())) {
       continue;
     }
     auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.candidates.object.centre());
@@ -146,16 +149,14 @@ VANTAGE_INLINE Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pos
     return plan;
   }
   if (all.empty()) {
-    plan.reason =
-        "the platform admits none of the candidate views: declare the space around the object free (assume_free)";
+    plan.reason = detail::kNoViewIsAdmitted;
   } else if (worthwhile.empty()) {
     plan.outcome = Outcome::Explored;
     plan.leftover.unobservable = best;
     plan.reason = "no admitted view would show more of the object";
   } else {
-    plan.outcome = Outcome::Unreachable;
+    detail::end_without_a_path(map, *setup_.platform, current, tried_, plan);
     plan.leftover.unreachable = best;
-    plan.reason = "there is no path to any view that would show more of the object";
   }
   return plan;
 }

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
+#include <vantage/geometry/raster_order.hpp>
 
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/spread_directions.hpp>
@@ -104,12 +106,14 @@ VANTAGE_INLINE void SightMemory::follow_places(const ReachableSpace& reachable, 
     *reachable.find(brick) == BrickPlane{} ? places_.erase(brick) : places_.insert(brick);
   }
   if (resting_ != resting) {
-    for (const VoxelBox& box : std::exchange(resting_, resting)) {
+    std::vector<VoxelBox> changed;
+    std::set_symmetric_difference(resting_.begin(), resting_.end(), resting.begin(), resting.end(),
+                                  std::back_inserter(changed),
+                                  [](const VoxelBox& a, const VoxelBox& b) { return RasterOrder{}(a.lo, b.lo); });
+    for (const VoxelBox& box : changed) {
       for_each_cell(Brick::over(box), update);
     }
-    for (const VoxelBox& box : resting) {
-      for_each_cell(Brick::over(box), update);
-    }
+    resting_ = resting;
   }
 }
 

@@ -3,36 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/tried_views.hpp>
 
 #include <vantage/geometry/impl/pose_distance.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
+#include <vantage/view/impl/cell_distance.hpp>
 #include <vantage/view/impl/clear_line.hpp>
 
 namespace vantage {
 namespace detail {
 
 inline constexpr std::size_t kMostCells = std::size_t{1} << 18;
-inline constexpr std::size_t kMostPlaces = 256;
 inline constexpr std::size_t kMostScans = 64;
-inline constexpr int kMostFailures = 3;
-inline constexpr int kMostAsks = 2;             // for a goal to which the robot comes no nearer
-inline constexpr int kStuckGoals = 3;           // to none of which the robot comes nearer
-inline constexpr std::uint64_t kFirstRest = 8;  // plans
-inline constexpr double kNearer = 0.01;         // metres or radians; smaller progress is ignored as jitter
 
 inline int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
   return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
     return map.at(cell + step) != Occupancy::Unknown;
   }));
-}
-
-inline double squared_distance(const VoxelIndex& a, const VoxelIndex& b) {
-  const VoxelIndex d = a - b;
-  return static_cast<double>(d.x) * d.x + static_cast<double>(d.y) * d.y + static_cast<double>(d.z) * d.z;
 }
 
 // Whether two places differ as seen from `unknown`: distance above half of the shorter distance to it.
@@ -59,11 +48,6 @@ inline bool is_clear_from(const OccupancyMap& map, const VoxelIndex& place, cons
   return is_clear_line(map, map.frame().centre_of(place), unknown);
 }
 
-// Whether there is more than jitter between two poses.
-inline bool is_more_than_jitter(const Pose& a, const Pose& b) {
-  return (a.translation() - b.translation()).norm() > kNearer || angle_rad(a, b) > kNearer;
-}
-
 }  // namespace detail
 
 VANTAGE_INLINE TriedViews::TriedViews(const RangeSensor& sensor, const TriedViewsOptions& options)
@@ -75,54 +59,11 @@ VANTAGE_INLINE TriedViews::TriedViews(const RangeSensor& sensor, const TriedView
   detail::require_option(options.patience >= 1, "patience", options.patience, ">= 1");
 }
 
-VANTAGE_INLINE double TriedViews::tolerance_m() const { return std::max(options_.goal_tolerance_m, cell_m_); }
-
-// What is left of a path, as one number that shrinks while a robot follows it: within the tolerance the angle that is
-// left, which is at most pi, and before that pi plus the metres that are left.
-VANTAGE_INLINE double TriedViews::way_to_go(const std::vector<Pose>& path) const {
-  const double length_m = detail::length_m(path);
-  return length_m > tolerance_m() ? std::numbers::pi + length_m : detail::angle_rad(path.front(), path.back());
-}
-
-VANTAGE_INLINE bool TriedViews::expect(const OccupancyMap& map, const std::vector<Pose>& path,
-                                       std::vector<VoxelIndex> sought, std::vector<VoxelIndex> hoped) {
-  Place& place = place_of(map.frame().cell_of(path.back().translation()));
-  if (place.revision != map.revision()) {  // else this map was already planned in
-    const double way = way_to_go(path);
-    const bool first = place.revision == 0;
-    const bool moved = !place.asked_from || detail::is_more_than_jitter(path.front(), *place.asked_from);
-    place.revision = map.revision();
-    place.asked_from = path.front();
-    if (first || (moved && way < place.nearest_way - detail::kNearer)) {
-      place.failures = first ? place.failures : std::min(place.failures, 1);
-      place.nearest_way = way;
-      place.no_nearer = 0;
-    } else if (++place.no_nearer == detail::kMostAsks) {
-      fail(place);
-      rest_now();
-      expected_.reset();
-      return false;
-    }
-  }
-  expected_ = Expectation{path.back(), map.revision(), std::move(sought), std::move(hoped)};
-  return true;
-}
-
-VANTAGE_INLINE TriedViews::Place& TriedViews::place_of(const VoxelIndex& cell) {
-  const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& one) { return one.cell == cell; });
-  if (found != places_.end()) {
-    return *found;
-  }
-  if (places_.size() == detail::kMostPlaces) {
-    places_.pop_front();
-  }
-  return places_.emplace_back(Place{.cell = cell});
-}
-
 VANTAGE_INLINE bool TriedViews::review(const OccupancyMap& map, const Pose& current) {
   const bool same_map = map_.is_copied_from(map) && map.revision() >= reviewed_;
   if (same_map && reviewed_ == map.revision()) {
     if (expected_ && reported_ == GoalResult::Failed) {  // a failure is known without a new scan
+      ++plans_;
       evaluate(map, current);
       reported_.reset();
       rest_now();
@@ -194,8 +135,8 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
     std::erase_if(places_, [&](const Place& place) { return place.cell == goal && place.failures == 0; });
   } else if (reported_ == GoalResult::Failed) {
     Place& place = place_of(goal);
-    fail(place);
     place.no_nearer = 0;
+    fail(place);
   } else if (reported_ == GoalResult::Reached || arrived(current)) {
     const double off_m = (expected_->goal.translation() - current.translation()).norm();
     if (reported_ == GoalResult::Reached || off_m < 0.5 * cell_m_) {
@@ -270,55 +211,6 @@ VANTAGE_INLINE bool TriedViews::add_clear_look(const OccupancyMap& map, Looks& l
   return is_new;
 }
 
-VANTAGE_INLINE void TriedViews::fail(Place& place) {
-  ++place.failures;
-  place.rests_until = plans_ + (detail::kFirstRest << std::min(place.failures - 1, 8));
-}
-
-VANTAGE_INLINE bool TriedViews::given_up(const Place& place) const {
-  return place.rests_until > plans_ &&
-         (place.failures >= detail::kMostFailures || place.no_nearer >= detail::kMostAsks);
-}
-
-// After its rest, a place is asked for as if for the first time.
-VANTAGE_INLINE void TriedViews::rest_now() {
-  resting_.clear();
-  for (Place& place : places_) {
-    if (place.rests_until > plans_) {
-      resting_.push_back(place.cell);
-    } else if (place.rests_until > 0) {
-      place = {.cell = place.cell, .failures = place.failures};
-    }
-  }
-}
-
-VANTAGE_INLINE bool TriedViews::try_resting_again() {
-  bool any = false;
-  for (Place& place : places_) {
-    if (place.rests_until > plans_ && !given_up(place)) {
-      place.rests_until = 0;
-      any = true;
-    }
-  }
-  rest_now();
-  return any;
-}
-
-VANTAGE_INLINE std::size_t TriedViews::places_given_up() const {
-  return static_cast<std::size_t>(
-      std::count_if(places_.begin(), places_.end(), [&](const Place& place) { return given_up(place); }));
-}
-
-// By way_to_go, more than pi is further away than the tolerance.
-VANTAGE_INLINE bool TriedViews::is_stuck(const Pose& current) const {
-  const auto in_vain_from_here = [&](const Place& place) {
-    return place.rests_until > plans_ && place.no_nearer >= detail::kMostAsks &&
-           place.nearest_way > std::numbers::pi && place.asked_from &&
-           (place.asked_from->translation() - current.translation()).norm() <= 0.5 * tolerance_m();
-  };
-  return std::count_if(places_.begin(), places_.end(), in_vain_from_here) >= detail::kStuckGoals;
-}
-
 VANTAGE_INLINE TriedViews::Looks& TriedViews::new_look_at(const OccupancyMap& map, const VoxelIndex& unknown) {
   Looks& looks = looks_[unknown];
   may_hold_.insert(unknown);
@@ -381,25 +273,6 @@ VANTAGE_INLINE bool TriedViews::looked_from_beside(const OccupancyMap& map, cons
   };
   return looks != nullptr && (std::any_of(looks->clear.begin(), looks->clear.end(), is_beside) ||
                               std::find(looks->missed.begin(), looks->missed.end(), place) != looks->missed.end());
-}
-
-// In cells.
-VANTAGE_INLINE double TriedViews::rest_reach() const { return std::max(options_.goal_tolerance_m / cell_m_, 1.0); }
-
-VANTAGE_INLINE std::vector<VoxelBox> TriedViews::resting() const {
-  std::vector<VoxelBox> boxes;
-  boxes.reserve(resting_.size());
-  for (const VoxelIndex& goal : resting_) {
-    boxes.push_back(VoxelBox{goal, goal + VoxelIndex{1, 1, 1}}.grown(static_cast<std::int32_t>(rest_reach())));
-  }
-  return boxes;
-}
-
-VANTAGE_INLINE bool TriedViews::rests(const VoxelIndex& place) const {
-  const double reach = rest_reach();
-  return std::any_of(resting_.begin(), resting_.end(), [&](const VoxelIndex& other) {
-    return detail::squared_distance(place, other) <= reach * reach;
-  });
 }
 
 }  // namespace vantage
