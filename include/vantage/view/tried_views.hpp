@@ -99,7 +99,7 @@ class TriedViews {
   void recall(const OccupancyMap& map, std::string_view text);
   /// Ends the rest of all places that are not given up. Returns whether there were any.
   bool try_resting_again();
-  /// No place rests for more than 32 further plans. For a plan that is no Move: a host that waits is asked again.
+  /// No place rests for more than 8 further plans. For a plan that is no Move: a host that waits is asked again.
   void end_run();
 
   // --- queries
@@ -136,7 +136,7 @@ class TriedViews {
   /// they were asked for. Empty if there are fewer than three.
   [[nodiscard]] std::vector<Eigen::Vector3d> refused_directions(const Pose& current) const;
   /// Whether a robot at `current` does not move, as far as the goals in refused directions tell: it came no nearer to
-  /// three of them, or goals failed 150 times from there and not all lie in one half of the compass.
+  /// three of them, or to 24 if all lie in one half of the compass; or goals in both halves failed 150 times.
   [[nodiscard]] bool is_stuck(const Pose& current) const;
   /// The sensor poses (world_from_sensor) of the latest scans, at most 64, the newest last.
   [[nodiscard]] const std::deque<Pose>& scanned_from() const { return scanned_from_; }

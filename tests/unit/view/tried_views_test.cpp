@@ -378,7 +378,7 @@ TEST(TriedViews, NoPlaceRestsForLongOnceTheRunHasEnded) {
     map.confirm();
     tried.review(map, robot);
   }
-  EXPECT_EQ(waits, 32);
+  EXPECT_EQ(waits, 8);
 }
 
 // By definition: the last eight places that failed once, and all within the tolerance of them.

@@ -25,7 +25,7 @@ inline constexpr const char* kNoViewIsAdmitted =
 
 inline std::string counted(std::size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
-inline constexpr double kRefusedRad = std::numbers::pi / 6.0;
+inline constexpr double kRefusedRad = std::numbers::pi / 3.0;
 
 /// Whether the straight line from a robot at `from` to a place is off all refused directions by this angle.
 inline bool leads_elsewhere(const std::vector<Eigen::Vector3d>& refused, const Eigen::Vector3d& from,

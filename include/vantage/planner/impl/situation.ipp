@@ -69,13 +69,13 @@ VANTAGE_INLINE void Situation::find_targets() {
 // there are targets, or at least beside them.
 VANTAGE_INLINE void Situation::set_refused_aside() {
   const std::vector<Eigen::Vector3d> refused = tried_.refused_directions(current_);
-  double angle_rad = 2.0 * detail::kRefusedRad;
+  double angle_rad = detail::kRefusedRad;
   const auto leads_elsewhere = [&](const FrontierTarget& target) {
     const Eigen::Vector3d place = map_->frame().centre_of(target.viewpoint);
     return detail::leads_elsewhere(refused, current_.translation(), place, angle_rad);
   };
   if (std::none_of(survey_.targets.begin(), survey_.targets.end(), leads_elsewhere)) {
-    angle_rad = detail::kRefusedRad;
+    angle_rad = 0.5 * detail::kRefusedRad;
   }
   const auto aside = std::stable_partition(survey_.targets.begin(), survey_.targets.end(), leads_elsewhere);
   set_aside_.insert(set_aside_.end(), aside, survey_.targets.end());

@@ -18,12 +18,12 @@ namespace detail {
 
 inline constexpr std::size_t kMostPlaces = 4096;
 inline constexpr int kMostFailures = 3;
-inline constexpr int kMostAsks = 2;             // for a goal to which the robot comes no nearer
-inline constexpr std::size_t kStuckGoals = 3;   // to none of which the robot comes nearer
+inline constexpr int kMostAsks = 2;            // for a goal to which the robot comes no nearer
+inline constexpr std::size_t kStuckGoals = 3;  // to none of which the robot comes nearer
+inline constexpr std::size_t kStuckGoalsOnOneSide = 24;
 inline constexpr int kStuckFailures = 150;      // reported, from one place
 inline constexpr std::uint64_t kFirstRest = 8;  // plans
-inline constexpr std::uint64_t kRestAfterRun = 32;
-inline constexpr double kNearer = 0.01;  // metres or radians; smaller progress is ignored as jitter
+inline constexpr double kNearer = 0.01;         // metres or radians; smaller progress is ignored as jitter
 
 // Whether there is more than jitter between two poses.
 inline bool is_more_than_jitter(const Pose& a, const Pose& b) {
@@ -143,7 +143,7 @@ VANTAGE_INLINE bool TriedViews::try_resting_again() {
 
 VANTAGE_INLINE void TriedViews::end_run() {
   for (Place& place : places_) {
-    place.rests_until = std::min(place.rests_until, plans_ + detail::kRestAfterRun);
+    place.rests_until = std::min(place.rests_until, plans_ + detail::kFirstRest);
   }
 }
 
@@ -187,9 +187,12 @@ VANTAGE_INLINE bool TriedViews::is_stuck(const Pose& current) const {
     failures += place->failures;
     directions.push_back(direction_of(*place, current));
   }
-  return silent >= detail::kStuckGoals ||
-         (failures >= detail::kStuckFailures && !refused_directions(current).empty() &&
-          !detail::lie_on_one_side(directions));
+  if (silent < detail::kStuckGoals && failures < detail::kStuckFailures) {
+    return false;
+  }
+  const bool one_side = detail::lie_on_one_side(directions);
+  return silent >= (one_side ? detail::kStuckGoalsOnOneSide : detail::kStuckGoals) ||
+         (failures >= detail::kStuckFailures && !one_side && !refused_directions(current).empty());
 }
 
 // In cells.
