@@ -60,8 +60,9 @@ struct TriedViewsOptions {
 /// asked for a third time although the robot came no nearer: the rest of the path is no shorter or, within the goal
 /// tolerance, the rest of the turn is no smaller.
 ///
-///     asked for --- fails ---> rests 8 plans ---> may be asked for again; each further rest is longer: 64, 512, 4096
-///                                |                plans if failures are reported, otherwise 16, 32, ...
+///     asked for --- fails ---> rests 8 plans ---> may be asked for again
+///                                |                (then rests 64, 512, 4096; if it does not report, 16, 32, ...)
+///                                |
 ///                                +--- reported, and no other target is left: allowed again at once, until the
 ///                                     third failure; if the robot came nearer, only the latest one counts
 ///

@@ -418,6 +418,29 @@ TEST(TriedViews, WhatRestsIsWithinTheToleranceOfAFailure) {
   EXPECT_GT(at_rest, 1000U);
 }
 
+// A robot that does not report may refuse one side and go elsewhere, so more goals are asked for on that side.
+TEST(TriedViews, OnOneSideMoreGoalsTellThatARobotIsStuck) {
+  const auto is_stuck_after = [](int goals) {
+    OccupancyMap map = free_before_the_hidden();
+    TriedViews tried(sees_all_around());
+    const Pose here = at(map, {0, 5, 5});
+    for (int ask = 0; ask < 3; ++ask) {
+      map.confirm();
+      tried.review(map, here);
+      for (int number = 0; number < goals; ++number) {
+        Pose goal = here;
+        const double heading_rad = 3.0 * number / goals;
+        goal.translation() += 8.0 * Eigen::Vector3d(std::cos(heading_rad), std::sin(heading_rad), 0.0);
+        EXPECT_EQ(tried.expect(map, {here, goal}, {kHidden}), ask < 2);
+      }
+    }
+    return tried.is_stuck(here);
+  };
+  EXPECT_FALSE(is_stuck_after(3));
+  EXPECT_FALSE(is_stuck_after(23));
+  EXPECT_TRUE(is_stuck_after(24));
+}
+
 // One that reports is stuck if goals all around failed, not if one side of the world is refused.
 TEST(TriedViews, ARobotThatFailsInAllDirectionsIsStuck) {
   const auto stuck_after = [](int goals, double spread_rad, bool is_level, double then_moved_m) {
