@@ -66,7 +66,7 @@ VANTAGE_INLINE void Situation::find_targets() {
 }
 
 // One side of the world may be refused, and the robot may be able to go elsewhere: far from refused directions, if
-// there are targets, or at least beside them.
+// there are targets, or at least beside them unless it seems not to move at all.
 VANTAGE_INLINE void Situation::set_refused_aside() {
   const std::vector<Eigen::Vector3d> refused = tried_.refused_directions(current_);
   double angle_rad = detail::kRefusedRad;
@@ -74,7 +74,7 @@ VANTAGE_INLINE void Situation::set_refused_aside() {
     const Eigen::Vector3d place = map_->frame().centre_of(target.viewpoint);
     return detail::leads_elsewhere(refused, current_.translation(), place, angle_rad);
   };
-  if (std::none_of(survey_.targets.begin(), survey_.targets.end(), leads_elsewhere)) {
+  if (!tried_.is_stuck(current_) && std::none_of(survey_.targets.begin(), survey_.targets.end(), leads_elsewhere)) {
     angle_rad = 0.5 * detail::kRefusedRad;
   }
   const auto aside = std::stable_partition(survey_.targets.begin(), survey_.targets.end(), leads_elsewhere);
