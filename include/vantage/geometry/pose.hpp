@@ -33,9 +33,9 @@ using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 /// Whether all entries are finite and the linear part is a rotation (orthonormal, determinant +1) within `tolerance`.
 [[nodiscard]] bool is_rigid(const Pose& pose, double tolerance = 1e-6);
 
-/// Returns the nearest rigid transform if the entries of the rotation are off by at most 1e-3 each, for example
-/// because they were written with three digits. A pose that is already rigid (is_rigid) is returned unchanged. Throws
-/// std::invalid_argument if they are off by more (root of the sum of squares above 3e-3) or not finite.
+/// Returns the nearest rigid transform if no entry of its rotation differs by more than 1e-3, for example because the
+/// entries were written with three digits. A pose that is already rigid (is_rigid) is returned unchanged. Throws
+/// std::invalid_argument if an entry differs by more or is not finite.
 [[nodiscard]] Pose orthonormalised(const Pose& pose);
 
 /// The optical axis of a sensor, a unit vector in the world frame.

@@ -48,8 +48,7 @@ VANTAGE_INLINE Pose orthonormalised(const Pose& pose) {
     const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
     Pose rigid = pose;
     rigid.linear() = parts.matrixU() * parts.matrixV().transpose();
-    constexpr double kMostOff = 3.0 * 1e-3;  // the norm of nine entries that are off by 1e-3 each
-    if (rigid.linear().determinant() > 0.0 && (rigid.linear() - pose.linear()).norm() <= kMostOff) {
+    if (rigid.linear().determinant() > 0.0 && (rigid.linear() - pose.linear()).cwiseAbs().maxCoeff() <= 1e-3) {
       return rigid;
     }
   }
