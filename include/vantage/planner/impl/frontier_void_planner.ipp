@@ -123,13 +123,10 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan)
     return choice;
   }
   if (!options_.strategy.beyond_voids) {
-    const double least = detail::least_cells(options_.strategy.least_view_m3, map.resolution_m());
-    const bool any_void = least == 1.0;
-    plan.reason = (any_void ? "no view sees a void (the best utility is 0); "
-                            : "the best utility is below " + detail::volume(least, map.resolution_m()) + "; ") +
-                  std::to_string(situation().survey().targets.size()) + " observable frontier cells are left: " +
-                  (any_void ? "the setting beyond_voids=true goes on with them"
-                            : "a smaller setting least_view_m3 goes on with smaller voids");
+    const bool any_void = detail::least_cells(options_.strategy.least_view_m3, map.resolution_m()) == 1.0;
+    plan.reason = (any_void ? "no view sees a void (the best utility is 0; beyond_voids=true goes on); "
+                            : "the best utility is below least_view_m3 (a smaller one goes on); ") +
+                  std::to_string(all) + " observable frontier cells are left";
     return std::nullopt;
   }
   choice = nearest_view(situation(), plan.statistics.ray_operations);
