@@ -58,12 +58,14 @@ class NextBestViewPlanner final : public ExplorationPlanner {
     double counted = 0.0;  // their number, as counted by the chosen VisibilityMethod
   };
 
+  [[nodiscard]] bool draws_views() const;
   [[nodiscard]] std::vector<Pose> views(const OccupancyMap& map, const VoxelBox& object) const;
   [[nodiscard]] std::vector<Candidate> candidates(const OccupancyMap& map, const Pose& current,
                                                   const VoxelBox& object) const;
   [[nodiscard]] std::vector<ScoredView> score(const OccupancyMap& map, const Pose& current, const VoxelBox& object,
                                               std::span<const Pose> views,
                                               const std::vector<ViewEvaluation>& seen) const;
+  void take(const OccupancyMap& map, const Pose& current, const ScoredView& view, const CellSet& sought, Plan& plan);
 
   PlannerSetup setup_;
   NextBestViewOptions options_;

@@ -47,6 +47,11 @@ VANTAGE_INLINE std::vector<Pose> NextBestViewPlanner::views(const OccupancyMap& 
   return views;
 }
 
+// Whether there are candidates beside the aimed ones, which are none where nothing unknown is in sight.
+VANTAGE_INLINE bool NextBestViewPlanner::draws_views() const {
+  return options_.candidates.subdivisions >= 0 || options_.candidates.random_candidates > 0;
+}
+
 // Lines 9 to 20: the utility of every candidate.
 VANTAGE_INLINE std::vector<NextBestViewPlanner::Candidate> NextBestViewPlanner::candidates(
     const OccupancyMap& map, const Pose& current, const VoxelBox& object) const {
@@ -109,6 +114,21 @@ VANTAGE_INLINE std::vector<ScoredView> NextBestViewPlanner::score(const Occupanc
   return scored;
 }
 
+// Makes the plan a Move to this view, if a path leads to it that the robot has not failed to follow.
+VANTAGE_INLINE void NextBestViewPlanner::take(const OccupancyMap& map, const Pose& current, const ScoredView& view,
+                                              const CellSet& sought, Plan& plan) {
+  auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
+  std::vector<VoxelIndex> cells;
+  sought.for_each([&](const VoxelIndex& cell) { cells.push_back(cell); });
+  if (path && tried_.expect(map, *path, cells)) {
+    plan.outcome = Outcome::Move;
+    plan.goal = {view.pose, view.utility};
+    plan.path = std::move(*path);
+    plan.sought = std::move(cells);
+    plan.reason = "a view of " + std::to_string(plan.sought.size()) + " unknown cells of the object";
+  }
+}
+
 VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pose& pose) {
   detail::Stopwatch stopwatch;
   const Pose current = orthonormalised(pose);
@@ -121,8 +141,7 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
   plan.statistics.views_scored = tried.size();
   plan.statistics.evaluate_ms = stopwatch.lap_ms();
 
-  const bool any_asked_for = options_.candidates.subdivisions >= 0 || options_.candidates.random_candidates > 0;
-  const bool none_admitted = any_asked_for && tried.empty() && !tried_.any_rests();
+  const bool none_admitted = tried.empty() && draws_views() && !tried_.any_rests();
   const std::vector<Eigen::Vector3d> refused = detail::refused_by_a_stuck_robot(tried_, current);
   // Line 21: the best view first.
   std::erase_if(tried, [](const Candidate& one) { return one.view.utility <= 0.0; });
@@ -144,17 +163,8 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
       continue;
     }
     plan.statistics.choose_ms += stopwatch.lap_ms();
-    auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
+    take(map, current, view, sought, plan);
     plan.statistics.path_ms += stopwatch.lap_ms();
-    std::vector<VoxelIndex> cells;
-    sought.for_each([&](const VoxelIndex& cell) { cells.push_back(cell); });
-    if (path && tried_.expect(map, *path, cells)) {
-      plan.outcome = Outcome::Move;
-      plan.goal = {view.pose, view.utility};
-      plan.path = std::move(*path);
-      plan.sought = std::move(cells);
-      plan.reason = "a view of " + std::to_string(plan.sought.size()) + " unknown cells of the object";
-    }
   }
   plan.statistics.choose_ms += stopwatch.lap_ms();
   if (plan.outcome == Outcome::Move) {

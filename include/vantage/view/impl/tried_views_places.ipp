@@ -33,6 +33,7 @@ inline bool is_more_than_jitter(const Pose& a, const Pose& b) {
 // Whether all directions lie in one half of the compass.
 inline bool lie_on_one_side(const std::vector<Eigen::Vector3d>& directions) {
   std::vector<double> headings_rad;
+  headings_rad.reserve(directions.size());
   for (const Eigen::Vector3d& direction : directions) {
     headings_rad.push_back(std::atan2(direction.y(), direction.x()));
   }
