@@ -176,11 +176,12 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
 }
 
 Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
-  if (const std::optional<Pose> given = start_in_world(request)) {
-    naming("--start " + request.start, [&] { run.check_start(*given); });
-    return *given;
+  std::optional<Pose> start = start_in_world(request);
+  if (start) {
+    naming("--start " + request.start, [&] { run.check_start(*start); });
+  } else {
+    start = run.truth().draw_start(platform, request.seed);
   }
-  const std::optional<Pose> start = run.truth().draw_start(platform, request.seed);
   if (!start) {
     throw std::invalid_argument("--world " + request.world + ": the robot fits nowhere in the region" +
                                 floor_of_band(request));

@@ -174,7 +174,9 @@ TEST_F(Program, RefusesRegionsAndStarts) {
   expect_refused("--world rooms --sensor stereo --resolution 0.15 --band 0.2,1.4", "begin at 0.15 m, and the floor");
   expect_refused("--world rooms --sensor stereo --band 0.3,1.4 --robot-radius 9", "region; it is too large, or");
   expect_refused("--world rooms --sensor stereo --band 0.44,1.4", "the floor at the start is at 0.19 m");
-  EXPECT_EQ(refused_, 17);
+  expect_refused("--world rooms --sensor stereo --band 0.44,1.4 --start 2,2,0.92",
+                 "the floor at the start is at 0.19 m");
+  EXPECT_EQ(refused_, 18);
 }
 
 TEST_F(Program, RefusesFilesThatAreMissingOrBroken) {

@@ -69,6 +69,9 @@ VANTAGE_INLINE void Situation::find_targets() {
 // there are targets, or at least beside them unless it seems not to move at all.
 VANTAGE_INLINE void Situation::set_refused_aside() {
   const std::vector<Eigen::Vector3d> refused = tried_.refused_directions(current_);
+  if (refused.empty()) {
+    return;
+  }
   double angle_rad = detail::kRefusedRad;
   const auto leads_elsewhere = [&](const FrontierTarget& target) {
     const Eigen::Vector3d place = map_->frame().centre_of(target.viewpoint);

@@ -40,6 +40,12 @@ inline bool add_if_it_differs(const VoxelIndex& unknown, const VoxelIndex& place
   return differs;
 }
 
+inline void add_once(const VoxelIndex& place, std::vector<VoxelIndex>& places) {
+  if (std::find(places.begin(), places.end(), place) == places.end()) {
+    places.push_back(place);
+  }
+}
+
 inline bool touch(const VoxelIndex& a, const VoxelIndex& b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 && std::abs(a.z - b.z) <= 1;
 }
@@ -156,10 +162,7 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
           looked && detail::is_clear_line(map, current.translation(), cell) && add_clear_look(map, looks, cell, here);
       // The robot comes no nearer to the goal than this.
       if (!(differs || is_clear_look) || detail::differ(cell, here, goal)) {
-        std::vector<VoxelIndex>& goals = looks.*unseen;
-        if (std::find(goals.begin(), goals.end(), goal) == goals.end()) {
-          goals.push_back(goal);
-        }
+        detail::add_once(goal, looks.*unseen);
       }
     };
     for (const VoxelIndex& cell : sought) {
@@ -197,8 +200,8 @@ VANTAGE_INLINE bool TriedViews::add_clear_look(const OccupancyMap& map, Looks& l
   std::erase_if(looks.clear, [&](const VoxelIndex& other) {
     const bool is_replaced =
         other != place && detail::touch(place, other) && !detail::is_clear_from(map, other, unknown);
-    if (is_replaced && std::find(looks.missed.begin(), looks.missed.end(), other) == looks.missed.end()) {
-      looks.missed.push_back(other);
+    if (is_replaced) {
+      detail::add_once(other, looks.missed);
     }
     return is_replaced;
   });
