@@ -169,11 +169,15 @@ TrialJson result_of(const Trial& trial, const ExploreRequest& shared) {
 
 std::map<std::string, TrialJson> results_in(const std::string& file) {
   std::map<std::string, TrialJson> results;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {  // none yet, or a device, which may never end
+    return results;
+  }
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     TrialJson result = TrialJson::parse(line, nullptr, false);
     // An interrupted run may leave half a line, and older lines lack the turn.
-    if (result.is_object() && result.contains("key") && result.contains("turned_deg")) {
+    if (result.is_object() && result.contains("turned_deg") && result.value("key", TrialJson()).is_string()) {
       results.insert_or_assign(result.at("key").get<std::string>(), result);
     }
   }
