@@ -127,9 +127,6 @@ Settings settings_for(const ReconstructRequest& request, const ObjectScene& scen
   settings.insert_or_assign("random_candidates",
                             faces == request.candidates ? "0" : std::to_string(request.candidates));
   settings.insert_or_assign("aimed_candidates", std::to_string(request.aimed));
-  if (request.method != "default") {  // the paper's utility
-    settings.insert_or_assign("min_unknown_cells", "12");
-  }
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
   }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <vantage/arm/arm.hpp>
+#include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/sim/exploration_run.hpp>
 #include <vantage/sim/truth.hpp>
@@ -34,8 +35,6 @@ namespace vantage::apps {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kLeastViewM3 =
-    0.0016;  // just below the smallest utility in the tables of Dornhege & Kleiner 2011, 1.61 dm^3
 
 // Options of `vantage search` as typed.
 struct SearchRequest {
@@ -130,7 +129,7 @@ Box body_at(const SearchRequest& request, const KinematicChain& chain, const Pos
 Settings settings_for(const SearchRequest& request) {
   Settings settings;
   if (request.run.planner == "frontier-void") {  // a search ends where no view sees a void
-    settings = {{"mode", "searching"}, {"views", "400"}, {"least_view_m3", std::to_string(kLeastViewM3)}};
+    settings = {{"mode", "searching"}};
   }
   for (const auto& [name, value] : settings_of(request.run)) {
     settings.insert_or_assign(name, value);
@@ -143,7 +142,7 @@ std::unique_ptr<ExplorationPlanner> planner_of(const SearchRequest& request, con
   if (request.run.planner != ExhaustivePlanner::kName) {
     return make_planner(request.run.planner, setup, settings_for(request));
   }
-  double least_view_m3 = kLeastViewM3;
+  double least_view_m3 = FrontierVoidStrategy::searching().least_view_m3;
   for (const auto& [name, value] : settings_of(request.run)) {
     if (name != "least_view_m3") {
       throw std::invalid_argument("the planner exhaustive has one setting, least_view_m3, not '" + name + "'");

@@ -5,6 +5,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/sim/object_scene.hpp>
 #include <vantage/view/candidate_views.hpp>
+#include <vantage/view/object_views.hpp>
 
 #include <vantage/geometry/impl/dice.hpp>
 #include <vantage/map/impl/plain_stream.hpp>
@@ -14,16 +15,6 @@ namespace {
 
 // How far the body reaches, with room for cells that it touches.
 double body_m(const ObjectSceneOptions& options) { return options.body_radius_m + 2.0 * options.resolution_m; }
-
-double fitting_radius_m(const Box& box, const RangeSensor& sensor, const ObjectSceneOptions& options) {
-  const double reach_m = 0.5 * box.extent().norm();
-  const double half_angle =
-      std::min(0.5 * std::min(sensor.horizontal_angle_rad(), sensor.vertical_angle_rad()), std::asin(0.5));
-  const double furthest_m = std::min(sensor.max_range_m - reach_m, sensor.resolving_range_m(options.resolution_m));
-  const double nearest_m = std::max({sensor.min_range_m, 0.1, body_m(options)}) + reach_m;
-  const double radius_m = std::max(std::min(reach_m / std::sin(half_angle), furthest_m), nearest_m);
-  return options.table ? std::min(radius_m, 1.5) : radius_m;
-}
 
 // Memory and time follow the region, so it holds no more than the views and the ways between them need.
 Box region_around(const ObjectScene& scene, const ObjectSceneOptions& options) {
@@ -61,8 +52,11 @@ ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, 
       scene.box.min.z() = std::max(scene.box.min.z(), kTableTopM + 0.5 * options.resolution_m);
     }
   }
-  scene.radii_m =
-      options.radii_m.empty() ? std::vector{fitting_radius_m(scene.box, sensor, options)} : options.radii_m;
+  scene.radii_m = options.radii_m;
+  if (scene.radii_m.empty()) {
+    const double radius_m = fitting_radius_m(scene.box, sensor, options.resolution_m, body_m(options));
+    scene.radii_m = {options.table ? std::min(radius_m, 1.5) : radius_m};
+  }
   const Box around = region_around(scene, options);
   if (options.table) {
     scene.world = World::by_name("table");
@@ -79,8 +73,7 @@ ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor, 
 Settings planner_settings(const ObjectScene& scene) {
   const Box& box = scene.box;
   return {{"object", comma_separated({box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()})},
-          {"radii_m", comma_separated(scene.radii_m)},
-          {"aimed_candidates", "320"}};
+          {"radii_m", comma_separated(scene.radii_m)}};
 }
 
 namespace {

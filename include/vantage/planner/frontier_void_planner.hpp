@@ -26,6 +26,7 @@ struct FrontierVoidStrategy {
   /// all together, at a cost that follows the volume of the voids.
   bool in_tiles = true;
   VoidSampling sampling = {};  ///< how views are drawn
+  std::size_t views = 50;      ///< valid views evaluated per plan, `N` in IV-C, in [1, 1e6]
   /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
   /// alone count (eq. 3).
   double cost_per_m = 0.3;
@@ -57,14 +58,16 @@ struct FrontierVoidStrategy {
             .beyond_voids = false};
   }
   /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
-  /// when no view sees a void.
+  /// when no view sees a void of more than 1.6 dm^3, just below the smallest utility in the paper's tables.
   [[nodiscard]] static FrontierVoidStrategy searching() {
     return {.in_tiles = false,
             .sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
+            .views = 400,
             .cost_per_m = 0.0,
             .finalists = 30,
             .best = 30,
             .sought_chance = 0.0,
+            .least_view_m3 = 0.0016,
             .beyond_voids = false};
   }
 };
@@ -72,7 +75,6 @@ struct FrontierVoidStrategy {
 /// Options of FrontierVoidPlanner.
 struct FrontierVoidOptions {
   VoidClusterOptions clusters = {};    ///< how void cells are clustered; its seed is replaced by that of the setup
-  std::size_t views = 50;              ///< valid views evaluated per plan, `N` in IV-C, in [1, 1e6]
   FrontierVoidStrategy strategy = {};  ///< refinements of the method
   /// How frontiers are surveyed, with fewer rays than elsewhere: a void is seen through many frontier cells.
   FrontierSurveyOptions survey = {.sight_directions = 128};

@@ -69,6 +69,7 @@ class NextBestViewPlanner final : public ExplorationPlanner {
 
   PlannerSetup setup_;
   NextBestViewOptions options_;
+  ObjectViewOptions shells_;  // options_.candidates, with radii
   TriedViews tried_;
   FollowingCaster looking_;  // follows the map of the last plan
 };

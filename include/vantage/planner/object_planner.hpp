@@ -19,10 +19,10 @@ namespace VANTAGE_EXPORT vantage {
 struct ObjectPlannerOptions {
   ObjectViewOptions candidates;  ///< where to look from
   /// Minimum weight of the sides of the surface that a view is expected to observe first, as a share of the weight
-  /// observed so far, in [0, 1).
+  /// observed so far, in [0, 1].
   double min_new_share = 0.001;
-  /// What a view costs beside the path to it, in radii of the first sphere, > 0. The view of most weight for its
-  /// cost is taken: a small price saves path, a large one saves views.
+  /// What a view costs beside the path to it, in radii of the first sphere, in (0, 1e6]. The view of most weight for
+  /// its cost is taken: a small price saves path, a large one saves views.
   double view_price = 4.0;
 };
 
@@ -60,7 +60,8 @@ class ObjectPlanner final : public ExplorationPlanner {
 
   PlannerSetup setup_;
   ObjectPlannerOptions options_;
-  KnownMap map_;  // of the last plan
+  ObjectViewOptions shells_;  // options_.candidates, with radii
+  KnownMap map_;              // of the last plan
   OccupancyMap::Revision revision_ = 0;
   TriedViews tried_;  // goals that the robot failed to get to
   std::optional<UnseenSurface> surface_;

@@ -42,9 +42,7 @@ struct ObjectScene {
 
 /// Puts an object, given at its place in the world, into its world. The region is a cube that holds the shells; in
 /// the world `table` it also holds the start, and is cut off at the walls of the room. If no radius is given there is
-/// one shell, far enough that a sphere around the box fits into the image, but so near that the sensor resolves cells
-/// and reaches the far side of the box; never where the body would touch the box, and on the table at most 1.5 m
-/// (Vasquez-Gomez et al. 2013).
+/// one shell, of `fitting_radius_m`, on the table of at most 1.5 m (Vasquez-Gomez et al. 2013).
 [[nodiscard]] ObjectScene object_scene(const TriangleMesh& object, const RangeSensor& sensor,
                                        const ObjectSceneOptions& options);
 
@@ -54,8 +52,7 @@ struct ObjectScene {
 [[nodiscard]] Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platform& platform,
                                    std::uint64_t seed);
 
-/// Settings of the planner `next-best-view` for a scene (make_planner): the box, the shells, and the distance of
-/// aimed views, from a third of the largest radius to that radius.
+/// Settings of the planner `next-best-view` for a scene (make_planner): the box and the shells.
 [[nodiscard]] Settings planner_settings(const ObjectScene& scene);
 
 }  // namespace vantage

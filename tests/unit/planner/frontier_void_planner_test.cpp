@@ -276,7 +276,7 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
   };
   EXPECT_EQ(message({}), "");
   EXPECT_EQ(message({.clusters = {.min_score = -1.0}}), "FrontierVoidOptions::min_score is -1, must be > 0");
-  EXPECT_EQ(message({.views = 0}), "FrontierVoidOptions::views is 0, must be in [1, 1e+06]");
+  EXPECT_EQ(message({.strategy = {.views = 0}}), "FrontierVoidOptions::views is 0, must be in [1, 1e+06]");
   EXPECT_EQ(message({.strategy = {.sampling = {.orientations_per_place = 0}}}),
             "VoidSampling::orientations_per_place is 0, must be >= 1");
   EXPECT_EQ(message({.strategy = {.sampling = {.place_spacing_m = -1.0}}}),

@@ -95,9 +95,10 @@ TEST(NextBestViewPlanner, TakesTheBestViewUntilNoneSeesEnough) {
   std::size_t plans = 0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     RobotAtTable run(seed);
-    const NextBestViewOptions options{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
-                                      .min_overlap_cells = 5,
-                                      .min_unknown_cells = 5};
+    const NextBestViewOptions options{
+        .candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .aimed_candidates = 0},
+        .min_overlap_cells = 5,
+        .min_unknown_cells = 5};
     NextBestViewPlanner planner(run.setup(), options);
     std::size_t views = 0;
     Plan plan = planner.plan(run.map, run.pose);
@@ -169,7 +170,8 @@ std::size_t reconstruct(RobotAtTable& run, ExplorationPlanner& planner, std::siz
   return views;
 }
 
-const Settings kAroundTheTable{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"radii_m", "0.8"}, {"subdivisions", "1"}};
+const Settings kAroundTheTable{
+    {"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"radii_m", "0.8"}, {"subdivisions", "1"}, {"aimed_candidates", "0"}};
 
 // The same by the utility of the paper.
 std::size_t reconstruct(RobotAtTable& run, Settings settings) {
@@ -207,7 +209,7 @@ TEST(NextBestViewPlanner, SeesMoreFromAimedViewsByDefault) {
       return views;
     };
     views_of_one_shell += seen_by(by_one_shell, {});
-    views_aimed += seen_by(by_aimed, {{"aimed_candidates", "80"}});
+    views_aimed += seen_by(by_aimed, {{"aimed_candidates", "320"}});
   }
   EXPECT_GE(by_aimed, by_one_shell);
   EXPECT_LE(views_aimed, views_of_one_shell);
@@ -215,9 +217,11 @@ TEST(NextBestViewPlanner, SeesMoreFromAimedViewsByDefault) {
 
 TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
   RobotAtTable run(2);
-  NextBestViewOptions options{.candidates = {.object = kObject, .subdivisions = -1}, .min_unknown_cells = 5};
+  NextBestViewOptions options{.candidates = {.object = kObject, .subdivisions = -1, .aimed_candidates = 0},
+                              .min_unknown_cells = 5};
   EXPECT_EQ(NextBestViewPlanner(run.setup(), options).plan(run.map, run.pose).outcome, Outcome::Explored);
-  options.candidates.aimed = {.count = 100, .min_distance_m = 0.4, .max_distance_m = 0.9};
+  options.candidates.radii_m = {0.9};
+  options.candidates.aimed_candidates = 100;
   NextBestViewPlanner follower(run.setup(), options);
   std::size_t plans = 0;
   for (Plan plan = follower.plan(run.map, run.pose); plans < 3 && plan.outcome == Outcome::Move; ++plans) {
@@ -288,8 +292,9 @@ TEST(NextBestViewPlanner, ReconstructsByAnyGain) {
 
 TEST(NextBestViewPlanner, GoesForWhatItsSensorWouldMeasure) {
   RobotAtTable run(2);
-  const NextBestViewOptions any{.candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1},
-                                .min_unknown_cells = 5};
+  const NextBestViewOptions any{
+      .candidates = {.object = kObject, .radii_m = {0.8}, .subdivisions = 1, .aimed_candidates = 0},
+      .min_unknown_cells = 5};
   NextBestViewOptions steep = any;
   steep.sensing = {.max_incidence_rad = 0.9, .min_depth_m = 0.5, .max_depth_m = 1.0};
   const Plan plan = NextBestViewPlanner(run.setup(), steep).plan(run.map, run.pose);
@@ -316,25 +321,38 @@ TEST(NextBestViewPlanner, NamesWhatIsWrong) {
     }
     return "";
   };
-  EXPECT_EQ(complaint({{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"min_unknown_cells", "20"}}), "");
+  const auto around = [](Settings settings) {
+    settings.merge(Settings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}});
+    return settings;
+  };
+  EXPECT_EQ(complaint(around({{"min_unknown_cells", "20"}})), "");
+  EXPECT_EQ(complaint(around({{"method", "default"}, {"view_price", "2"}})), "");
   EXPECT_NE(complaint({{"object", "1,2,3"}}).find("must be six numbers"), std::string::npos);
   EXPECT_NE(complaint({{"object", "0,0,0,1,1,1,1"}}).find("must be six numbers"), std::string::npos);
   EXPECT_EQ(complaint({{"object", "0,0,0,1,-1,1"}}),
             "ObjectViewOptions::object must have min < max on every axis and be finite");
-  EXPECT_NE(complaint({{"radii_m", "1,0"}}).find("must be numbers > 0, with commas between them"), std::string::npos);
-  EXPECT_NE(complaint({{"radii_m", "1,,2"}}).find("must be numbers > 0, with commas between them"),
+  EXPECT_NE(complaint(around({{"radii_m", "1,0"}})).find("must be numbers > 0, with commas between them"),
             std::string::npos);
-  EXPECT_THROW(
-      NextBestViewPlanner(
-          run.setup(), {.candidates = {.object = kObject, .aimed = {.min_distance_m = 0.5, .max_distance_m = 0.1}}}),
-      std::invalid_argument);
-  EXPECT_EQ(complaint({{"subdivisions", "7"}}), "NextBestViewOptions::subdivisions is 7, must be in [-1, 6]");
-  EXPECT_EQ(complaint({{"min_unknown_cells", "0"}}), "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
-  EXPECT_NE(complaint({{"gain", "entropy"}}).find("unknown-cells, occlusion-aware"), std::string::npos);
+  EXPECT_NE(complaint(around({{"radii_m", "1,,2"}})).find("must be numbers > 0, with commas between them"),
+            std::string::npos);
+  EXPECT_EQ(complaint(around({{"subdivisions", "7"}})),
+            "ObjectPlannerOptions::subdivisions is 7, must be in [-1, 6]");
+  EXPECT_EQ(complaint(around({{"min_unknown_cells", "0"}})),
+            "NextBestViewOptions::min_unknown_cells is 0, must be >= 1");
+  EXPECT_NE(complaint(around({{"gain", "entropy"}})).find("unknown-cells, occlusion-aware"), std::string::npos);
   EXPECT_THROW(
       NextBestViewPlanner(run.setup(), {.candidates = {.object = kObject}, .sensing = {.max_incidence_rad = 2.1}}),
       std::invalid_argument);
-  EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewOptions::hypotheses is 0, must be in [1, 1e+06]");
+  EXPECT_EQ(complaint({{"hypotheses", "0"}}), "NextBestViewExplorerOptions::hypotheses is 0, must be in [1, 1e+06]");
+  // A setting that would do nothing is refused.
+  EXPECT_EQ(complaint({{"radii_m", "1"}}),
+            "planner 'next-best-view without an object' has no setting 'radii_m'; it has: patience, hypotheses");
+  EXPECT_NE(
+      complaint(around({{"hypotheses", "5"}})).find("'next-best-view of an object' has no setting 'hypotheses'"),
+      std::string::npos);
+  EXPECT_NE(complaint(around({{"gain", "unknown-cells"}, {"view_price", "5"}}))
+                .find("'next-best-view by the paper's utility' has no setting 'view_price'"),
+            std::string::npos);
 }
 
 }  // namespace

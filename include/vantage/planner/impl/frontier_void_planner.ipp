@@ -140,7 +140,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::view_of_voids(std:
   const std::vector<double> values = search_places(most_targets, plan.statistics);
   const VoidViews of_voids(situation().surveyed(), search_.voids, plan.statistics.ray_operations);
   std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids, options_.strategy.sampling,
-                                          options_.views, situation().setup().seed);
+                                          options_.strategy.views, situation().setup().seed);
   // Where far views count less, the goal ahead gains with every step. So a robot that plans on its way does not turn
   // to and fro.
   if (const auto goal = situation().goal_ahead(); goal && options_.strategy.cost_per_m > 0.0) {
@@ -148,7 +148,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::view_of_voids(std:
   }
   std::optional<ChosenView> choice = best_of(views, plan);
   return choice ? std::move(choice)
-                : best_of(of_voids.of_targets(std::min(options_.views, detail::kProofViews)), plan);
+                : best_of(of_voids.of_targets(std::min(options_.strategy.views, detail::kProofViews)), plan);
 }
 
 // IV-A and IV-B: void clusters, frontier clusters and their combination. Algorithm 1, over the reachable cells: the

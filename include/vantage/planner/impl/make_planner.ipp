@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <vantage/planner/harmonic_planner.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
+#include <vantage/planner/next_best_view_explorer.hpp>
 #include <vantage/planner/next_best_view_planner.hpp>
 #include <vantage/planner/object_planner.hpp>
 #include <vantage/planner/tour_planner.hpp>
@@ -21,28 +21,60 @@
 namespace vantage {
 namespace detail {
 
+// A planner of a class, whose options are read from their table.
+template <class Planner, class Options>
+std::unique_ptr<ExplorationPlanner> made(std::string_view name, const SettingTable<Options>& table,
+                                         const PlannerSetup& setup, const Settings& settings) {
+  Options options;
+  table.read(name, settings, options);
+  return std::make_unique<Planner>(setup, options);
+}
+
+// The settings of all planners behind the name "next-best-view".
+inline std::vector<Setting> all_next_best_view_settings() {
+  std::vector<Setting> all;
+  for (const std::vector<Setting>& more : {object_planner_settings().list(), next_best_view_settings().list(),
+                                           next_best_view_explorer_settings().list()}) {
+    for (const Setting& setting : more) {
+      if (std::none_of(all.begin(), all.end(), [&](const Setting& one) { return one.name == setting.name; })) {
+        all.push_back(setting);
+      }
+    }
+  }
+  return all;
+}
+
+// As `made`, one of the planners behind the name "next-best-view". The settings of the others may have their
+// defaults.
+template <class Planner, class Options>
+std::unique_ptr<ExplorationPlanner> made_one_of(std::string_view name, const SettingTable<Options>& table,
+                                                const PlannerSetup& setup, Settings settings) {
+  const std::vector<Setting> own = table.list();
+  for (const Setting& setting : all_next_best_view_settings()) {
+    const auto given = settings.find(setting.name);
+    if (given != settings.end() && given->second == setting.default_value &&
+        std::none_of(own.begin(), own.end(), [&](const Setting& one) { return one.name == setting.name; })) {
+      settings.erase(given);
+    }
+  }
+  return made<Planner>(name, table, setup, settings);
+}
+
 // Without an object, NextBestViewExplorer; with one, ObjectPlanner, or NextBestViewPlanner if a setting of the
 // paper's utility is given.
 inline std::unique_ptr<ExplorationPlanner> made_next_best_view(const PlannerSetup& setup, const Settings& settings) {
-  detail::NextBestViewChoices choices;
-  detail::next_best_view_settings().read("next-best-view", settings, choices);
-  detail::next_best_view_settings().validate(choices);
-  if (settings.find("object") == settings.end()) {
-    return std::make_unique<NextBestViewExplorer>(setup, choices.exploration);
+  const auto gives = [&](std::string_view name) { return settings.find(name) != settings.end(); };
+  if (!gives("object")) {
+    return made_one_of<NextBestViewExplorer>("next-best-view without an object", next_best_view_explorer_settings(),
+                                             setup, settings);
   }
-  NextBestViewOptions& options = choices.object;
-  ObjectViewOptions& candidates = options.candidates;
-  candidates.aimed.max_distance_m = *std::max_element(candidates.radii_m.begin(), candidates.radii_m.end());
-  candidates.aimed.min_distance_m = candidates.aimed.max_distance_m / 3.0;
-  options.patience = choices.exploration.survey.patience;
-  constexpr std::array<std::string_view, 3> kOfThePaper{"gain", "min_unknown_cells", "min_overlap_cells"};
-  const bool as_the_paper = options.method != VisibilityMethod::Exact ||
-                            std::any_of(kOfThePaper.begin(), kOfThePaper.end(),
-                                        [&](std::string_view name) { return settings.find(name) != settings.end(); });
-  if (as_the_paper) {
-    return std::make_unique<NextBestViewPlanner>(setup, options);
+  const auto method = settings.find("method");
+  if ((method != settings.end() && method->second != "default") || gives("gain") || gives("min_unknown_cells") ||
+      gives("min_overlap_cells")) {
+    return made_one_of<NextBestViewPlanner>("next-best-view by the paper's utility", next_best_view_settings(), setup,
+                                            settings);
   }
-  return std::make_unique<ObjectPlanner>(setup, ObjectPlannerOptions{.candidates = candidates});
+  return made_one_of<ObjectPlanner>("next-best-view of an object", object_planner_settings(), setup, settings);
 }
 
 struct Maker {
@@ -51,14 +83,11 @@ struct Maker {
   std::vector<Setting> settings;
 };
 
-// The maker of a planner of a class, from the table of its options.
 template <class Planner, class Options>
-Maker maker(std::string_view name, const detail::SettingTable<Options>& table) {
+Maker maker(std::string_view name, const SettingTable<Options>& table) {
   return {name,
           [name, &table](const PlannerSetup& setup, const Settings& settings) {
-            Options options;
-            table.read(name, settings, options);
-            return std::make_unique<Planner>(setup, options);
+            return made<Planner>(name, table, setup, settings);
           },
           table.list()};
 }
@@ -69,7 +98,7 @@ inline const std::vector<Maker>& makers() {
       maker<FrontierVoidPlanner>("frontier-void", detail::frontier_void_settings()),
       maker<HarmonicPlanner>("harmonic", detail::harmonic_settings()),
       maker<NearestFrontierPlanner>("nearest-frontier", detail::frontier_survey_settings()),
-      {"next-best-view", made_next_best_view, detail::next_best_view_settings().list()},
+      {"next-best-view", made_next_best_view, all_next_best_view_settings()},
       maker<TourPlanner>("tour", detail::tour_settings()),
   };
   return all;

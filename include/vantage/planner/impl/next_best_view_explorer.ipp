@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <vantage/geometry/impl/dice.hpp>
-#include <vantage/settings/impl/option_rule.hpp>
+#include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage {
@@ -17,8 +17,7 @@ namespace vantage {
 VANTAGE_INLINE NextBestViewExplorer::NextBestViewExplorer(const PlannerSetup& setup,
                                                           const NextBestViewExplorerOptions& options)
     : FrontierPlanner(setup, options.survey), options_(options) {
-  detail::require_option(options.hypotheses >= 1, "NextBestViewExplorerOptions::hypotheses", options.hypotheses,
-                         ">= 1");
+  detail::next_best_view_explorer_settings().validate(options);
 }
 
 // The utility of a view is the product of eq. 4 and eq. 5.

@@ -13,9 +13,9 @@
 #include <vantage/view/view_utility.hpp>
 
 #include <vantage/planner/impl/blocked_reasons.hpp>
+#include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/raytrace/impl/shared_work.hpp>
-#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
 
@@ -24,32 +24,30 @@ VANTAGE_INLINE NextBestViewPlanner::NextBestViewPlanner(const PlannerSetup& setu
       options_(options),
       tried_(setup.sensor, {setup.goal_tolerance_m, setup.goal_tolerance_rad, options.patience}) {
   setup.validate();
-  validate(options.candidates);
-  detail::require_option(options.min_unknown_cells >= 1, "NextBestViewOptions::min_unknown_cells",
-                         options.min_unknown_cells, ">= 1");
+  detail::next_best_view_settings().validate(options);
   validate(options.sensing);
 }
 
 // Line 8: the candidates that the platform admits, in orientations that it can take.
 VANTAGE_INLINE std::vector<Pose> NextBestViewPlanner::views(const OccupancyMap& map, const VoxelBox& object) const {
   std::vector<Pose> aimed;
-  if (options_.candidates.aimed.count > 0) {
+  if (shells_.aimed_candidates > 0) {
     CellSet sought(object);
     for_each_cell(object, [&](const VoxelIndex& cell) {
       if (looking_.caster().at(cell) == Occupancy::Unknown && !tried_.gave_up(cell)) {
         sought.insert(cell);
       }
     });
-    aimed = aimed_views(looking_.caster(), sought, options_.candidates.aimed, setup_.seed);
+    aimed = aimed_views(looking_.caster(), sought, shells_.aimed(), setup_.seed);
   }
-  std::vector<Pose> views = views_of_object(options_.candidates, map, *setup_.platform, aimed, setup_.seed);
+  std::vector<Pose> views = views_of_object(shells_, map, *setup_.platform, aimed, setup_.seed);
   std::erase_if(views, [&](const Pose& view) { return tried_.rests(map.frame().cell_of(view.translation())); });
   return views;
 }
 
 // Whether there are candidates beside the aimed ones, which are none where nothing unknown is in sight.
 VANTAGE_INLINE bool NextBestViewPlanner::draws_views() const {
-  return options_.candidates.subdivisions >= 0 || options_.candidates.random_candidates > 0;
+  return shells_.subdivisions >= 0 || shells_.random_candidates > 0;
 }
 
 // Lines 9 to 20: the utility of every candidate.
@@ -117,7 +115,7 @@ VANTAGE_INLINE std::vector<ScoredView> NextBestViewPlanner::score(const Occupanc
 // Makes the plan a Move to this view, if a path leads to it that the robot has not failed to follow.
 VANTAGE_INLINE void NextBestViewPlanner::take(const OccupancyMap& map, const Pose& current, const ScoredView& view,
                                               const CellSet& sought, Plan& plan) {
-  auto path = way_around(map, *setup_.platform, current, view.pose, options_.candidates.object.centre());
+  auto path = way_around(map, *setup_.platform, current, view.pose, shells_.object.centre());
   std::vector<VoxelIndex> cells;
   sought.for_each([&](const VoxelIndex& cell) { cells.push_back(cell); });
   if (path && tried_.expect(map, *path, cells)) {
@@ -134,7 +132,8 @@ VANTAGE_INLINE Plan NextBestViewPlanner::plan(const OccupancyMap& map, const Pos
   const Pose current = orthonormalised(pose);
   tried_.review(map, current);
   looking_.follow(map, setup_.sensor);
-  const VoxelBox object = map.frame().cells_centred_in(options_.candidates.object);
+  shells_ = with_radii(options_.candidates, setup_.sensor, *setup_.platform, map.resolution_m());
+  const VoxelBox object = map.frame().cells_centred_in(shells_.object);
   Plan plan;
   plan.statistics.survey_ms = stopwatch.lap_ms();
   std::vector<Candidate> tried = candidates(map, current, object);

@@ -10,22 +10,11 @@
 #include <vantage/robot/way_around.hpp>
 
 #include <vantage/planner/impl/blocked_reasons.hpp>
+#include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/planner/impl/stopwatch.hpp>
 #include <vantage/raytrace/impl/shared_work.hpp>
-#include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
-namespace detail {
-
-inline void validate(const ObjectPlannerOptions& options) {
-  validate(options.candidates);
-  detail::require_option(options.min_new_share >= 0.0 && options.min_new_share < 1.0,
-                         "ObjectPlannerOptions::min_new_share", options.min_new_share, "in [0, 1)");
-  detail::require_option(std::isfinite(options.view_price) && options.view_price > 0.0,
-                         "ObjectPlannerOptions::view_price", options.view_price, "> 0");
-}
-
-}  // namespace detail
 
 VANTAGE_INLINE ObjectPlanner::ObjectPlanner(const PlannerSetup& setup, const ObjectPlannerOptions& options)
     : setup_(setup),
@@ -33,7 +22,7 @@ VANTAGE_INLINE ObjectPlanner::ObjectPlanner(const PlannerSetup& setup, const Obj
       tried_(setup.sensor,
              {.goal_tolerance_m = setup.goal_tolerance_m, .goal_tolerance_rad = setup.goal_tolerance_rad}) {
   setup.validate();
-  detail::validate(options);
+  detail::object_planner_settings().validate(options);
 }
 
 // Assumes that a new revision is a scan at `current`.
@@ -41,7 +30,8 @@ VANTAGE_INLINE void ObjectPlanner::follow(const OccupancyMap& map, const Pose& c
   const bool known = map_.is_in_place(map);
   if (!known) {
     map_ = KnownMap();
-    surface_.emplace(map, map.frame().cells_centred_in(options_.candidates.object));
+    shells_ = with_radii(options_.candidates, setup_.sensor, *setup_.platform, map.resolution_m());
+    surface_.emplace(map, map.frame().cells_centred_in(shells_.object));
     rays_.emplace(setup_.sensor.rays_for(map.resolution_m()));
     map_ = KnownMap(map);
   }
@@ -53,9 +43,9 @@ VANTAGE_INLINE void ObjectPlanner::follow(const OccupancyMap& map, const Pose& c
 
 // Estimated path length, metres: straight, or along an arc if the object is in between.
 VANTAGE_INLINE double ObjectPlanner::way_m(const Pose& from, const Pose& to) const {
-  const Eigen::Vector3d a = from.translation() - options_.candidates.object.centre();
-  const Eigen::Vector3d b = to.translation() - options_.candidates.object.centre();
-  const Eigen::Vector3d half = 0.5 * options_.candidates.object.extent();
+  const Eigen::Vector3d a = from.translation() - shells_.object.centre();
+  const Eigen::Vector3d b = to.translation() - shells_.object.centre();
+  const Eigen::Vector3d half = 0.5 * shells_.object.extent();
   bool through = false;
   for (int i = 1; i < 16 && !through; ++i) {
     through = ((a + (b - a) * (i / 16.0)).cwiseAbs().array() < half.array()).all();
@@ -69,11 +59,11 @@ VANTAGE_INLINE double ObjectPlanner::way_m(const Pose& from, const Pose& to) con
 VANTAGE_INLINE std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(const OccupancyMap& map,
                                                                                const Pose& current) const {
   std::vector<Pose> aimed;
-  if (options_.candidates.aimed.count > 0) {
-    aimed = aimed_views(surface_->caster(), surface_->left(), options_.candidates.aimed, setup_.seed);
+  if (shells_.aimed_candidates > 0) {
+    aimed = aimed_views(surface_->caster(), surface_->left(), shells_.aimed(), setup_.seed);
   }
   std::vector<Candidate> admitted;
-  for (const Pose& pose : views_of_object(options_.candidates, map, *setup_.platform, aimed, setup_.seed)) {
+  for (const Pose& pose : views_of_object(shells_, map, *setup_.platform, aimed, setup_.seed)) {
     admitted.push_back({pose, 0, way_m(current, pose)});
   }
   detail::share_work(admitted.size(), static_cast<std::size_t>(setup_.threads), [&](std::size_t i) {
@@ -86,7 +76,7 @@ VANTAGE_INLINE std::vector<ObjectPlanner::Candidate> ObjectPlanner::candidates(c
 VANTAGE_INLINE std::vector<std::size_t> ObjectPlanner::order_of(const std::vector<Candidate>& tried) const {
   std::vector<std::size_t> order(tried.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const double view_m = options_.view_price * options_.candidates.radii_m.front();
+  const double view_m = options_.view_price * shells_.radii_m.front();
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return static_cast<double>(tried[a].shows) * (view_m + tried[b].way_m) >
            static_cast<double>(tried[b].shows) * (view_m + tried[a].way_m);
@@ -105,7 +95,7 @@ VANTAGE_INLINE bool ObjectPlanner::take_first(const OccupancyMap& map, const Pos
         !detail::leads_elsewhere(refused, current.translation(), candidate.pose.translation())) {
       continue;
     }
-    auto path = way_around(map, *setup_.platform, current, candidate.pose, options_.candidates.object.centre());
+    auto path = way_around(map, *setup_.platform, current, candidate.pose, shells_.object.centre());
     if (path && tried_.expect(map, *path, {})) {
       plan.outcome = Outcome::Move;
       plan.goal = {candidate.pose, static_cast<double>(candidate.shows)};

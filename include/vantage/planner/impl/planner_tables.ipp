@@ -4,13 +4,14 @@
 #include <vantage/planner/frontier_gain_planner.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
-#include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/planner/next_best_view_explorer.hpp>
+#include <vantage/planner/next_best_view_planner.hpp>
+#include <vantage/planner/object_planner.hpp>
 #include <vantage/planner/tour_planner.hpp>
+
+#include <vantage/planner/impl/planner_tables.hpp>
 #include <vantage/view/impl/frontier_survey_settings.hpp>
-
-#include <algorithm>
-
-#include <vantage/settings/impl/number_list.hpp>
+#include <vantage/view/impl/object_view_settings.hpp>
 
 namespace vantage::detail {
 
@@ -32,7 +33,7 @@ VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings()
       with_survey<O>("FrontierVoidOptions", &O::survey)
           .mode<S>("mode", "what to make of the voids; later settings refine it",
                    {{"default", {}}, {"faithful", S::faithful()}, {"searching", S::searching()}}, &O::strategy)
-          .number("views", "views", "valid views evaluated per plan (N)", within(1, 1e6), &O::views)
+          .number("views", "views", "valid views evaluated per plan (N)", within(1, 1e6), &O::strategy, &S::views)
           .number("min_score", "", "least fit of a cluster's ellipsoid", more_than(0), &O::clusters,
                   &VoidClusterOptions::min_score)
           .number("cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0), &O::strategy,
@@ -85,50 +86,45 @@ VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
   return table;
 }
 
-VANTAGE_INLINE const SettingTable<NextBestViewChoices>& next_best_view_settings() {
-  using C = NextBestViewChoices;
+VANTAGE_INLINE const SettingTable<NextBestViewExplorerOptions>& next_best_view_explorer_settings() {
+  using O = NextBestViewExplorerOptions;
+  static const auto table =
+      with_survey<O>("NextBestViewExplorerOptions", &O::survey)
+          .number("hypotheses", "views", "without an object: scored per plan", within(1, 1e6), &O::hypotheses);
+  return table;
+}
+
+VANTAGE_INLINE const SettingTable<ObjectPlannerOptions>& object_planner_settings() {
+  using O = ObjectPlannerOptions;
+  static const auto table =
+      with_object_views<O>("ObjectPlannerOptions", &O::candidates)
+          .number("min_new_share", "", "a view that shows less than this share of the surface seen does not count",
+                  within(0, 1), &O::min_new_share)
+          .number("view_price", "", "what a view costs beside its path, in radii of the first shell",
+                  {0.0, 1e6, false}, &O::view_price);
+  return table;
+}
+
+VANTAGE_INLINE const SettingTable<NextBestViewOptions>& next_best_view_settings() {
   using O = NextBestViewOptions;
-  using V = ObjectViewOptions;
   static const auto table = [] {
     std::vector<std::pair<std::string_view, RayGainMaker>> gains{{"unknown-cells", nullptr}};
     for (const std::string_view name : ray_gain_names()) {
       gains.emplace_back(name, ray_gain_named(name));
     }
-    return with_survey<C>("NextBestViewOptions", &C::exploration, &NextBestViewExplorerOptions::survey)
-        .text("object", "m", "the box of the object, x0,y0,z0,x1,y1,z1; none: the whole map", "six numbers",
-              [](C& options, const std::string& text) {
-                const std::vector<double> c = number_list(text);
-                if (c.size() == 6) {
-                  options.object.candidates.object = Box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
-                }
-                return c.size() == 6;
-              })
-        .text("radii_m", "m", "distances of the candidates from the middle of the object",
-              "numbers > 0, with commas between them",
-              [](C& options, const std::string& text) {
-                std::vector<double>& radii_m = options.object.candidates.radii_m;
-                radii_m = number_list(text);
-                return !radii_m.empty() && *std::min_element(radii_m.begin(), radii_m.end()) > 0.0;
-              })
-        .number("subdivisions", "", "candidates of a shell: 20 * 4^this; -1: none", within(-1, 6), &C::object,
-                &O::candidates, &V::subdivisions)
-        .number("random_candidates", "views", "additional candidates drawn anywhere", within(0, 1e6), &C::object,
-                &O::candidates, &V::random_candidates)
-        .number("aimed_candidates", "views",
-                "additional candidates aimed at unknown cells, from up to the largest radius", within(0, 1e6),
-                &C::object, &O::candidates, &V::aimed, &AimedViewOptions::count)
-        .number("min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
-                &C::object, &O::min_overlap_cells)
-        .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1), &C::object,
-                &O::min_unknown_cells)
-        .choice<RayGainMaker>("gain", "what new surface is worth", gains, &C::object, &O::gain)
+    return with_object_views<O>("NextBestViewOptions", &O::candidates)
         .choice<VisibilityMethod>("method", "how views are evaluated",
                                   {{"default", VisibilityMethod::Exact},
                                    {"uniform", VisibilityMethod::Uniform},
                                    {"hierarchical", VisibilityMethod::Hierarchical}},
-                                  &C::object, &O::method)
-        .number("hypotheses", "views", "without an object: scored per plan", within(1, 1e6), &C::exploration,
-                &NextBestViewExplorerOptions::hypotheses);
+                                  &O::method)
+        .choice<RayGainMaker>("gain", "what new surface is worth", gains, &O::gain)
+        .number("min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
+                &O::min_overlap_cells)
+        .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
+                &O::min_unknown_cells)
+        .number("patience", "places", "from which a cell is looked at in vain before it is given up", within(1, 100),
+                &O::patience);
   }();
   return table;
 }

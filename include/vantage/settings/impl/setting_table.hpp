@@ -97,6 +97,12 @@ class SettingTable {
     return *this;
   }
 
+  /// A rule that no range can say. `check(options)` throws std::invalid_argument.
+  SettingTable& check(std::function<void(const Options&)> check) {
+    checks_.push_back(std::move(check));
+    return *this;
+  }
+
   /// All settings, in the order of the table.
   [[nodiscard]] std::vector<Setting> list() const {
     std::vector<Setting> all;

@@ -1,27 +1,36 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vantage/view/candidate_views.hpp>
 #include <vantage/view/object_views.hpp>
 
-#include <vantage/settings/impl/option_rule.hpp>
-
 namespace vantage {
 
-VANTAGE_INLINE void validate(const ObjectViewOptions& options) {
-  if (options.object.empty() || !options.object.min.allFinite() || !options.object.max.allFinite()) {
-    throw std::invalid_argument("ObjectViewOptions::object must have min < max on every axis and be finite");
+VANTAGE_INLINE AimedViewOptions ObjectViewOptions::aimed() const {
+  const double largest_m = *std::max_element(radii_m.begin(), radii_m.end());
+  return {.count = aimed_candidates, .min_distance_m = largest_m / 3.0, .max_distance_m = largest_m};
+}
+
+VANTAGE_INLINE double fitting_radius_m(const Box& box, const RangeSensor& sensor, double resolution_m,
+                                       double body_m) {
+  const double reach_m = 0.5 * box.extent().norm();
+  const double half_angle =
+      std::min(0.5 * std::min(sensor.horizontal_angle_rad(), sensor.vertical_angle_rad()), std::asin(0.5));
+  const double furthest_m = std::min(sensor.max_range_m - reach_m, sensor.resolving_range_m(resolution_m));
+  const double nearest_m = std::max({sensor.min_range_m, 0.1, body_m}) + reach_m;
+  return std::max(std::min(reach_m / std::sin(half_angle), furthest_m), nearest_m);
+}
+
+VANTAGE_INLINE ObjectViewOptions with_radii(const ObjectViewOptions& options, const RangeSensor& sensor,
+                                            const Platform& platform, double resolution_m) {
+  ObjectViewOptions all = options;
+  if (all.radii_m.empty()) {
+    const double body_m = std::isfinite(platform.reach_m()) ? platform.reach_m() : 0.0;
+    all.radii_m = {fitting_radius_m(options.object, sensor, resolution_m, body_m + 2.0 * resolution_m)};
   }
-  detail::require_option(!options.radii_m.empty(), "ObjectViewOptions::radii_m.size()", options.radii_m.size(),
-                         ">= 1");
-  for (const double radius_m : options.radii_m) {
-    detail::require_option(std::isfinite(radius_m) && radius_m > 0.0, "ObjectViewOptions::radii_m", radius_m, "> 0");
-  }
-  detail::require_option(options.subdivisions >= -1 && options.subdivisions <= 6, "ObjectViewOptions::subdivisions",
-                         options.subdivisions, "in [-1, 6]");
-  validate(options.aimed);
+  return all;
 }
 
 VANTAGE_INLINE std::vector<Pose> views_of_object(const ObjectViewOptions& options, const OccupancyMap& map,
