@@ -57,7 +57,7 @@ std::vector<Pose> spread_over(const std::vector<Pose>& views, std::size_t wanted
 }
 
 std::vector<Pose> evenly_spaced(const ObjectPeerSetup& setup) {
-  Dice dice(setup.seed);
+  detail::Dice dice(setup.seed);
   const double turned_rad = 2.0 * std::numbers::pi * dice.share();
   constexpr std::size_t kMost = 100;  // at most this many times as many views are tried as are wanted
   for (std::size_t count = setup.views; count <= kMost * setup.views; ++count) {
@@ -215,7 +215,7 @@ std::unique_ptr<ObjectPeer> make_object_peer(std::string_view name, const Object
   }
   std::vector<Pose> views = admitted_views(setup, views_around(setup.scene->box.centre(), setup.scene->radii_m));
   if (name == "random-views") {
-    Dice dice(setup.seed);
+    detail::Dice dice(setup.seed);
     for (std::size_t i = views.size(); i > 1; --i) {
       std::swap(views[i - 1], views[dice.below(i)]);
     }

@@ -98,7 +98,7 @@ void add_turned(TriangleMesh& mesh, const std::vector<Eigen::Vector2d>& profile)
 
 void add_slab(TriangleMesh& mesh, const Vector3d& min, const Vector3d& max) { mesh.add_box({min, max}); }
 
-TriangleMesh chair(Dice& dice) {
+TriangleMesh chair(detail::Dice& dice) {
   TriangleMesh mesh;
   const double half = 0.18 + 0.06 * dice.share();
   const double seat = 0.42 + 0.06 * dice.share();
@@ -122,7 +122,7 @@ TriangleMesh chair(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh basket(Dice& dice) {
+TriangleMesh basket(detail::Dice& dice) {
   TriangleMesh mesh;
   const double bottom = 0.10 + 0.05 * dice.share();
   const double top = bottom + 0.06 * dice.share();
@@ -143,7 +143,7 @@ TriangleMesh basket(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh lamp(Dice& dice) {
+TriangleMesh lamp(detail::Dice& dice) {
   TriangleMesh mesh;
   const double foot = 0.10 + 0.04 * dice.share();
   const double height = 0.4 + 0.2 * dice.share();
@@ -159,7 +159,7 @@ TriangleMesh lamp(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh mug(Dice& dice) {
+TriangleMesh mug(detail::Dice& dice) {
   TriangleMesh mesh;
   const double radius = 0.038 + 0.02 * dice.share();
   const double height = 0.08 + 0.05 * dice.share();
@@ -177,7 +177,7 @@ TriangleMesh mug(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh vase(Dice& dice) {
+TriangleMesh vase(detail::Dice& dice) {
   TriangleMesh mesh;
   const double height = 0.25 + 0.15 * dice.share();
   const double belly = 0.07 + 0.04 * dice.share();
@@ -196,7 +196,7 @@ TriangleMesh vase(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh shelf(Dice& dice) {
+TriangleMesh shelf(detail::Dice& dice) {
   TriangleMesh mesh;
   const double wide = 0.6 + 0.4 * dice.share();
   const double deep = 0.25 + 0.15 * dice.share();
@@ -214,7 +214,7 @@ TriangleMesh shelf(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh blob(Dice& dice) {
+TriangleMesh blob(detail::Dice& dice) {
   TriangleMesh mesh;
   struct Wave {
     Vector3d direction;
@@ -241,7 +241,7 @@ TriangleMesh blob(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh banana(Dice& dice) {
+TriangleMesh banana(detail::Dice& dice) {
   TriangleMesh mesh;
   const double bend = 0.08 + 0.04 * dice.share();
   const double thick = 0.015 + 0.01 * dice.share();
@@ -257,7 +257,7 @@ TriangleMesh banana(Dice& dice) {
   return mesh;
 }
 
-TriangleMesh crate(Dice& dice) {
+TriangleMesh crate(detail::Dice& dice) {
   TriangleMesh mesh;
   const Vector3d size(0.2 + 0.2 * dice.share(), 0.15 + 0.2 * dice.share(), 0.1 + 0.2 * dice.share());
   add_slab(mesh, Vector3d::Zero(), size);
@@ -265,7 +265,7 @@ TriangleMesh crate(Dice& dice) {
   return mesh;
 }
 
-using Maker = TriangleMesh (*)(Dice&);
+using Maker = TriangleMesh (*)(detail::Dice&);
 constexpr std::array<std::string_view, 9> kObjectNames{"chair", "basket", "lamp",   "mug",  "vase",
                                                        "shelf", "blob",   "banana", "crate"};
 constexpr std::array<Maker, 9> kMakers{chair, basket, lamp, mug, vase, shelf, blob, banana, crate};
@@ -281,7 +281,7 @@ TriangleMesh generated_object(std::string_view name, std::uint64_t seed) {
     }
     throw std::invalid_argument("there is no object '" + std::string(name) + "'; there are: " + names);
   }
-  Dice dice(seed, static_cast<std::uint64_t>(at - kObjectNames.begin()));
+  detail::Dice dice(seed, static_cast<std::uint64_t>(at - kObjectNames.begin()));
   const TriangleMesh drawn = kMakers[static_cast<std::size_t>(at - kObjectNames.begin())](dice);
   Pose onto_ground = Pose::Identity();
   onto_ground.translation().z() = -drawn.bounds().min.z();

@@ -127,7 +127,7 @@ Pose draw_first_view(const ObjectScene& scene, const Truth& truth, const Platfor
     throw std::invalid_argument("the robot's body fits nowhere on the first shell of views, " +
                                 std::to_string(radius.front()) + " m around the object");
   }
-  Dice dice(seed);
+  detail::Dice dice(seed);
   return views[dice.below(views.size())].second;
 }
 

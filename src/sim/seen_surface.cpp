@@ -20,7 +20,7 @@ constexpr double kOffSurface = 1e-5;
 // Counts how many of 16 directions on one side of a surface leave the object.
 int open_directions(const TriangleScene& scene, const Eigen::Vector3d& point, const Eigen::Vector3d& side,
                     double size_m) {
-  Dice dice(7);
+  detail::Dice dice(7);
   int open = 0;
   for (int i = 0; i < 16; ++i) {
     const Eigen::Vector3d direction = (side + 0.95 * dice.direction()).normalized();
@@ -44,7 +44,7 @@ std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, std::size_t 
   }
   const TriangleScene scene(mesh);
   const double size_m = mesh.bounds().extent().norm();
-  Dice dice(seed);
+  detail::Dice dice(seed);
   std::vector<SurfaceSample> samples;
   samples.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -111,7 +111,7 @@ double SeenSurface::share() const {
 // Places are tried in random order, because what one place does not see, its neighbour rarely sees either.
 std::size_t SeenSurface::observable_count(const Platform& platform, std::span<const Eigen::Vector3d> places) const {
   std::vector<Eigen::Vector3d> shuffled(places.begin(), places.end());
-  Dice dice(1);
+  detail::Dice dice(1);
   for (std::size_t i = shuffled.size(); i > 1; --i) {
     std::swap(shuffled[i - 1], shuffled[dice.below(i)]);
   }

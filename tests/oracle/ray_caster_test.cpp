@@ -20,6 +20,16 @@
 namespace vantage {
 namespace {
 
+using detail::BlockingGrid;
+using detail::CellStamps;
+using detail::instruction_sets;
+using detail::InstructionSet;
+using detail::RayBlock;
+using detail::RayPlacer;
+using detail::SensorFrame;
+using detail::TileHits;
+using detail::TileWalk;
+
 constexpr VoxelBox kEverywhere{{-kFurthestVoxel, -kFurthestVoxel, -kFurthestVoxel},
                                {kFurthestVoxel, kFurthestVoxel, kFurthestVoxel}};
 

@@ -16,6 +16,16 @@
 namespace vantage {
 namespace {
 
+using detail::instruction_sets;
+using detail::InstructionSet;
+using detail::LateralCells;
+using detail::LateralLayers;
+using detail::SliceAxes;
+using detail::SliceBeam;
+using detail::SliceFlood;
+using detail::SliceWindows;
+using detail::WindowCells;
+
 // Images of panoramic sensors and pinholes, some with unrelated neighbours.
 ViewRays image_of_any_kind(std::mt19937& engine) {
   std::uniform_real_distribution<double> angle(0.05, 2.5);

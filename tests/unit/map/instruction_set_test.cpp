@@ -18,6 +18,15 @@
 namespace vantage {
 namespace {
 
+using detail::best_instruction_set;
+using detail::best_instruction_set_within;
+using detail::instruction_sets;
+using detail::InstructionSet;
+using detail::RayBlock;
+using detail::RayLanes;
+using detail::RayPlacer;
+using detail::SensorFrame;
+
 TEST(InstructionSet, PlainCodeComesFirst) {
   ASSERT_FALSE(instruction_sets().empty());
   EXPECT_EQ(instruction_sets().front(), InstructionSet::Baseline);

@@ -58,9 +58,9 @@ struct Gains {
 // The definitions, by walking each ray cell by cell through the map.
 Gains gains_by_definition(const OccupancyMap& map, const Pose& pose, const ViewRays& rays, const VoxelBox& object,
                           double d_max_m) {
-  const ViewPlacer placer(pose, rays, map.frame());
+  const detail::ViewPlacer placer(pose, rays, map.frame());
   Gains gains;
-  RayBlock block;
+  detail::RayBlock block;
   for (const RayTile& tile : rays.tiles()) {
     placer.place_ends(tile, block);
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {

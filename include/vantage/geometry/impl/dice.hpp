@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Random numbers computed from the bits of an engine. The standard distributions differ between standard libraries.
 class Dice {
@@ -32,4 +32,4 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail

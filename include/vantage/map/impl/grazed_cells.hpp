@@ -5,7 +5,7 @@
 #include <vantage/map/impl/scan_rays.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Whether a cell is too far from the sensor's cell for being cleared if it is occupied
 /// (OccupancyMapOptions::erase_range_m). The sums are of whole numbers, so contraction cannot change them.
@@ -24,7 +24,7 @@ inline bool beyond_erase_range(const OccupancyMapOptions& options, const VoxelIn
 /// narrow camera that scans on the move.
 void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy, ScanMarks& marks);
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/grazed_cells.ipp>

@@ -5,8 +5,7 @@
 #include <vantage/map/impl/grazed_cells.hpp>
 #include <vector>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 // Calls `visit(end, is_return)` for the end point of every drawn ray.
 template <class Visit>
@@ -46,11 +45,9 @@ inline bool touches_a_hit(const OccupancyMap& map, const ScanMarks& marks, const
   return false;
 }
 
-}  // namespace detail
-
 VANTAGE_INLINE void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap& map, RayPolicy policy,
                                         ScanMarks& marks) {
-  detail::for_each_end(rays, map.frame(), policy, marks, [&](const Eigen::Vector3d& end, bool is_return) {
+  for_each_end(rays, map.frame(), policy, marks, [&](const Eigen::Vector3d& end, bool is_return) {
     const VoxelIndex last = map.frame().cell_of(end);
     (void)VoxelRay(map.frame(), rays.origin(), end).all_from_the_end([&](const VoxelIndex& cell) {
       const bool in_surface = map.at(cell) == Occupancy::Occupied;
@@ -67,7 +64,7 @@ VANTAGE_INLINE void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap
     for (std::size_t word = 0; brick != nullptr && word < Brick::kWords; ++word) {
       for_each_offset(passed[word] & ~hit[word] & brick->occupied[word], word, [&](std::size_t offset) {
         const VoxelIndex cell = Brick::cell_at(address, offset);
-        if (beyond_erase_range(map.options(), sensor, cell) || detail::touches_a_hit(map, marks, cell)) {
+        if (beyond_erase_range(map.options(), sensor, cell) || touches_a_hit(map, marks, cell)) {
           kept.push_back(cell);
         }
       });
@@ -78,4 +75,4 @@ VANTAGE_INLINE void unmark_grazed_cells(const ScanRays& rays, const OccupancyMap
   }
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -24,7 +24,7 @@ class ScanInserter {
       : map_(map), model_{map.hit_steps_, map.miss_steps_, map.min_steps_, map.max_steps_} {}
 
   ScanReport insert(const ScanView& scan, RayPolicy policy) {
-    const ScanRays rays(scan, map_.frame_);
+    const detail::ScanRays rays(scan, map_.frame_);
     report_ = rays.report();
     map_.begin_revision();
     if (!rays.empty()) {
@@ -33,10 +33,11 @@ class ScanInserter {
         return report_;
       }
       const VoxelIndex origin = map_.frame_.cell_of(rays.origin());
-      ScanMarks marks = clip ? ScanMarks::clipped_to(*clip, origin) : ScanMarks(rays.cells(), origin);
-      mark_rays(rays, map_.frame_, policy, marks);
+      detail::ScanMarks marks =
+          clip ? detail::ScanMarks::clipped_to(*clip, origin) : detail::ScanMarks(rays.cells(), origin);
+      detail::mark_rays(rays, map_.frame_, policy, marks);
       if (map_.options_.keep_grazed_cells) {
-        unmark_grazed_cells(rays, map_, policy, marks);
+        detail::unmark_grazed_cells(rays, map_, policy, marks);
       }
       marks.for_each_marked_brick([this](const VoxelIndex& address, const std::uint64_t* passed,
                                          const std::uint64_t* hit) { update(address, passed, hit); });
@@ -55,7 +56,7 @@ class ScanInserter {
     return volume(inside) < kMost * volume(cells) ? std::optional(inside) : std::nullopt;
   }
   void update(const VoxelIndex& address, const std::uint64_t* passed, const std::uint64_t* hit) {
-    BrickMarks marks;
+    detail::BrickMarks marks;
     const bool cut = map_.region_ && !inside(address, *map_.region_);
     std::uint64_t any = 0;
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
@@ -93,7 +94,7 @@ class ScanInserter {
   }
 
   // Returns whether a cell of the brick has changed its state.
-  bool update_brick(Brick& brick, const BrickMarks& marks) {
+  bool update_brick(Brick& brick, const detail::BrickMarks& marks) {
     std::uint64_t any_change = 0;
     for (std::size_t word = 0; word < Brick::kWords; ++word) {
       const std::uint64_t touched = marks.hit[word] | marks.passed[word];
@@ -101,7 +102,7 @@ class ScanInserter {
         continue;
       }
       const std::uint64_t positive =
-          update_word(&brick.log_odds[word * 64], marks.hit[word], marks.passed[word], model_);
+          detail::update_word(&brick.log_odds[word * 64], marks.hit[word], marks.passed[word], model_);
       const std::uint64_t occupied = (brick.occupied[word] & ~touched) | (positive & touched);
       const std::uint64_t changed = (touched & ~brick.known[word]) | (occupied ^ brick.occupied[word]);
       brick.known[word] |= touched;
@@ -129,7 +130,7 @@ class ScanInserter {
   }
 
   OccupancyMap& map_;
-  BeamSteps model_;
+  detail::BeamSteps model_;
   ScanReport report_;
 };
 

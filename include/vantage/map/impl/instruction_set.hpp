@@ -6,7 +6,7 @@
 #include <vantage/compiler.hpp>
 #include <vector>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The instruction set for which the innermost loops of insertion, ray casting and field solver are compiled. All
 /// sets give bitwise equal results; the processor decides which one is used.
@@ -26,7 +26,6 @@ enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 #define VANTAGE_TARGET_AVX2 [[gnu::target("avx2")]]
 #define VANTAGE_TARGET_AVX512 [[gnu::target("avx512f,avx512dq,avx512vl")]]
 
-namespace detail {
 template <class Body>
 [[gnu::flatten]] VANTAGE_TARGET_AVX2 void run_avx2(const Body& body) {
   body();
@@ -35,7 +34,6 @@ template <class Body>
 [[gnu::flatten]] VANTAGE_TARGET_AVX512 void run_avx512(const Body& body) {
   body();
 }
-}  // namespace detail
 #endif
 /// \endcond
 
@@ -54,9 +52,9 @@ template <class Body>
 void compiled_for(InstructionSet set, const Body& body) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    detail::run_avx512(body);
+    run_avx512(body);
   } else if (set == InstructionSet::Avx2) {
-    detail::run_avx2(body);
+    run_avx2(body);
   } else {
     body();
   }
@@ -66,7 +64,7 @@ void compiled_for(InstructionSet set, const Body& body) {
 #endif
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/instruction_set.ipp>

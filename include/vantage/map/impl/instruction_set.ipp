@@ -7,7 +7,7 @@
 #include <string>
 #include <vantage/map/impl/instruction_set.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 VANTAGE_INLINE std::vector<InstructionSet> instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::Baseline};
@@ -43,4 +43,4 @@ VANTAGE_INLINE InstructionSet best_instruction_set() {
   return best;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -6,7 +6,7 @@
 #include <vantage/map/impl/instruction_set.hpp>
 #include <vantage/map/impl/ray_block.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Bit mask of the rays with this value.
 [[nodiscard]] std::uint64_t equal_to(const RayBlock::PerRay<std::int32_t>& values, std::int32_t value,
@@ -19,7 +19,7 @@ namespace vantage {
 [[nodiscard]] std::pair<double, double> range_of(const RayBlock::PerRay<double>& values, std::uint64_t active,
                                                  InstructionSet set);
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/lane_queries.ipp>

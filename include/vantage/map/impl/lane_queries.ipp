@@ -10,8 +10,7 @@
 #include <immintrin.h>
 #endif
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline constexpr double kLarge = std::numeric_limits<double>::max();
 
@@ -103,16 +102,14 @@ VANTAGE_TARGET_AVX2 inline std::uint64_t changes_avx2(const RayBlock::PerRay<std
 
 #endif
 
-}  // namespace detail
-
 VANTAGE_INLINE std::uint64_t equal_to(const RayBlock::PerRay<std::int32_t>& values, std::int32_t value,
                                       InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    return detail::equal_avx512(values, value);
+    return equal_avx512(values, value);
   }
   if (set == InstructionSet::Avx2) {
-    return detail::equal_avx2(values, value);
+    return equal_avx2(values, value);
   }
 #endif
   (void)set;
@@ -126,10 +123,10 @@ VANTAGE_INLINE std::uint64_t equal_to(const RayBlock::PerRay<std::int32_t>& valu
 VANTAGE_INLINE std::uint64_t changes_of(const RayBlock::PerRay<std::int32_t>& values, InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    return detail::changes_avx512(values);
+    return changes_avx512(values);
   }
   if (set == InstructionSet::Avx2) {
-    return detail::changes_avx2(values);
+    return changes_avx2(values);
   }
 #endif
   (void)set;
@@ -144,14 +141,14 @@ VANTAGE_INLINE std::pair<double, double> range_of(const RayBlock::PerRay<double>
                                                   InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    return detail::range_avx512(values, active);
+    return range_avx512(values, active);
   }
   if (set == InstructionSet::Avx2) {
-    return detail::range_avx2(values, active);
+    return range_avx2(values, active);
   }
 #endif
   (void)set;
-  std::pair<double, double> range{detail::kLarge, -detail::kLarge};
+  std::pair<double, double> range{kLarge, -kLarge};
   for (; active != 0; active &= active - 1) {
     const double value = values[static_cast<std::size_t>(std::countr_zero(active))];
     range.first = std::min(range.first, value);
@@ -160,4 +157,4 @@ VANTAGE_INLINE std::pair<double, double> range_of(const RayBlock::PerRay<double>
   return range;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -7,8 +7,7 @@
 #include <vantage/map/impl/ray_marker.hpp>
 #include <vantage/map/impl/undrawn_part.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 // Calls `visit(block)` for all blocks of rays.
 template <class Visit>
@@ -152,22 +151,20 @@ class BlockDrawer {
   std::array<Lane, RayLanes::kLanes> lanes_;
 };
 
-}  // namespace detail
-
 VANTAGE_INLINE void mark_rays(const ScanRays& rays, const VoxelFrame& frame, RayPolicy policy, ScanMarks& marks) {
   RayMarker marker(frame, rays.origin(), marks);
   if (policy == RayPolicy::EachEndCell) {
-    detail::draw(detail::one_ray_per_end_cell(rays, frame, marks), marker);
+    draw(one_ray_per_end_cell(rays, frame, marks), marker);
     return;
   }
-  detail::for_each_block(rays, [&](const RayBlock& block) { detail::mark_hits(block, marks, [](std::size_t) {}); });
+  for_each_block(rays, [&](const RayBlock& block) { mark_hits(block, marks, [](std::size_t) {}); });
   // For a depth image, draw every fourth row and column first. Where rays are closer than a cell, the other rays then
   // add nothing and are skipped.
   if (rays.are_tiles()) {
     constexpr std::size_t kEveryFourth = 4;
-    detail::BlockDrawer(rays, frame, kEveryFourth, marks).draw(marker);
+    BlockDrawer(rays, frame, kEveryFourth, marks).draw(marker);
   }
-  detail::BlockDrawer(rays, frame, 1, marks).draw(marker);
+  BlockDrawer(rays, frame, 1, marks).draw(marker);
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

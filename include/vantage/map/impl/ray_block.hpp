@@ -7,7 +7,7 @@
 #include <vantage/map/impl/instruction_set.hpp>
 #include <vantage/map/impl/sensor_frame.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Classification of a ray; the first three are drawn.
 enum class RayFate : std::int64_t { Hit, BeyondRange, NoReturn, NotFinite, ZeroLength, NotAddressable };
@@ -64,7 +64,7 @@ struct RayPlacer {
   void place_cells(RayBlock& block, InstructionSet set = best_instruction_set()) const;
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/ray_block.ipp>

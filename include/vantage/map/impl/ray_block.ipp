@@ -5,8 +5,7 @@
 #include <limits>
 #include <vantage/map/impl/ray_block.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 enum class Given : std::uint8_t { Returns, ReturnsOfAnyRange, Directions };
 
@@ -54,21 +53,19 @@ inline void ends(const RayPlacer& placer, const RayBlock::Points& point, RayBloc
   }
 }
 
-}  // namespace detail
-
 VANTAGE_INLINE void RayPlacer::place_ends(bool are_returns, RayBlock& block, InstructionSet set) const {
   if (!are_returns) {
     place_ends(block.point, block, set);
   } else if (std::isinf(max_range_m)) {
-    compiled_for(set, [&] { detail::ends<detail::Given::ReturnsOfAnyRange>(*this, block.point, block); });
+    compiled_for(set, [&] { ends<Given::ReturnsOfAnyRange>(*this, block.point, block); });
   } else {
-    compiled_for(set, [&] { detail::ends<detail::Given::Returns>(*this, block.point, block); });
+    compiled_for(set, [&] { ends<Given::Returns>(*this, block.point, block); });
   }
 }
 
 VANTAGE_INLINE void RayPlacer::place_ends(const RayBlock::Points& directions, RayBlock& block,
                                           InstructionSet set) const {
-  compiled_for(set, [&] { detail::ends<detail::Given::Directions>(*this, directions, block); });
+  compiled_for(set, [&] { ends<Given::Directions>(*this, directions, block); });
 }
 
 VANTAGE_INLINE void RayPlacer::place_ends(const std::array<RayBlock::PerRay<float>, 3>& directions,
@@ -105,4 +102,4 @@ VANTAGE_INLINE void RayPlacer::place_cells(RayBlock& block, InstructionSet set) 
   });
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vantage/map/impl/instruction_set.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Eight rays that walk through a window of cells in parallel, one step at a time.
 ///
@@ -34,7 +34,7 @@ struct RayLanes {
   void walk(std::int64_t steps, std::uint64_t* plane, InstructionSet set = best_instruction_set());
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/ray_lanes.ipp>

@@ -7,8 +7,7 @@
 #include <immintrin.h>
 #endif
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline void mark(std::uint64_t* plane, std::int64_t position) {
   plane[position >> 6] |= std::uint64_t{1} << (position & 63);
@@ -137,22 +136,20 @@ VANTAGE_TARGET_AVX2 inline void walk_avx2(RayLanes& lanes, std::int64_t steps, s
 }
 #endif
 
-}  // namespace detail
-
 VANTAGE_INLINE void RayLanes::walk(std::int64_t steps, std::uint64_t* plane, InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    detail::walk_avx512(*this, steps, plane);
+    walk_avx512(*this, steps, plane);
     return;
   }
   if (set == InstructionSet::Avx2) {
-    detail::walk_avx2(*this, steps, plane, 0);
-    detail::walk_avx2(*this, steps, plane, 4);
+    walk_avx2(*this, steps, plane, 0);
+    walk_avx2(*this, steps, plane, 4);
     return;
   }
 #endif
   (void)set;
-  detail::walk_baseline(*this, steps, plane);
+  walk_baseline(*this, steps, plane);
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

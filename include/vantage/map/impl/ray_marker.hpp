@@ -8,7 +8,7 @@
 #include <vantage/map/impl/ray_lanes.hpp>
 #include <vantage/map/impl/scan_marks.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// A ray to draw, from the origin of its scan.
 struct DrawnRay {
@@ -85,7 +85,7 @@ class RayMarker {
   std::array<std::int64_t, RayLanes::kLanes> left_{};  // remaining steps of the ray in each lane
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/ray_marker.ipp>

@@ -8,7 +8,7 @@
 
 #include <vantage/geometry/impl/face_crossings.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 VANTAGE_INLINE RayMarker::RayMarker(const VoxelFrame& frame, const Eigen::Vector3d& origin, ScanMarks& marks)
     : frame_(frame),
@@ -71,7 +71,7 @@ VANTAGE_INLINE void RayMarker::start(std::size_t lane, const DrawnRay& ray) {
   Crossings faces;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
-    faces[axis] = detail::crossings_between(origin_[i], ray.end[i], first[axis], last[axis], frame_.size_m);
+    faces[axis] = crossings_between(origin_[i], ray.end[i], first[axis], last[axis], frame_.size_m);
   }
   std::optional<Part> part(std::in_place);
   if (ray.faces_before > 0) {
@@ -111,4 +111,4 @@ VANTAGE_INLINE void RayMarker::mark_far(const DrawnRay& ray) {
   }
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

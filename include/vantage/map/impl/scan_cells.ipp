@@ -73,12 +73,13 @@ VANTAGE_INLINE ScanCells scan_cells(const Scan& scan, const OccupancyMap& map, R
   ScanCells cells;
   ScanReport& report = cells.report;
   const Eigen::Vector3d origin = scan.world_from_sensor.translation();
-  const SensorFrame sensor(scan.world_from_sensor);
+  const detail::SensorFrame sensor(scan.world_from_sensor);
   detail::Walker walk(map, origin, cells);
   std::unordered_set<VoxelIndex> end_cells;
 
   const auto shoot = [&](const Eigen::Vector3d& point_sensor, bool is_return) {
-    const double range_m = std::sqrt(SensorFrame::squared(point_sensor.x(), point_sensor.y(), point_sensor.z()));
+    const double range_m =
+        std::sqrt(detail::SensorFrame::squared(point_sensor.x(), point_sensor.y(), point_sensor.z()));
     if (!std::isfinite(range_m)) {
       ++report.not_finite;
       return;

@@ -11,7 +11,7 @@
 #include <vantage/map/brick.hpp>
 #include <vantage/map/brick_directory.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Marks of one brick: the cells that rays pass, and the cells in which they end. Words as in Brick.
 struct BrickMarks {
@@ -149,7 +149,7 @@ class ScanMarks {
   FarBrick* last_far_ = nullptr;
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/scan_marks.ipp>

@@ -7,8 +7,7 @@
 #include <new>
 #include <vantage/map/impl/scan_marks.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 // Number of bits for integers below `count`.
 inline unsigned bits_for(std::int32_t count) {
@@ -46,14 +45,12 @@ inline VoxelBox bricks_around(const VoxelBox& cells, const VoxelIndex& origin) {
   return within(reach);
 }
 
-}  // namespace detail
-
 VANTAGE_INLINE ScanMarks::ScanMarks(const VoxelBox& cells, const VoxelIndex& origin)
-    : bricks_(detail::bricks_around(cells, origin)) {
+    : bricks_(bricks_around(cells, origin)) {
   window_ = Brick::cells_of(bricks_);
   holds_all_ = window_.contains(cells.lo) && window_.contains(cells.hi - VoxelIndex{1, 1, 1});
   const VoxelIndex extent = bricks_.extent();
-  shift_ = {9, 9 + detail::bits_for(extent.x), 9 + detail::bits_for(extent.x) + detail::bits_for(extent.y)};
+  shift_ = {9, 9 + bits_for(extent.x), 9 + bits_for(extent.x) + bits_for(extent.y)};
   words_ = (static_cast<std::size_t>(extent.z) << shift_[2]) / 64;
   passed_ = zeros(words_ + 1);
   hit_ = zeros(words_);
@@ -81,15 +78,14 @@ VANTAGE_INLINE bool ScanMarks::all_marked(const VoxelBox& cells) const {
   const VoxelIndex first = cells.lo - window_.lo;
   const VoxelIndex last = cells.hi - window_.lo - VoxelIndex{1, 1, 1};
   for (std::int32_t z = first.z & ~3; z <= last.z; z += 4) {
-    const std::uint64_t in_z = detail::bits_within(first.z - z, last.z - z, 16);
+    const std::uint64_t in_z = bits_within(first.z - z, last.z - z, 16);
     const std::uint64_t part_z = part(2, window_.lo.z + z);
     for (std::int32_t y = first.y & ~3; y <= last.y; y += 4) {
-      const std::uint64_t in_yz =
-          in_z & (detail::bits_within(first.y - y, last.y - y, 4) & 0xFFFFU) * 0x0001000100010001ULL;
+      const std::uint64_t in_yz = in_z & (bits_within(first.y - y, last.y - y, 4) & 0xFFFFU) * 0x0001000100010001ULL;
       const std::uint64_t part_yz = part(1, window_.lo.y + y) | part_z;
       for (std::int32_t x = first.x & ~3; x <= last.x; x += 4) {
         const std::uint64_t in_word =
-            in_yz & (detail::bits_within(first.x - x, last.x - x, 1) & 0xFU) * 0x1111111111111111ULL;
+            in_yz & (bits_within(first.x - x, last.x - x, 1) & 0xFU) * 0x1111111111111111ULL;
         const std::uint64_t word = (part(0, window_.lo.x + x) | part_yz) >> 6U;
         if ((in_word & ~(passed_[word] | hit_[word])) != 0) {
           return false;
@@ -130,4 +126,4 @@ VANTAGE_INLINE BrickMarks* ScanMarks::far_brick(const VoxelIndex& brick) {
   return &last_far_->marks;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

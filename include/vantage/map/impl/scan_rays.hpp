@@ -6,7 +6,7 @@
 #include <vantage/map/impl/ray_block.hpp>
 #include <vantage/map/scan.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The rays of a scan in the world frame. Blocks are recomputed on each request, which is cheaper than storing them.
 class ScanRays {
@@ -54,7 +54,7 @@ class ScanRays {
   VoxelBox cells_;
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/scan_rays.ipp>

@@ -7,8 +7,7 @@
 #include <vantage/map/impl/scan_rays.hpp>
 #include <vantage/map/impl/validate_scan.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline std::size_t divided_up(std::size_t count, std::size_t by) { return (count + by - 1) / by; }
 
@@ -76,16 +75,14 @@ class Bounds {
   std::array<RayBlock::PerRay<double>, 3> hi_{};
 };
 
-}  // namespace detail
-
 VANTAGE_INLINE ScanRays::ScanRays(const ScanView& scan, const VoxelFrame& frame)
-    : scan_((detail::validate(scan), scan)),
+    : scan_((validate(scan), scan)),
       origin_(scan.world_from_sensor.translation()),
       placer_{SensorFrame(scan.world_from_sensor), scan.max_range_m,
               frame.addressable(origin_) ? frame.size_m * kFurthestVoxel : -1.0, frame.size_m},
       point_blocks_(blocks_of_points(1)) {
   RayBlock block;
-  detail::Bounds bounds(origin_);
+  Bounds bounds(origin_);
   const std::size_t all = blocks();
   for (std::size_t i = 0; i < all; ++i) {
     place(i, 1, block);
@@ -100,17 +97,16 @@ VANTAGE_INLINE ScanRays::ScanRays(const ScanView& scan, const VoxelFrame& frame)
 }
 
 VANTAGE_INLINE std::size_t ScanRays::blocks_of_points(std::size_t stride) const {
-  return are_tiles() ? detail::divided_up(scan_.width, kTileSide * stride) *
-                           detail::divided_up(scan_.height, kTileSide * stride)
-                     : detail::divided_up(scan_.points.size(), RayBlock::kRays);
+  return are_tiles() ? divided_up(scan_.width, kTileSide * stride) * divided_up(scan_.height, kTileSide * stride)
+                     : divided_up(scan_.points.size(), RayBlock::kRays);
 }
 
 VANTAGE_INLINE void ScanRays::place(std::size_t number, std::size_t stride, RayBlock& block) const {
   const bool is_of_points = stride > 1 || number < point_blocks_;
   if (!is_of_points) {
-    detail::gather(scan_.no_return, (number - point_blocks_) * RayBlock::kRays, block);
+    gather(scan_.no_return, (number - point_blocks_) * RayBlock::kRays, block);
   } else if (!are_tiles()) {
-    detail::gather(scan_.points, number * RayBlock::kRays, block);
+    gather(scan_.points, number * RayBlock::kRays, block);
   } else {
     gather_tile(number, stride, block);
   }
@@ -118,17 +114,17 @@ VANTAGE_INLINE void ScanRays::place(std::size_t number, std::size_t stride, RayB
 }
 
 VANTAGE_INLINE void ScanRays::gather_tile(std::size_t number, std::size_t stride, RayBlock& block) const {
-  const std::size_t tiles_wide = detail::divided_up(scan_.width, kTileSide * stride);
+  const std::size_t tiles_wide = divided_up(scan_.width, kTileSide * stride);
   const std::size_t first_row = number / tiles_wide * kTileSide * stride;
   const std::size_t first_column = number % tiles_wide * kTileSide * stride;
-  const std::size_t left_in_row = detail::divided_up(scan_.width - first_column, stride);
+  const std::size_t left_in_row = divided_up(scan_.width - first_column, stride);
   for (std::size_t i = 0; i < kTileSide; ++i) {
     const std::size_t row = first_row + i * stride;
     const std::size_t count = row < scan_.height ? std::min(left_in_row, kTileSide) : 0;
     if (count > 0) {
-      detail::put(scan_.points, row * scan_.width + first_column, count, stride, i * kTileSide, block);
+      put(scan_.points, row * scan_.width + first_column, count, stride, i * kTileSide, block);
     }
-    detail::put_none(i * kTileSide + count, (i + 1) * kTileSide, block);
+    put_none(i * kTileSide + count, (i + 1) * kTileSide, block);
   }
 }
 
@@ -149,4 +145,4 @@ VANTAGE_INLINE void ScanRays::count(const RayBlock& block) {
   report_.not_addressable += rays[5];
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

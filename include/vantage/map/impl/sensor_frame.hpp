@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vantage/geometry/pose.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The pose of a scan as plain numbers. Insertion and its reference implementation share its order of operations, so
 /// both round in the same way.
@@ -34,4 +34,4 @@ struct SensorFrame {
   std::array<double, 3> translation{};
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -9,7 +9,7 @@
 #include <vantage/map/impl/instruction_set.hpp>
 #include <vantage/map/impl/ray_block.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The axes of a class of rays: those that advance fastest along the same axis, in the same direction.
 struct SliceAxes {
@@ -146,7 +146,7 @@ struct SliceBeam {
   std::array<double, 2> most{{1.0, 1.0}};     ///< largest slope
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/slice_beam.ipp>

@@ -6,7 +6,7 @@
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/map/impl/slice_beam.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 VANTAGE_INLINE void measure(const RayBlock& block, const Eigen::Vector3d& origin, double size_m, RayExtents& extents,
                             InstructionSet set) {
@@ -97,4 +97,4 @@ VANTAGE_INLINE std::int64_t SliceBeam::last_slice_of(const VoxelBox& box) const 
   return axes.up ? std::int64_t{hi[axes.major]} - 1 - first_along : std::int64_t{first_along} - lo[axes.major];
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -5,7 +5,7 @@
 #include <vantage/map/impl/ray_block.hpp>
 #include <vantage/map/impl/scan_marks.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The part of a block of rays that may still pass unmarked cells: the rays selected by `rays`, each from its
 /// `faces_before`-th face across `axis` on.
@@ -20,7 +20,7 @@ struct UndrawnPart {
 [[nodiscard]] UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usable, const Eigen::Vector3d& origin,
                                        const VoxelFrame& frame, const ScanMarks& marks);
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/map/impl/undrawn_part.ipp>

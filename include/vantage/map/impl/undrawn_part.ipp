@@ -10,8 +10,7 @@
 #include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/map/impl/undrawn_part.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline constexpr double kMostSlices = 1 << 16;  // a longer beam is not worth the walk
 inline constexpr double kSteepest = 2.0;        // largest slope of a ray
@@ -109,8 +108,6 @@ struct MarkedBeam {
   RayBlock::PerRay<double> faces;  // number of faces that each ray crosses along the major axis
 };
 
-}  // namespace detail
-
 VANTAGE_INLINE UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usable, const Eigen::Vector3d& origin,
                                         const VoxelFrame& frame, const ScanMarks& marks) {
   if (!marks.holds_all()) {
@@ -118,9 +115,9 @@ VANTAGE_INLINE UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usa
   }
   const InstructionSet set = best_instruction_set();
   const auto ray = static_cast<std::size_t>(std::countr_zero(usable));
-  const std::size_t major = detail::major_axis(block, ray, origin);
+  const std::size_t major = major_axis(block, ray, origin);
   const bool up = block.end[major][ray] > origin[static_cast<Eigen::Index>(major)];
-  detail::MarkedBeam marked(marks, usable, set, SliceBeam(frame, origin, major, up));
+  MarkedBeam marked(marks, usable, set, SliceBeam(frame, origin, major, up));
   RayExtents extents;
   measure(block, origin, frame.size_m, extents, set);
   marked.lines.place(extents, marked.beam.axes, set);
@@ -134,10 +131,9 @@ VANTAGE_INLINE UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usa
   });
   const auto [least, most] = range_of(marked.faces, usable, set);
   const SliceBeam& beam = marked.beam;
-  const bool diverge = !(std::min(beam.least[0], beam.least[1]) >= -detail::kSteepest) ||
-                       !(std::max(beam.most[0], beam.most[1]) <= detail::kSteepest);
-  if (diverge || least < 0.0 || most > detail::kMostSlices ||
-      !(range_of(marked.lines.length, usable, set).first > 0.0)) {
+  const bool diverge =
+      !(std::min(beam.least[0], beam.least[1]) >= -kSteepest) || !(std::max(beam.most[0], beam.most[1]) <= kSteepest);
+  if (diverge || least < 0.0 || most > kMostSlices || !(range_of(marked.lines.length, usable, set).first > 0.0)) {
     return {usable, major, 0};
   }
   std::int64_t slices = 0;
@@ -146,4 +142,4 @@ VANTAGE_INLINE UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usa
   return {slices > 0 ? marked.rays_with_faces(slices) : usable, major, slices};
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

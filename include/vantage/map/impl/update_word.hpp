@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The beam model in steps of log-odds.
 struct BeamSteps {
@@ -15,8 +15,6 @@ struct BeamSteps {
   std::int8_t min;
   std::int8_t max;
 };
-
-namespace detail {
 
 // Byte b of entry m is 0xFF if bit b of m is set, otherwise 0.
 consteval std::array<std::uint64_t, 256> bytes_of_bits() {
@@ -30,8 +28,6 @@ consteval std::array<std::uint64_t, 256> bytes_of_bits() {
 }
 inline constexpr std::array<std::uint64_t, 256> kBytesOfBits = bytes_of_bits();
 
-}  // namespace detail
-
 /// Updates the 64 log-odds at `log_odds`: adds `beam.hit` where `hit` has a bit and `beam.miss` where `passed` has
 /// one, and clamps. No cell may have both bits. Returns the mask of cells whose log-odds are now >= 0.
 inline std::uint64_t update_word(std::int8_t* log_odds, std::uint64_t hit, std::uint64_t passed,
@@ -41,8 +37,8 @@ inline std::uint64_t update_word(std::int8_t* log_odds, std::uint64_t hit, std::
   const std::uint64_t misses = kOnes * static_cast<std::uint8_t>(beam.miss);
   std::array<std::int8_t, 64> delta;
   for (std::size_t byte = 0; byte < 8; ++byte) {
-    const std::uint64_t eight = (detail::kBytesOfBits[hit >> 8 * byte & 0xFFU] & hits) |
-                                (detail::kBytesOfBits[passed >> 8 * byte & 0xFFU] & misses);
+    const std::uint64_t eight =
+        (kBytesOfBits[hit >> 8 * byte & 0xFFU] & hits) | (kBytesOfBits[passed >> 8 * byte & 0xFFU] & misses);
     std::memcpy(&delta[8 * byte], &eight, sizeof(eight));
   }
   for (std::size_t i = 0; i < 64; ++i) {
@@ -59,4 +55,4 @@ inline std::uint64_t update_word(std::int8_t* log_odds, std::uint64_t hit, std::
   return ~negative;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -18,7 +18,7 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan)
   const FrontierSurvey& survey = situation().survey();
   const ReachableSpace& reachable = situation().reachable();
   const Platform& platform = situation().platform();
-  Dice dice(situation().setup().seed, situation().map().revision());
+  detail::Dice dice(situation().setup().seed, situation().map().revision());
   std::optional<TargetView> best;
   double best_value = 0.0;
   const auto consider = [&](TargetView candidate) {

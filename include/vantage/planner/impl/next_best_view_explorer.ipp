@@ -32,7 +32,7 @@ VANTAGE_INLINE std::optional<ChosenView> NextBestViewExplorer::choose(Plan& plan
     std::uint64_t operations = 0;  // not counted here
   };
   constexpr std::size_t kFinalists = 20;  // views that are evaluated with all rays
-  Dice dice(situation().setup().seed, map.revision());
+  detail::Dice dice(situation().setup().seed, map.revision());
   std::vector<Drawn> drawn;
   const auto near = nearness([&](const Pose& pose) { return platform.distance_m(situation().current(), pose); });
   const auto add = [&](const Pose& pose) { drawn.push_back({{pose}, near(pose)}); };

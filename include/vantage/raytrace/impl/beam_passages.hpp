@@ -9,7 +9,7 @@
 #include <vantage/raytrace/impl/slice_lanes.hpp>
 #include <vantage/raytrace/impl/slice_windows.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// The passages of a beam (glossary in slices.hpp): the windows along its way in which a cell may stop a ray, in
 /// the order of the walk. They are recorded once for a group of tiles, and then asked for the beam of one tile after
@@ -53,8 +53,6 @@ class BeamPassages {
   alignas(64) PerPassage<double> from_v_{};
 };
 
-namespace detail {
-
 inline bool any_in(const WindowPatch& patch, const WindowRows& rows) {
   std::uint32_t any = 0;
   for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -83,8 +81,6 @@ VANTAGE_TARGET_AVX512 inline std::uint32_t slices_with_avx512(const WindowPatch&
   return slices;
 }
 #endif
-
-}  // namespace detail
 
 inline void BeamPassages::keep(const SliceBeam& beam) {
   const Passage& passage = passages_[size_];
@@ -119,11 +115,11 @@ inline std::uint64_t BeamPassages::to_pass(const SliceBeam& beam, InstructionSet
   const auto slices_of = [set](const WindowPatch& patch, const WindowCells& cells) {
 #if defined(__x86_64__)
     if (set == InstructionSet::Avx512) {
-      return detail::slices_with_avx512(patch, cells);
+      return slices_with_avx512(patch, cells);
     }
 #endif
     (void)set;
-    return detail::slices_with(patch, cells);
+    return slices_with(patch, cells);
   };
   std::uint64_t blocking = 0;
   std::uint64_t wanted = 0;
@@ -136,4 +132,4 @@ inline std::uint64_t BeamPassages::to_pass(const SliceBeam& beam, InstructionSet
   return wanted == 0 ? 0 : blocking & ~std::uint64_t{0} >> std::countl_zero(wanted);
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -9,7 +9,7 @@
 #include <vantage/raytrace/cell_set.hpp>
 #include <vector>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// A copy of a map in a form made for ray casting: bit planes in words of 4 x 4 x 4 cells (the same layout as in
 /// Brick), and for every word the distance to the nearest word with a cell that stops a ray. A cell stops a ray
@@ -173,7 +173,7 @@ class BlockingGrid::Reader {
   VoxelIndex last_;  // a word of the cached page
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/raytrace/impl/blocking_grid.ipp>

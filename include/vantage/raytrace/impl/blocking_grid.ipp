@@ -9,8 +9,7 @@
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/geometry/impl/prefetch.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 // Pointers to this many pages take 1 GiB and cover 2^42 cells.
 inline constexpr std::size_t kMaxTable = std::size_t{1} << 27U;
@@ -36,8 +35,8 @@ inline Occupancy coarse_state(const Brick& brick, const VoxelIndex& from, std::i
 }
 
 inline void prefetch_planes(const Brick& brick) {
-  detail::prefetch(brick.known.data());
-  detail::prefetch(brick.occupied.data());
+  prefetch(brick.known.data());
+  prefetch(brick.occupied.data());
 }
 
 // The rows of a page and of the kFurthest words around it, one bit per word along x. The rows of a plane are stored
@@ -114,8 +113,6 @@ inline bool meet(const std::array<std::uint8_t, 64>& words, const VoxelIndex& si
   return (met & (side.x < 0 ? 0x01U : side.x > 0 ? 0x80U : 0xFFU)) != 0;
 }
 
-}  // namespace detail
-
 VANTAGE_INLINE std::size_t BlockingGrid::update(const OccupancyMap& map) {
   struct Changed {
     VoxelIndex address;
@@ -129,8 +126,8 @@ VANTAGE_INLINE std::size_t BlockingGrid::update(const OccupancyMap& map) {
   map.for_each_changed_since(by_mean ? 0 : revision_, [&](const VoxelIndex& address, const Brick& brick) {
     changed.push_back({address, &brick});
     const VoxelIndex page = page_address(words_of_brick(address).lo);
-    pages = detail::box_around(pages, {page, page + VoxelIndex{1, 1, 1}});
-    detail::prefetch_planes(brick);
+    pages = box_around(pages, {page, page + VoxelIndex{1, 1, 1}});
+    prefetch_planes(brick);
   });
   reach(pages);
   for (const Changed& one : changed) {
@@ -173,12 +170,12 @@ VANTAGE_INLINE VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) 
 
 // Enlarges the table so that it covers these pages. Throws std::length_error if it would become too large.
 VANTAGE_INLINE void BlockingGrid::reach(const VoxelBox& pages) {
-  const VoxelBox larger = pages.empty() ? pages_box_ : detail::box_around(pages_box_, pages);
+  const VoxelBox larger = pages.empty() ? pages_box_ : box_around(pages_box_, pages);
   if (larger == pages_box_) {
     return;
   }
   const VoxelIndex extent = larger.extent();
-  if (static_cast<double>(extent.x) * extent.y * extent.z > static_cast<double>(detail::kMaxTable)) {
+  if (static_cast<double>(extent.x) * extent.y * extent.z > static_cast<double>(kMaxTable)) {
     throw std::length_error("the known cells lie too far apart for tracing rays");
   }
   pages_box_ = larger;
@@ -262,7 +259,7 @@ VANTAGE_INLINE void BlockingGrid::take_coarse(const OccupancyMap& map, const Vox
   const std::int32_t count = Brick::kSide >> level_;
   const std::int32_t edge = 1 << level_;
   for_each_cell({{0, 0, 0}, {count, count, count}}, [&](const VoxelIndex& c) {
-    take(first + c, detail::coarse_state(brick, {c.x * edge, c.y * edge, c.z * edge}, edge, policy_));
+    take(first + c, coarse_state(brick, {c.x * edge, c.y * edge, c.z * edge}, edge, policy_));
   });
 }
 
@@ -278,7 +275,7 @@ VANTAGE_INLINE void BlockingGrid::refresh_distances() {
     }
     for_each_cell({{-1, -1, -1}, {2, 2, 2}}, [&](const VoxelIndex& side) {
       const VoxelIndex beside = address + side;
-      if (pages_box_.contains(beside) && detail::meet(changed, side)) {
+      if (pages_box_.contains(beside) && meet(changed, side)) {
         Page* const page = table_[place_in_table(beside)];
         if (page != &unseen_) {  // the distance there is 0 anyway
           make_stale(*page);
@@ -302,17 +299,16 @@ VANTAGE_INLINE BlockingGrid::RowBits BlockingGrid::find_distances(Page& page) co
                 [&](const VoxelIndex& side) { around[next++] = &page_at(page.address + side).free_words; });
   RowBits changed{};
   compiled_for(best_instruction_set(), [&] {
-    detail::Rows rows;
-    detail::gather(around, rows);
+    Rows rows;
+    gather(around, rows);
     std::array<std::uint64_t, kPageRows> survived{};  // byte k of a row: the words kept by the k-th erosion
     for (std::size_t k = 0; k < kFurthest; ++k) {
       if (k > 0) {
-        detail::erode(rows, k, detail::kSpan - k);  // words further out no longer affect the page
+        erode(rows, k, kSpan - k);  // words further out no longer affect the page
       }
       std::uint32_t any = 0;
       for (std::size_t row = 0; row < kPageRows; ++row) {
-        const std::uint32_t left =
-            rows[((row >> 3U) + detail::kFirstRow) * detail::kSpan + (row & 7U) + detail::kFirstRow] >> 8U & 0xFFU;
+        const std::uint32_t left = rows[((row >> 3U) + kFirstRow) * kSpan + (row & 7U) + kFirstRow] >> 8U & 0xFFU;
         survived[row] |= std::uint64_t{left} << 8U * k;
         any |= left;
       }
@@ -321,12 +317,12 @@ VANTAGE_INLINE BlockingGrid::RowBits BlockingGrid::find_distances(Page& page) co
       }
     }
     for (std::size_t row = 0; row < kPageRows; ++row) {
-      const std::uint64_t distance = detail::bits_of_bytes(detail::transposed(survived[row]));
-      changed[row] = detail::bytes_set(distance ^ page.distance[row]);
+      const std::uint64_t distance = bits_of_bytes(transposed(survived[row]));
+      changed[row] = bytes_set(distance ^ page.distance[row]);
       page.distance[row] = distance;
     }
   });
   return changed;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -41,8 +41,8 @@ inline RayCasterOptions validated(const RayCasterOptions& options) {
 
 }  // namespace detail
 
-struct RayCaster::Grid : BlockingGrid {
-  using BlockingGrid::BlockingGrid;
+struct RayCaster::Grid : detail::BlockingGrid {
+  using detail::BlockingGrid::BlockingGrid;
 };
 
 VANTAGE_INLINE RayCaster::RayCaster(const OccupancyMap& map, const RayCasterOptions& options)
@@ -68,7 +68,7 @@ VANTAGE_INLINE RayEnd RayCaster::cast(const Eigen::Vector3d& from, const Eigen::
   if (!frame_.addressable(from) || !frame_.addressable(to)) {
     throw std::invalid_argument("RayCaster::cast: both ends must be finite and addressable");
   }
-  SingleWalk walk(frame_, from, frame_.cell_of(from), to, frame_.cell_of(to));
+  detail::SingleWalk walk(frame_, from, frame_.cell_of(from), to, frame_.cell_of(to));
   walk.advance(*grid_);
   return {walk.cell(), grid_->at(walk.cell())};
 }
@@ -78,12 +78,12 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
   if (ends.size() != rays.size()) {
     throw std::invalid_argument("RayCaster::cast: there must be one end for every ray of the view");
   }
-  const ViewPlacer placer(world_from_sensor, rays, frame_);
-  TileWalk walk(*grid_, frame_, world_from_sensor.translation(), best_instruction_set());
-  RayBlock block;
-  TileHits hits(best_instruction_set());
+  const detail::ViewPlacer placer(world_from_sensor, rays, frame_);
+  detail::TileWalk walk(*grid_, frame_, world_from_sensor.translation(), detail::best_instruction_set());
+  detail::RayBlock block;
+  detail::TileHits hits(detail::best_instruction_set());
   VoxelIndex last;
-  std::uint64_t occupied = grid_->occupied(BlockingGrid::word_of(last));
+  std::uint64_t occupied = grid_->occupied(detail::BlockingGrid::word_of(last));
   for (std::size_t n = 0; n < rays.tiles().size(); ++n) {
     const RayTile& tile = rays.tiles()[n];
     detail::prefetch_whole(rays.tiles()[std::min(n + 1, rays.tiles().size() - 1)]);
@@ -108,10 +108,10 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
       const VoxelIndex cell = hits.cell_at(i);
       const VoxelIndex by = {cell.x ^ last.x, cell.y ^ last.y, cell.z ^ last.z};
       if (((by.x | by.y | by.z) & ~3) != 0) {  // rare, because neighbouring rays end in neighbouring cells
-        occupied = grid_->occupied(BlockingGrid::word_of(cell));
+        occupied = grid_->occupied(detail::BlockingGrid::word_of(cell));
         last = cell;
       }
-      const bool is_occupied = (occupied & BlockingGrid::bit_of(cell)) != 0;
+      const bool is_occupied = (occupied & detail::BlockingGrid::bit_of(cell)) != 0;
       RayEnd& end = ends[tile.ray[i]];
       end.cell = cell;
       end.occupancy = is_occupied ? Occupancy::Occupied : Occupancy::Unknown;
@@ -125,21 +125,21 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
   if (box.empty()) {
     return seen;
   }
-  const InstructionSet set = best_instruction_set();
-  const ViewPlacer placer(world_from_sensor, rays, frame_);
-  const BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
-  FreeCone free_cone(*grid_, frame_, world_from_sensor);
-  ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
-  TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
-  CellStamps stamps(seen, set);
-  ViewWalk::Outlook outlook;
-  RayBlock block;
+  const detail::InstructionSet set = detail::best_instruction_set();
+  const detail::ViewPlacer placer(world_from_sensor, rays, frame_);
+  const detail::BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
+  detail::FreeCone free_cone(*grid_, frame_, world_from_sensor);
+  detail::ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
+  detail::TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
+  detail::CellStamps stamps(seen, set);
+  detail::ViewWalk::Outlook outlook;
+  detail::RayBlock block;
   constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
   const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
   for (std::size_t g = 0; g < rays.groups().size(); ++g) {
     const TileGroup& group = rays.groups()[g];
-    const Meeting of_group = culling.meeting(group.cone);
-    if (of_group == Meeting::None) {
+    const detail::Meeting of_group = culling.meeting(group.cone);
+    if (of_group == detail::Meeting::None) {
       continue;
     }
     double free_m = 0.0;
@@ -153,13 +153,13 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
     }
     for (std::size_t i = group.first; i < group.last; ++i) {
       const RayCone& cone = rays.cones()[i];
-      const Meeting meeting = of_group == Meeting::All ? Meeting::All : culling.meeting(cone);
-      if (meeting == Meeting::None || (end_behind && !together.look(i - group.first, outlook))) {
+      const detail::Meeting meeting = of_group == detail::Meeting::All ? detail::Meeting::All : culling.meeting(cone);
+      if (meeting == detail::Meeting::None || (end_behind && !together.look(i - group.first, outlook))) {
         continue;
       }
       const RayTile& tile = rays.tiles()[i];
       detail::prefetch_whole(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
-      std::uint64_t left = meeting == Meeting::All || outlook.culls ? tile.rays : culling.meeting(tile);
+      std::uint64_t left = meeting == detail::Meeting::All || outlook.culls ? tile.rays : culling.meeting(tile);
       if (end_behind) {
         left = together.walk(tile, outlook, left, stamps);
       }

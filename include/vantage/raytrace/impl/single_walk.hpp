@@ -7,7 +7,7 @@
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Walks a single ray: cell by cell where a cell may stop it, and in leaps through free space. Exact, as VoxelRay.
 class SingleWalk {
@@ -36,7 +36,7 @@ inline SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& fr
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     sign_[axis] = end[axis] >= cell_[axis] ? 1 : -1;
-    faces_[axis] = detail::crossings_between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
+    faces_[axis] = crossings_between(from[i], to[i], cell_[axis], end[axis], frame.size_m);
   }
 }
 
@@ -97,4 +97,4 @@ inline bool SingleWalk::leave(const VoxelIndex& lo, const VoxelIndex& last) {
   return !ends;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -7,7 +7,7 @@
 #include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_lanes.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Flood (glossary in slices.hpp): follows a whole beam through slices as a set of cells, without looking at
 /// single rays. The set is an upper bound: no ray of the beam meets a cell outside it.
@@ -46,7 +46,7 @@ class SliceFlood {
   alignas(64) WindowRows cells_{};  // the cells in which rays may enter that slice
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/raytrace/impl/slice_flood.ipp>

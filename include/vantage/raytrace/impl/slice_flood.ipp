@@ -7,8 +7,7 @@
 #include <vantage/raytrace/impl/slice_flood.hpp>
 #include <vantage/raytrace/impl/slice_windows.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline constexpr std::int32_t kRows = SliceWindows::kHeight;
 inline constexpr std::int32_t kColumns = SliceWindows::kWidth;
@@ -211,8 +210,6 @@ VANTAGE_TARGET_AVX512 inline bool flood_avx512(const SliceWindows& windows, cons
 
 #endif
 
-}  // namespace detail
-
 VANTAGE_INLINE bool SliceFlood::begin(const SliceBeam& beam) {
   // A steeper ray may, after rounding, appear to cross two faces of the same axis in one slice.
   constexpr double kMostAskew = 1.0 - 1e-5;
@@ -246,23 +243,22 @@ VANTAGE_INLINE void SliceFlood::move(const SliceWindows& windows) {
     cells_.fill(~std::uint32_t{0});
     return;
   }
-  detail::PaddedRows moved;
+  PaddedRows moved;
   std::uint32_t* const rows = moved.first();
   compiled_for(set_, [this, rows, least, most] {
-    for (std::int32_t by = std::max(least[0], -detail::kColumns + 1); by <= std::min(most[0], detail::kColumns - 1);
-         ++by) {
+    for (std::int32_t by = std::max(least[0], -kColumns + 1); by <= std::min(most[0], kColumns - 1); ++by) {
       const auto up = static_cast<unsigned>(std::max(by, 0));
       const auto down = static_cast<unsigned>(std::max(-by, 0));
       VANTAGE_INDEPENDENT
-      for (std::size_t row = 0; row < detail::kRows; ++row) {
+      for (std::size_t row = 0; row < kRows; ++row) {
         rows[row] |= cells_[row] << up >> down;
       }
     }
     cells_.fill(0);
-    for (std::int32_t by = std::max(least[1], -detail::kRows); by <= std::min(most[1], detail::kRows); ++by) {
+    for (std::int32_t by = std::max(least[1], -kRows); by <= std::min(most[1], kRows); ++by) {
       const std::uint32_t* const from = rows - by;
       VANTAGE_INDEPENDENT
-      for (std::size_t row = 0; row < detail::kRows; ++row) {
+      for (std::size_t row = 0; row < kRows; ++row) {
         cells_[row] |= from[row];
       }
     }
@@ -273,21 +269,20 @@ VANTAGE_INLINE bool SliceFlood::pass(const SliceWindows& windows, WindowCells& m
   move(windows);
   is_full_ = false;
   slice_ = windows.first + static_cast<std::int64_t>(windows.count);
-  detail::Course course;
+  Course course;
   met = {};
-  course.drift = {
-      detail::all_if(beam_.most[0] > -detail::kStraight), detail::all_if(beam_.least[0] < detail::kStraight),
-      detail::all_if(beam_.most[1] > -detail::kStraight), detail::all_if(beam_.least[1] < detail::kStraight)};
-  detail::place_beam(beam_, windows, set_, course);
-  detail::place_box(box_, windows.place, course);
+  course.drift = {all_if(beam_.most[0] > -kStraight), all_if(beam_.least[0] < kStraight),
+                  all_if(beam_.most[1] > -kStraight), all_if(beam_.least[1] < kStraight)};
+  place_beam(beam_, windows, set_, course);
+  place_box(box_, windows.place, course);
 #if defined(__x86_64__)
   if (set_ == InstructionSet::Avx512) {
-    return detail::flood_avx512(windows, course, cells_, met);
+    return flood_avx512(windows, course, cells_, met);
   }
 #endif
   bool any_left = false;
-  compiled_for(set_, [&] { any_left = detail::flood(windows, course, cells_, met); });
+  compiled_for(set_, [&] { any_left = flood(windows, course, cells_, met); });
   return any_left;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -8,7 +8,7 @@
 #include <vantage/map/impl/ray_block.hpp>
 #include <vantage/raytrace/impl/slice_windows.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// 64 rays from one origin that walk through slices together, one SIMD lane each.
 ///
@@ -40,7 +40,7 @@ struct SliceHits {
 void walk_slices(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active, SliceHits& hits,
                  InstructionSet set);
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/raytrace/impl/slice_lanes.ipp>

@@ -10,8 +10,7 @@
 #include <immintrin.h>
 #endif
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline constexpr int kBits = static_cast<int>(SliceLanes::kBits);
 // A position is near an edge between cells if all these bits of the position plus kDoubt are zero.
@@ -341,15 +340,13 @@ VANTAGE_TARGET_AVX2 inline void walk_avx2(const SliceLanes& lanes, const SliceWi
 
 #endif
 
-}  // namespace detail
-
 VANTAGE_INLINE void walk_slices(const SliceLanes& lanes, const SliceWindows& windows, std::uint64_t active,
                                 SliceHits& hits, InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
     for (std::size_t first = 0; first < RayBlock::kRays; first += 16) {
       if (const auto some = static_cast<__mmask16>(active >> first); some != 0) {
-        detail::walk_avx512(lanes, windows, first, some, hits);
+        walk_avx512(lanes, windows, first, some, hits);
       }
     }
     return;
@@ -357,14 +354,14 @@ VANTAGE_INLINE void walk_slices(const SliceLanes& lanes, const SliceWindows& win
   if (set == InstructionSet::Avx2) {
     for (std::size_t first = 0; first < RayBlock::kRays; first += 8) {
       if (const auto some = static_cast<unsigned>(active >> first & 255U); some != 0) {
-        detail::walk_avx2(lanes, windows, first, some, hits);
+        walk_avx2(lanes, windows, first, some, hits);
       }
     }
     return;
   }
 #endif
   (void)set;
-  detail::walk_baseline(lanes, windows, active, hits);
+  walk_baseline(lanes, windows, active, hits);
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -10,7 +10,7 @@
 #include <vantage/raytrace/impl/slice_lanes.hpp>
 #include <vantage/raytrace/impl/tile_hits.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// A stop of a beam: the next slices [slice, next) of one layer in which a cell may stop one of its rays.
 struct Stop {
@@ -190,4 +190,4 @@ inline void SliceWalk::end_rays(std::uint64_t ending, double to_first, SliceHits
   }
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

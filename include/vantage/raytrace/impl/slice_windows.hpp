@@ -12,7 +12,7 @@
 #include <immintrin.h>
 #endif
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Position of the windows of a few slices in the map.
 struct SlicePlace : SliceAxes {
@@ -104,7 +104,6 @@ inline std::uint64_t swap_index_bits(std::uint64_t word) {
 using WordRows = std::array<std::uint32_t, 16>;
 
 #if defined(__x86_64__)
-namespace detail {
 VANTAGE_TARGET_AVX512 inline WordRows rows_avx512(std::span<const std::uint64_t> words) {
   const __m512i from = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28);
   __m512i rows = _mm512_setzero_si512();
@@ -120,7 +119,6 @@ VANTAGE_TARGET_AVX512 inline WordRows rows_avx512(std::span<const std::uint64_t>
   _mm512_storeu_si512(all.data(), rows);
   return all;
 }
-}  // namespace detail
 #endif
 
 /// Converts up to eight adjacent words, ordered by slices (in_slices), to rows of cells. Word i gives the columns 4 i
@@ -128,7 +126,7 @@ VANTAGE_TARGET_AVX512 inline WordRows rows_avx512(std::span<const std::uint64_t>
 [[nodiscard]] inline WordRows rows_of_words(std::span<const std::uint64_t> words, InstructionSet set) {
 #if defined(__x86_64__)
   if (set == InstructionSet::Avx512) {
-    return detail::rows_avx512(words);
+    return rows_avx512(words);
   }
 #endif
   WordRows all{};
@@ -145,4 +143,4 @@ VANTAGE_TARGET_AVX512 inline WordRows rows_avx512(std::span<const std::uint64_t>
   return all;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

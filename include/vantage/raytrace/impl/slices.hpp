@@ -10,7 +10,7 @@
 #include <vantage/raytrace/impl/slice_walk.hpp>
 #include <vector>
 
-namespace vantage {
+namespace vantage::detail {
 
 // How rays are cast. Every noun of raytrace/impl/ is named here once.
 //
@@ -149,7 +149,7 @@ class GridSlices {
   std::int64_t last_ = 0;
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/raytrace/impl/slices.ipp>

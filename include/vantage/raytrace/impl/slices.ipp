@@ -9,8 +9,7 @@
 #include <immintrin.h>
 #endif
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline constexpr std::int32_t kColumn = 32;  // stride in cells between the starts of neighbouring columns of rows
 
@@ -76,8 +75,6 @@ VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, c
 
 #endif
 
-}  // namespace detail
-
 // A beam is widest at its end. It must not be empty.
 VANTAGE_INLINE bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) {
   beam_ = beam;
@@ -90,7 +87,7 @@ VANTAGE_INLINE bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) 
     return false;
   }
   constexpr std::size_t kOftenRead = 16;  // estimate of the number of layers to be read, to reserve memory
-  const std::int32_t columns = widest.extent(0) / detail::kColumn + 1;
+  const std::int32_t columns = widest.extent(0) / kColumn + 1;
   const std::int32_t rows = widest.extent(1) + SliceWindows::kHeight;
   rows_.reserve(kOftenRead * kPlanes * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   return true;
@@ -106,7 +103,7 @@ VANTAGE_INLINE void ViewSlices::read(std::size_t number, std::int64_t slice) {
   layer.first_v = cells.lo[1] & ~3;
   layer.end_u = (cells.hi[0] | 3) + 1;
   layer.end_v = (cells.hi[1] | 3) + 1;
-  const std::int32_t columns = (layer.end_u - layer.first_u + detail::kColumn - 1) / detail::kColumn;
+  const std::int32_t columns = (layer.end_u - layer.first_u + kColumn - 1) / kColumn;
   const std::int32_t rows = layer.end_v - layer.first_v + SliceWindows::kHeight;
   layer.rows = static_cast<std::size_t>(rows);
   layer.first = rows_.size();
@@ -130,12 +127,12 @@ VANTAGE_INLINE std::int32_t ViewSlices::free_from(const Layer& layer, std::int32
 
 // Returns false if no cell of the layer stops a ray.
 VANTAGE_INLINE bool ViewSlices::read_rows(const Layer& layer, std::int32_t along) {
-  constexpr std::int32_t kWords = detail::kColumn / 4;
+  constexpr std::int32_t kWords = kColumn / 4;
   std::array<std::uint64_t, kWords> words{};
   std::uint64_t any_of_layer = 0;
-  for (std::int32_t first_u = layer.first_u; first_u < layer.end_u; first_u += detail::kColumn) {
+  for (std::int32_t first_u = layer.first_u; first_u < layer.end_u; first_u += kColumn) {
     const std::int32_t width = std::min(kWords, (layer.end_u - first_u) / 4);
-    const auto column = static_cast<std::size_t>((first_u - layer.first_u) / detail::kColumn);
+    const auto column = static_cast<std::size_t>((first_u - layer.first_u) / kColumn);
     std::uint64_t* const rows = &rows_[layer.first + kPlanes * column * layer.rows];
     for (std::int32_t v = layer.first_v; v < layer.end_v; v += 4) {
       std::uint64_t any = 0;
@@ -172,20 +169,20 @@ VANTAGE_INLINE bool ViewSlices::read_rows(const Layer& layer, std::int32_t along
 
 VANTAGE_INLINE bool ViewSlices::any_stops(std::int64_t slice, const LateralCells& cells) const {
   const Layer& layer = layers_[number_of(slice)];
-  const std::int32_t column = (cells.lo[0] - layer.first_u) / detail::kColumn;
-  const std::int32_t lo = cells.lo[0] - layer.first_u - column * detail::kColumn;
+  const std::int32_t column = (cells.lo[0] - layer.first_u) / kColumn;
+  const std::int32_t lo = cells.lo[0] - layer.first_u - column * kColumn;
   const std::int32_t hi = lo + cells.extent(0) - 1;
-  if (hi >= 2 * detail::kColumn) {
+  if (hi >= 2 * kColumn) {
     return true;  // wider than one row of 64 cells, so the answer is not known
   }
   const std::uint64_t* const rows = rows_of(layer, column, kAny) + (cells.lo[1] - layer.first_v);
   const std::uint64_t columns = ~std::uint64_t{0} << lo & ~std::uint64_t{0} >> (63 - hi);
 #if defined(__x86_64__)
   if (set_ == InstructionSet::Avx512) {
-    return detail::any_in_rows_avx512(rows, cells.extent(1), columns);
+    return any_in_rows_avx512(rows, cells.extent(1), columns);
   }
 #endif
-  return detail::any_in_rows(rows, cells.extent(1), columns);
+  return any_in_rows(rows, cells.extent(1), columns);
 }
 
 VANTAGE_INLINE Stop ViewSlices::next_stop(const SliceBeam& beam, std::int64_t slice) {
@@ -222,12 +219,12 @@ VANTAGE_INLINE void ViewSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   SlicePlace& place = windows.place;
   place = {beam.axes, 0, cells.lo[0] & ~3, cells.lo[1] & ~3};
   const Layer& layer = layers_[number_of(stop.slice)];
-  const std::int32_t column = (place.first_u - layer.first_u) / detail::kColumn;
-  const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * detail::kColumn);
+  const std::int32_t column = (place.first_u - layer.first_u) / kColumn;
+  const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * kColumn);
   const std::int32_t from_row = place.first_v - layer.first_v;
-  const detail::Cut cut{shift, cells.lo[1] - place.first_v, cells.hi[1] - place.first_v,
-                        ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
-                            ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
+  const Cut cut{shift, cells.lo[1] - place.first_v, cells.hi[1] - place.first_v,
+                ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
+                    ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
   windows.first = stop.next;
   std::int64_t last = stop.slice - 1;
   const auto cut_all = [&](const auto& cut_one) {
@@ -243,15 +240,14 @@ VANTAGE_INLINE void ViewSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   };
 #if defined(__x86_64__)
   if (set_ == InstructionSet::Avx512) {
-    cut_all(
-        [&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window_avx512(from, cut, to); });
+    cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window_avx512(from, cut, to); });
   } else {
     compiled_for(set_, [&] {
-      cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window(from, cut, to); });
+      cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, cut, to); });
     });
   }
 #else
-  cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return detail::cut_window(from, cut, to); });
+  cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, cut, to); });
 #endif
   windows.count = static_cast<std::size_t>(std::max<std::int64_t>(last - windows.first + 1, 0));
   place.along = beam.along(windows.first);
@@ -306,7 +302,7 @@ VANTAGE_INLINE void GridSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   for (std::int32_t v = 0; v <= v_words; ++v) {
     for (std::int32_t u = 0; u <= u_words; ++u) {
       const std::uint64_t slices = in_slices(reader_.blocking(lo + place.at(0, u, v)), place.major);
-      words[static_cast<std::size_t>(u)] = (place.up ? slices : detail::reversed(slices)) >> skipped & taken;
+      words[static_cast<std::size_t>(u)] = (place.up ? slices : reversed(slices)) >> skipped & taken;
     }
     const WordRows rows = rows_of_words(std::span(words).first(static_cast<std::size_t>(u_words) + 1), set_);
     const std::int32_t first = place.first_v + v * 4;
@@ -321,4 +317,4 @@ VANTAGE_INLINE void GridSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   windows.count = (any & columns) != 0 ? count : 0;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -11,7 +11,7 @@
 #include <vantage/raytrace/impl/slice_lanes.hpp>
 #include <vantage/raytrace/impl/slice_windows.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Receives the cells that stop the rays of a tile.
 class HitSink {
@@ -114,4 +114,4 @@ inline void CellStamps::take(const SliceHits& hits, const SlicePlace& place) {
 
 inline void CellStamps::take(std::size_t /*ray*/, const VoxelIndex& cell) { seen_->insert(cell); }
 
-}  // namespace vantage
+}  // namespace vantage::detail

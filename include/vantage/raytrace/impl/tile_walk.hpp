@@ -10,7 +10,7 @@
 #include <vantage/raytrace/impl/single_walk.hpp>
 #include <vantage/raytrace/impl/slices.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Follows the rays of a tile to the first cells that stop them, class by class (SliceWalk). Single rays are walked
 /// exactly (SingleWalk) if they spread too far, or pass too close to an edge between cells. The resulting cells equal
@@ -110,4 +110,4 @@ inline std::uint64_t TileWalk::walk_class(SliceBeam beam, const RayExtents& exte
   return walk_.follow(slices_, beam, rays, slices_.next_stop(beam, first), hits);
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

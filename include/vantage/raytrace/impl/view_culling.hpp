@@ -14,7 +14,7 @@
 #include <vantage/raytrace/impl/blocking_grid.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// How many rays of a set may meet a box. Some is also the answer if the test cannot tell.
 enum class Meeting : std::uint8_t { None, Some, All };
@@ -207,4 +207,4 @@ inline double FreeCone::free_m(const RayCone& cone, double enough_m) {
   return reached * size_m_;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

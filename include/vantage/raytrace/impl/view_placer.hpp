@@ -6,7 +6,7 @@
 #include <vantage/map/impl/ray_block.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Transforms the rays of a view into the world frame, tile by tile. Each ray reaches as far as a ray of
 /// Scan::no_return.
@@ -35,4 +35,4 @@ class ViewPlacer {
   RayPlacer placer_;
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail

@@ -146,7 +146,8 @@ VANTAGE_INLINE void ViewRays::add_tile(const std::vector<Eigen::Vector3f>& direc
     for (std::size_t axis = 0; axis < 3; ++axis) {
       tile.directions[axis][place] = direction[static_cast<Eigen::Index>(axis)];
     }
-    tile.stretch[place] = max_range_m_ / std::sqrt(SensorFrame::squared(direction.x(), direction.y(), direction.z()));
+    tile.stretch[place] =
+        max_range_m_ / std::sqrt(detail::SensorFrame::squared(direction.x(), direction.y(), direction.z()));
   }
   cones_.push_back(detail::cone_around({&tile, 1}));
 }

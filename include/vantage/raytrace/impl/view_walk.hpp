@@ -12,7 +12,7 @@
 #include <vantage/raytrace/impl/slices.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
-namespace vantage {
+namespace vantage::detail {
 
 /// Finds the cells of a box that stop the rays of a view, for all tiles together. It is the fast path of
 /// RayCaster::visible_cells for rays that do not end before the box. The rays that it does not resolve are left to
@@ -100,7 +100,7 @@ class ViewWalk {
   SliceWindows windows_;  // those of a passage that a tile needs
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/raytrace/impl/view_walk.ipp>

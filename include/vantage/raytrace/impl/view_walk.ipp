@@ -9,8 +9,7 @@
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/view_walk.hpp>
 
-namespace vantage {
-namespace detail {
+namespace vantage::detail {
 
 inline constexpr int kFewRays = 4;
 
@@ -36,8 +35,6 @@ inline void spread_over(SliceBeam& beam, const VoxelBox& box) {
     beam.most[i] = std::min(most / (most > 0.0 ? nearest : furthest) + kSlack, 1.0);
   }
 }
-
-}  // namespace detail
 
 VANTAGE_INLINE ViewWalk::ViewWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor,
                                   const VoxelBox& box, InstructionSet set)
@@ -190,7 +187,7 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk(const RayTile& tile, const Outlook& 
   if (outlook.is_mixed) {
     return walk_mixed(tile, rays, hits);
   }
-  if (std::popcount(rays) < detail::kFewRays) {
+  if (std::popcount(rays) < kFewRays) {
     return rays;
   }
   rays &= measure(tile.directions, outlook.beam);  // rays outside the beam meet no cell of the box
@@ -251,7 +248,7 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint
     const std::uint64_t of_class = of.is_narrow ? measure(tile.directions, of.all) & rays : 0;
     if (of.beam.is_empty()) {  // no ray of the class meets a cell of the box
       others |= std::uint64_t{1} << first & ~of_class;
-    } else if (std::popcount(of_class) < detail::kFewRays) {
+    } else if (std::popcount(of_class) < kFewRays) {
       others |= of_class | (std::uint64_t{1} << first);
     } else {
       SliceBeam beam = of.beam;
@@ -310,9 +307,9 @@ VANTAGE_INLINE ViewWalk::Class ViewWalk::made(std::size_t major, bool up) const 
   const SliceBeam all(frame_, origin_, major, up);
   Class of{all, all, ViewSlices(grid_, set_)};
   const std::int64_t last = of.beam.last_slice_of(box_);
-  detail::spread_over(of.beam, box_);
+  spread_over(of.beam, box_);
   of.is_narrow = last < SliceBeam::kLastOfLayers && (of.beam.is_empty() || of.slices.begin(of.beam, last));
   return of;
 }
 
-}  // namespace vantage
+}  // namespace vantage::detail

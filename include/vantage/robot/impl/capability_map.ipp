@@ -59,7 +59,7 @@ VANTAGE_INLINE CapabilityMap::CapabilityMap(const ForwardKinematics& forward, st
                                             const CapabilityMapOptions& options)
     : options_(options) {
   detail::validate(options, ranges);
-  Dice dice(options.seed);
+  detail::Dice dice(options.seed);
   std::vector<double> joints(ranges.size());
   std::vector<std::pair<VoxelIndex, std::size_t>> drawn;
   for (std::size_t sample = 0; sample < options.samples; ++sample) {

@@ -68,7 +68,7 @@ VANTAGE_INLINE std::vector<Pose> aimed_views(const RayCaster& caster, std::span<
                                              const AimedViewOptions& options, std::uint64_t seed) {
   validate(options);
   std::vector<Pose> views;
-  Dice dice(seed);
+  detail::Dice dice(seed);
   for (std::size_t i = 0; i < options.count && !sides.empty(); ++i) {
     if (const std::optional<Pose> view = detail::view_of(sides[dice.below(sides.size())], caster, options, dice)) {
       views.push_back(*view);

@@ -252,8 +252,8 @@ VANTAGE_INLINE double ViewGain::of_tile(const Pose& world_from_sensor, const Ray
   box.min.array() -= frame.size_m;
   box.max.array() += frame.size_m;
   const bool may_be_too_near = box.distance_to(origin) < rays_->min_range_m();
-  const ViewPlacer placer(world_from_sensor, *rays_, frame);
-  RayBlock block;
+  const detail::ViewPlacer placer(world_from_sensor, *rays_, frame);
+  detail::RayBlock block;
   placer.place_ends(tile, block);
   std::vector<RayCell> passed;
   double sum = 0.0;

@@ -68,7 +68,7 @@ VANTAGE_INLINE VoidViews::VoidViews(const SurveyedMap& surveyed, const VoidClust
 VANTAGE_INLINE std::vector<Pose> VoidViews::draw(std::span<const VoxelIndex> places, std::span<const double> values,
                                                  std::span<const FrontierVoid> voids, const VoidSampling& sampling,
                                                  std::size_t count, std::uint64_t seed) const {
-  Dice dice(seed, surveyed_.map.revision());
+  detail::Dice dice(seed, surveyed_.map.revision());
   detail::DirectionDraw directions(surveyed_, voids, dice);
   const std::size_t orientations = detail::sees_all_around(surveyed_.sensor) ? 1 : sampling.orientations_per_place;
   // By descending value, ties by index. Few of them are taken, so they are not sorted.
