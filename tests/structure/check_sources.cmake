@@ -3,6 +3,7 @@
 #       -D COMPONENTS=<what is built> -P check_sources.cmake
 # Checks that every file names its licence, every header is guarded and installed, and no file is too long: 300 lines
 # for a header, 400 for a source. Public headers include of impl/ only bodies, and vantage.hpp includes all of core.
+# Private headers and their bodies declare in vantage::detail; in vantage they only announce public types.
 # Every floor has a test in its folder of tests/unit. A test there is named after the file that it tests, which lies on
 # its own floor or, where the test needs more than that floor, on a lower one.
 cmake_minimum_required(VERSION 3.22...3.25)
@@ -52,6 +53,12 @@ foreach(file IN LISTS files)
   elseif(file MATCHES "^include/(vantage/[a-z]+/impl/.+)$")
     if(NOT CMAKE_MATCH_1 IN_LIST PRIVATE_FILES)
       list(APPEND faults "${file}: neither in BODIES nor in PRIVATE_HEADERS, so nobody gets it installed")
+    endif()
+    string(REGEX REPLACE "\\.ipp$" ".hpp" private_header "${file}")
+    string(REGEX REPLACE "\nnamespace vantage {\n((class|struct) [A-Za-z]+;\n)+}" "" declared "${text}")
+    if(EXISTS "${ROOT}/${private_header}" AND (declared MATCHES "\nnamespace (VANTAGE_EXPORT )?vantage {"
+                                              OR NOT declared MATCHES "\nnamespace vantage::detail(::[a-z0-9_]+)* {"))
+      list(APPEND faults "${file}: private, but its names are not in vantage::detail")
     endif()
   elseif(file MATCHES "^tests/unit/([a-z]+)/([a-z0-9_]+)_test\\.cpp$")
     set(folder "${CMAKE_MATCH_1}")

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace vantage {
+
+struct Planted {};
+
+}  // namespace vantage
