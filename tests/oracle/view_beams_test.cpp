@@ -88,8 +88,8 @@ TEST(ViewBeams, LayersOfABeamAreThoseOfItsSlices) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 3'000; ++i) {
     const VoxelFrame frame{0.1};
-    SliceBeam beam(frame, {20.0 * unit(engine), 20.0 * unit(engine), 20.0 * unit(engine)}, engine() % 3,
-                   engine() % 2 == 0);
+    SliceBeam beam(frame, {20.0 * unit(engine), 20.0 * unit(engine), 20.0 * unit(engine)},
+                   static_cast<std::int32_t>(engine() % 6));
     for (std::size_t lateral = 0; lateral < 2; ++lateral) {
       std::tie(beam.least[lateral], beam.most[lateral]) = std::minmax({unit(engine), unit(engine)});
     }
@@ -116,7 +116,7 @@ struct FloodCase {
   };
   static constexpr std::int64_t kLast = 40;
 
-  explicit FloodCase(std::mt19937& engine) : beam(frame, origin_in(engine), engine() % 3, engine() % 2 == 0) {
+  explicit FloodCase(std::mt19937& engine) : beam(frame, origin_in(engine), static_cast<std::int32_t>(engine() % 6)) {
     std::uniform_real_distribution<double> slope(-0.99, 0.99);
     std::uniform_real_distribution<double> width(0.0, 0.15);
     for (std::size_t i = 0; i < 2; ++i) {

@@ -26,6 +26,12 @@ class CellSet {
     }
   }
 
+  /// The address of the word that holds a cell.
+  [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
+  /// The bit of a cell in its word.
+  [[nodiscard]] static std::uint64_t bit_of(const VoxelIndex& cell) {
+    return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
+  }
   /// The cells that the set can hold.
   [[nodiscard]] const VoxelBox& box() const { return box_; }
   /// Whether the set holds a cell.
@@ -104,10 +110,6 @@ class CellSet {
   }
 
  private:
-  static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
-  static std::uint64_t bit_of(const VoxelIndex& cell) {
-    return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
-  }
   [[nodiscard]] std::size_t place_of(const VoxelIndex& cell) const {
     const VoxelIndex at = word_of(cell) - lo_;
     return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(extent_.y) + static_cast<std::size_t>(at.y)) *

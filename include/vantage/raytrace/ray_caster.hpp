@@ -15,6 +15,10 @@
 
 namespace VANTAGE_EXPORT vantage {
 
+namespace detail {
+class BlockingGrid;
+}
+
 /// The cell in which a ray ends.
 struct RayEnd {
   VoxelIndex cell;  ///< the first cell that is not free; the last cell of the ray if all are free
@@ -109,12 +113,10 @@ class RayCaster {
   [[nodiscard]] std::size_t count(const CellSet& cells, Occupancy occupancy) const;
 
  private:
-  struct Grid;
-
   const OccupancyMap* map_;
   RayCasterOptions options_;
   VoxelFrame frame_;
-  std::unique_ptr<Grid> grid_;
+  std::unique_ptr<detail::BlockingGrid> grid_;
 };
 
 template <OccupancyLookup Lookup>

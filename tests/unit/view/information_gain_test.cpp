@@ -58,11 +58,11 @@ struct Gains {
 // The definitions, by walking each ray cell by cell through the map.
 Gains gains_by_definition(const OccupancyMap& map, const Pose& pose, const ViewRays& rays, const VoxelBox& object,
                           double d_max_m) {
-  const detail::ViewPlacer placer(pose, rays, map.frame());
+  const detail::RayPlacer placer = detail::view_placer(pose, rays, map.frame());
   Gains gains;
   detail::RayBlock block;
   for (const RayTile& tile : rays.tiles()) {
-    placer.place_ends(tile, block);
+    placer.place_ends(tile.directions, tile.stretch, block);
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const Eigen::Vector3d end(block.end[0][i], block.end[1][i], block.end[2][i]);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vantage/geometry/voxel.hpp>
@@ -25,6 +26,17 @@ struct SliceAxes {
                         : VoxelIndex{of_u, of_v, m};
   }
 };
+
+/// The class of a ray that advances by these coordinates: twice its major axis (the first of the fastest), plus one
+/// if it goes up. It has no branches, so that loops over rays are vectorised.
+[[nodiscard]] inline std::int32_t class_of_ray(double x, double y, double z) {
+  const double by_x = x > 0.0 ? 1.0 : 0.0;
+  const double by_y = y > 0.0 ? 3.0 : 2.0;
+  const double by_z = z > 0.0 ? 5.0 : 4.0;
+  const double of_y_or_z = std::abs(y) >= std::abs(z) ? by_y : by_z;
+  const double y_or_z = std::abs(y) >= std::abs(z) ? std::abs(y) : std::abs(z);
+  return static_cast<std::int32_t>(std::abs(x) >= y_or_z ? by_x : of_y_or_z);
+}
 
 /// The ends of 64 rays relative to their origin, along x, y and z, in cells.
 using RayExtents = std::array<RayBlock::PerRay<double>, 3>;
@@ -88,8 +100,8 @@ struct SliceBeam {
   static constexpr double kRounding = 1e-6;
 
   SliceBeam() = default;
-  /// All rays of a class from `origin`: those that advance fastest along `major`, towards larger coordinates if `up`.
-  SliceBeam(const VoxelFrame& frame, const Eigen::Vector3d& origin, std::size_t major, bool up);
+  /// All rays of a class (class_of_ray) from `origin`.
+  SliceBeam(const VoxelFrame& frame, const Eigen::Vector3d& origin, std::int32_t of_class);
 
   /// Coordinate of a slice along the major axis. Slice 0 contains the origin.
   [[nodiscard]] std::int32_t along(std::int64_t slice) const {

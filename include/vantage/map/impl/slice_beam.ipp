@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <tuple>
+#include <vantage/geometry/impl/along.hpp>
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/map/impl/slice_beam.hpp>
 
@@ -38,19 +38,18 @@ VANTAGE_INLINE void RayLines::place(const RayExtents& extents, const SliceAxes& 
   });
 }
 
-VANTAGE_INLINE SliceBeam::SliceBeam(const VoxelFrame& frame, const Eigen::Vector3d& origin, std::size_t major,
-                                    bool up) {
+VANTAGE_INLINE SliceBeam::SliceBeam(const VoxelFrame& frame, const Eigen::Vector3d& origin, std::int32_t of_class) {
   const VoxelIndex cell = frame.cell_of(origin);
   const std::array<std::int32_t, 3> cells{cell.x, cell.y, cell.z};
   const auto place_in_cell = [&](std::size_t axis) {
     return origin[static_cast<Eigen::Index>(axis)] / frame.size_m - cells[axis];
   };
-  axes.major = major;
-  axes.u = major == 0 ? 1 : 0;
-  axes.v = major == 2 ? 1 : 2;
-  axes.up = up;
-  first_along = cells[major];
-  from_entry = up ? place_in_cell(major) : 1.0 - place_in_cell(major);
+  axes.major = static_cast<std::size_t>(of_class / 2);
+  axes.u = axes.major == 0 ? 1 : 0;
+  axes.v = axes.major == 2 ? 1 : 2;
+  axes.up = of_class % 2 == 1;
+  first_along = cells[axes.major];
+  from_entry = axes.up ? place_in_cell(axes.major) : 1.0 - place_in_cell(axes.major);
   first = {cells[axes.u], cells[axes.v]};
   within = {place_in_cell(axes.u), place_in_cell(axes.v)};
 }
@@ -92,9 +91,8 @@ VANTAGE_INLINE void SliceBeam::tighten(const RayLines& lines, std::uint64_t acti
 }
 
 VANTAGE_INLINE std::int64_t SliceBeam::last_slice_of(const VoxelBox& box) const {
-  const std::array<std::int32_t, 3> lo{box.lo.x, box.lo.y, box.lo.z};
-  const std::array<std::int32_t, 3> hi{box.hi.x, box.hi.y, box.hi.z};
-  return axes.up ? std::int64_t{hi[axes.major]} - 1 - first_along : std::int64_t{first_along} - lo[axes.major];
+  return axes.up ? std::int64_t{detail::along(box.hi, axes.major)} - 1 - first_along
+                 : std::int64_t{first_along} - detail::along(box.lo, axes.major);
 }
 
 }  // namespace vantage::detail

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <vantage/geometry/impl/along.hpp>
 #include <vantage/geometry/impl/box_overlap.hpp>
 #include <vantage/map/impl/lane_queries.hpp>
@@ -14,18 +13,6 @@ namespace vantage::detail {
 
 inline constexpr double kMostSlices = 1 << 16;  // a longer beam is not worth the walk
 inline constexpr double kSteepest = 2.0;        // largest slope of a ray
-
-// The axis along which a ray is longest.
-inline std::size_t major_axis(const RayBlock& block, std::size_t ray, const Eigen::Vector3d& origin) {
-  std::size_t major = 0;
-  double furthest = -1.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double step = std::abs(block.end[axis][ray] - origin[static_cast<Eigen::Index>(axis)]);
-    major = step > furthest ? axis : major;
-    furthest = std::max(step, furthest);
-  }
-  return major;
-}
 
 // The rays of a block as a beam through marked cells.
 struct MarkedBeam {
@@ -115,15 +102,16 @@ VANTAGE_INLINE UndrawnPart undrawn_part(const RayBlock& block, std::uint64_t usa
   }
   const InstructionSet set = best_instruction_set();
   const auto ray = static_cast<std::size_t>(std::countr_zero(usable));
-  const std::size_t major = major_axis(block, ray, origin);
-  const bool up = block.end[major][ray] > origin[static_cast<Eigen::Index>(major)];
-  MarkedBeam marked(marks, usable, set, SliceBeam(frame, origin, major, up));
+  const std::int32_t of_class =
+      class_of_ray(block.end[0][ray] - origin.x(), block.end[1][ray] - origin.y(), block.end[2][ray] - origin.z());
+  MarkedBeam marked(marks, usable, set, SliceBeam(frame, origin, of_class));
+  const std::size_t major = marked.beam.axes.major;
   RayExtents extents;
   measure(block, origin, frame.size_m, extents, set);
   marked.lines.place(extents, marked.beam.axes, set);
   marked.beam.tighten(marked.lines, usable, set);
-  compiled_for(set, [of_ray = marked.faces.data(), cell = block.cell[major].data(), sign = up ? 1 : -1,
-                     first = marked.beam.first_along] {
+  compiled_for(set, [of_ray = marked.faces.data(), cell = block.cell[major].data(),
+                     sign = marked.beam.axes.up ? 1 : -1, first = marked.beam.first_along] {
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       of_ray[i] = sign * (cell[i] - first);

@@ -45,12 +45,6 @@ class BlockingGrid {
   /// See RayCaster::suppose.
   void suppose(const CellSet& stopping);
 
-  /// The address of the word that holds a cell.
-  [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
-  /// The bit of a cell in its word.
-  [[nodiscard]] static std::uint64_t bit_of(const VoxelIndex& cell) {
-    return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
-  }
   /// The cells of a word that stop rays.
   [[nodiscard]] std::uint64_t blocking(const VoxelIndex& word) const {
     return page_of(word).block_of(word).blocking[offset_in_block(word)];
@@ -64,11 +58,12 @@ class BlockingGrid {
   [[nodiscard]] std::uint8_t distance(const VoxelIndex& word) const { return page_of(word).distance_of(word); }
   /// State of a cell.
   [[nodiscard]] Occupancy at(const VoxelIndex& cell) const {
-    const VoxelIndex word = word_of(cell);
-    if ((blocking(word) & bit_of(cell)) == 0) {
+    const VoxelIndex word = CellSet::word_of(cell);
+    const std::uint64_t bit = CellSet::bit_of(cell);
+    if ((blocking(word) & bit) == 0) {
       return Occupancy::Free;
     }
-    return (occupied(word) & bit_of(cell)) != 0 ? Occupancy::Occupied : Occupancy::Unknown;
+    return (occupied(word) & bit) != 0 ? Occupancy::Occupied : Occupancy::Unknown;
   }
   /// Memory in use, in bytes.
   [[nodiscard]] std::size_t memory_bytes() const {

@@ -147,7 +147,8 @@ VANTAGE_INLINE void BlockingGrid::suppose(const CellSet& stopping) {
   if (box.empty()) {
     return;
   }
-  const VoxelBox words{word_of(box.lo), word_of(box.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
+  const VoxelBox words{CellSet::word_of(box.lo),
+                       CellSet::word_of(box.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}};
   reach({page_address(words.lo), page_address(words.hi - VoxelIndex{1, 1, 1}) + VoxelIndex{1, 1, 1}});
   CellSet within(box);
   for_each_cell(words, [&](const VoxelIndex& word) {
@@ -163,7 +164,7 @@ VANTAGE_INLINE void BlockingGrid::suppose(const CellSet& stopping) {
 
 VANTAGE_INLINE VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) const {
   const VoxelIndex cell = Brick::first_cell(address);
-  const VoxelIndex lo = word_of({cell.x >> level_, cell.y >> level_, cell.z >> level_});
+  const VoxelIndex lo = CellSet::word_of({cell.x >> level_, cell.y >> level_, cell.z >> level_});
   const std::int32_t words = level_ == 0 ? 2 : 1;
   return {lo, lo + VoxelIndex{words, words, words}};
 }
@@ -241,13 +242,14 @@ VANTAGE_INLINE void BlockingGrid::take_brick(const VoxelIndex& address, const Br
 VANTAGE_INLINE void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& address,
                                               const Brick& brick) {
   const auto take = [&](const VoxelIndex& coarse, Occupancy state) {
-    const std::uint64_t bit = bit_of(coarse);
-    Page& page = writable_page(page_address(word_of(coarse)));
-    Block& block = writable_block(page, word_of(coarse));
-    const std::size_t at = offset_in_block(word_of(coarse));
+    const VoxelIndex word = CellSet::word_of(coarse);
+    const std::uint64_t bit = CellSet::bit_of(coarse);
+    Page& page = writable_page(page_address(word));
+    Block& block = writable_block(page, word);
+    const std::size_t at = offset_in_block(word);
     block.blocking[at] = (block.blocking[at] & ~bit) | (state == Occupancy::Free ? 0 : bit);
     block.occupied[at] = (block.occupied[at] & ~bit) | (state == Occupancy::Occupied ? bit : 0);
-    set_free(page, word_of(coarse), block.blocking[at] == 0);
+    set_free(page, word, block.blocking[at] == 0);
   };
   const VoxelIndex cell = Brick::first_cell(address);
   const VoxelIndex first{cell.x >> level_, cell.y >> level_, cell.z >> level_};

@@ -46,13 +46,13 @@ VANTAGE_INLINE std::vector<ViewEvaluation> evaluate_views(const RayCaster& caste
 
 VANTAGE_INLINE ViewEvaluation UniformRayTracer::evaluate(const Pose& world_from_sensor, const ViewRays& rays,
                                                          const VoxelBox& object, CellSet* seen) const {
-  const detail::ViewPlacer placer(world_from_sensor, rays, map_->frame());
+  const detail::RayPlacer placer = detail::view_placer(world_from_sensor, rays, map_->frame());
   const Eigen::Vector3d& origin = world_from_sensor.translation();
   CellSet cells(object);
   ViewEvaluation evaluation;
   detail::RayBlock block;
   for (const RayTile& tile : rays.tiles()) {
-    placer.place_ends(tile, block);
+    placer.place_ends(tile.directions, tile.stretch, block);
     for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const RayEnd end =

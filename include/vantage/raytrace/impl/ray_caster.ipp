@@ -41,15 +41,11 @@ inline RayCasterOptions validated(const RayCasterOptions& options) {
 
 }  // namespace detail
 
-struct RayCaster::Grid : detail::BlockingGrid {
-  using detail::BlockingGrid::BlockingGrid;
-};
-
 VANTAGE_INLINE RayCaster::RayCaster(const OccupancyMap& map, const RayCasterOptions& options)
     : map_(&map),
       options_(detail::validated(options)),
       frame_{map.resolution_m() * static_cast<double>(1 << options.level)},
-      grid_(std::make_unique<Grid>(options.level, options.policy)) {
+      grid_(std::make_unique<detail::BlockingGrid>(options.level, options.policy)) {
   update();
 }
 VANTAGE_INLINE RayCaster::~RayCaster() = default;
@@ -78,19 +74,19 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
   if (ends.size() != rays.size()) {
     throw std::invalid_argument("RayCaster::cast: there must be one end for every ray of the view");
   }
-  const detail::ViewPlacer placer(world_from_sensor, rays, frame_);
+  const detail::RayPlacer placer = detail::view_placer(world_from_sensor, rays, frame_);
   detail::TileWalk walk(*grid_, frame_, world_from_sensor.translation(), detail::best_instruction_set());
   detail::RayBlock block;
   detail::TileHits hits(detail::best_instruction_set());
   VoxelIndex last;
-  std::uint64_t occupied = grid_->occupied(detail::BlockingGrid::word_of(last));
+  std::uint64_t occupied = grid_->occupied(CellSet::word_of(last));
   for (std::size_t n = 0; n < rays.tiles().size(); ++n) {
     const RayTile& tile = rays.tiles()[n];
     detail::prefetch_whole(rays.tiles()[std::min(n + 1, rays.tiles().size() - 1)]);
     for (std::size_t i = 0; i < RayTile::kRays; i += 4) {  // ends of four successive rays share a cache line
       detail::prefetch_to_write(&ends[tile.ray[i]]);
     }
-    placer.place_ends(tile, block);
+    placer.place_ends(tile.directions, tile.stretch, block);
     hits.stopped = 0;
     walk.walk(block, tile.rays, detail::kEverywhere, 0.0, hits);
     std::uint64_t left = tile.rays & ~hits.stopped;
@@ -108,10 +104,10 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
       const VoxelIndex cell = hits.cell_at(i);
       const VoxelIndex by = {cell.x ^ last.x, cell.y ^ last.y, cell.z ^ last.z};
       if (((by.x | by.y | by.z) & ~3) != 0) {  // rare, because neighbouring rays end in neighbouring cells
-        occupied = grid_->occupied(detail::BlockingGrid::word_of(cell));
+        occupied = grid_->occupied(CellSet::word_of(cell));
         last = cell;
       }
-      const bool is_occupied = (occupied & detail::BlockingGrid::bit_of(cell)) != 0;
+      const bool is_occupied = (occupied & CellSet::bit_of(cell)) != 0;
       RayEnd& end = ends[tile.ray[i]];
       end.cell = cell;
       end.occupancy = is_occupied ? Occupancy::Occupied : Occupancy::Unknown;
@@ -126,7 +122,7 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
     return seen;
   }
   const detail::InstructionSet set = detail::best_instruction_set();
-  const detail::ViewPlacer placer(world_from_sensor, rays, frame_);
+  const detail::RayPlacer placer = detail::view_placer(world_from_sensor, rays, frame_);
   const detail::BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
   detail::FreeCone free_cone(*grid_, frame_, world_from_sensor);
   detail::ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
@@ -164,7 +160,7 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
         left = together.walk(tile, outlook, left, stamps);
       }
       if (left != 0) {
-        placer.place_ends(tile, block);
+        placer.place_ends(tile.directions, tile.stretch, block);
         by_tile.walk(block, left, box, std::min(free_m / rays.max_range_m(), 1.0), stamps);
       }
     }

@@ -42,7 +42,7 @@ inline SingleWalk::SingleWalk(const VoxelFrame& frame, const Eigen::Vector3d& fr
 
 inline bool SingleWalk::advance(const BlockingGrid& grid) {
   while (true) {
-    const VoxelIndex word = BlockingGrid::word_of(cell());
+    const VoxelIndex word = CellSet::word_of(cell());
     const std::int32_t free = grid.distance(word) - 1;
     if (free >= 0) {
       const VoxelBox cube = VoxelBox{word, word + VoxelIndex{1, 1, 1}}.grown(free);
@@ -54,13 +54,13 @@ inline bool SingleWalk::advance(const BlockingGrid& grid) {
     }
     const std::uint64_t blocking = grid.blocking(word);
     do {
-      if ((blocking >> ((cell_[0] & 3) | (cell_[1] & 3) << 2 | (cell_[2] & 3) << 4) & 1U) != 0) {
+      if ((blocking & CellSet::bit_of(cell())) != 0) {
         return true;
       }
       if (!leave(cell(), cell())) {
         return false;
       }
-    } while (BlockingGrid::word_of(cell()) == word);
+    } while (CellSet::word_of(cell()) == word);
   }
 }
 

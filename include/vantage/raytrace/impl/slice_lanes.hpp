@@ -33,6 +33,10 @@ struct SliceHits {
   std::uint64_t doubtful = 0;  ///< bit mask of the rays for which this is not certain
   /// For a stopped ray, its cell: column in the window + 32 * row + 512 * index of the slice.
   alignas(64) RayBlock::PerRay<std::int32_t> where{};
+
+  [[nodiscard]] static constexpr std::int32_t column(std::int32_t where) { return where & 31; }
+  [[nodiscard]] static constexpr std::int32_t row(std::int32_t where) { return where >> 5 & 15; }
+  [[nodiscard]] static constexpr std::int32_t slice(std::int32_t where) { return where >> 9; }
 };
 
 /// Walks the `active` rays through all slices; the ends of the rays are ignored. The rays must be inside the window

@@ -30,6 +30,8 @@ struct Stop {
 /// stop them.
 class SliceWalk {
  public:
+  static constexpr int kFewRays = 4;  ///< fewer rays are better walked one by one
+
   explicit SliceWalk(InstructionSet set) : set_(set) {}
 
   /// Follows the `active` rays, which lie inside `beam`, from this stop on to the cells that stop them, and up to the
@@ -181,7 +183,7 @@ inline void SliceWalk::end_rays(std::uint64_t ending, double to_first, SliceHits
     const auto i = static_cast<std::size_t>(std::countr_zero(ending));
     const std::uint64_t ray = std::uint64_t{1} << i;
     const double end = lines.length[i] + to_first;
-    const std::int32_t slice = met.where[i] >> 9;
+    const std::int32_t slice = SliceHits::slice(met.where[i]);
     if (static_cast<double>(slice + 1) > end - SliceBeam::kRounding) {
       met.stopped &= ~ray;
       met.where[i] = -1;

@@ -19,14 +19,6 @@ inline std::uint64_t reversed(std::uint64_t slices) {
   return (slices & 0x0000FFFF0000FFFFU) << 16U | (slices >> 16U & 0x0000FFFF0000FFFFU);
 }
 
-// How to cut a window out of rows, and which of its cells count.
-struct Cut {
-  unsigned shift;   // bit of the first column
-  std::int32_t lo;  // first and last row that count
-  std::int32_t hi;
-  std::uint32_t columns;  // bit mask of the columns that count
-};
-
 inline bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint64_t columns) {
   std::uint64_t any = 0;
   for (std::int32_t row = 0; row < count; ++row) {
@@ -35,15 +27,14 @@ inline bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint
   return (any & columns) != 0;
 }
 
-// Copies a window. Returns whether any of the cells that count stops a ray.
-inline bool cut_window(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
+// Copies a window whose first column is bit `shift`. Returns whether any cell of the patch stops a ray.
+inline bool cut_window(const std::uint64_t* from, unsigned shift, const WindowPatch& patch, std::uint32_t* to) {
   std::uint32_t any = 0;
-  for (std::int32_t row = 0; row < SliceWindows::kHeight; ++row) {
-    const auto cells = static_cast<std::uint32_t>(from[row] >> cut.shift);
-    to[row] = cells;
-    any |= cut.lo <= row && row <= cut.hi ? cells : 0;
+  for (std::size_t row = 0; row < SliceWindows::kHeight; ++row) {
+    to[row] = static_cast<std::uint32_t>(from[row] >> shift);
+    any |= to[row] & patch.in_row(row);
   }
-  return (any & cut.columns) != 0;
+  return any != 0;
 }
 
 #if defined(__x86_64__)
@@ -59,18 +50,17 @@ VANTAGE_TARGET_AVX512 inline bool any_in_rows_avx512(const std::uint64_t* rows, 
   return any != 0;
 }
 
-VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, const Cut& cut, std::uint32_t* to) {
+VANTAGE_TARGET_AVX512 inline bool cut_window_avx512(const std::uint64_t* from, unsigned shift,
+                                                    const WindowPatch& patch, std::uint32_t* to) {
   constexpr __mmask8 kEight = 255;
-  const __m128i shift = _mm_cvtsi32_si128(static_cast<std::int32_t>(cut.shift));
-  const __m512i low = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from), shift);
-  const __m512i high = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from + 8), shift);
+  const __m128i by = _mm_cvtsi32_si128(static_cast<std::int32_t>(shift));
+  const __m512i low = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from), by);
+  const __m512i high = _mm512_maskz_srl_epi64(kEight, _mm512_loadu_si512(from + 8), by);
   const __m512i cells =
       _mm512_maskz_inserti64x4(kEight, _mm512_castsi256_si512(_mm512_maskz_cvtepi64_epi32(kEight, low)),
                                _mm512_maskz_cvtepi64_epi32(kEight, high), 1);
   _mm512_store_si512(to, cells);
-  const auto rows = static_cast<__mmask16>((0xFFFFU << static_cast<unsigned>(cut.lo)) &
-                                           (0xFFFFU >> static_cast<unsigned>(SliceWindows::kHeight - 1 - cut.hi)));
-  return _mm512_mask_test_epi32_mask(rows, cells, _mm512_set1_epi32(static_cast<std::int32_t>(cut.columns))) != 0;
+  return _mm512_test_epi32_mask(cells, rows_of(patch)) != 0;
 }
 
 #endif
@@ -222,9 +212,8 @@ VANTAGE_INLINE void ViewSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   const std::int32_t column = (place.first_u - layer.first_u) / kColumn;
   const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * kColumn);
   const std::int32_t from_row = place.first_v - layer.first_v;
-  const Cut cut{shift, cells.lo[1] - place.first_v, cells.hi[1] - place.first_v,
-                ~std::uint32_t{0} << (cells.lo[0] - place.first_u) &
-                    ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u))};
+  const WindowPatch patch{bits_between(cells.lo[0] - place.first_u, cells.hi[0] - place.first_u),
+                          bits_between(cells.lo[1] - place.first_v, cells.hi[1] - place.first_v)};
   windows.first = stop.next;
   std::int64_t last = stop.slice - 1;
   const auto cut_all = [&](const auto& cut_one) {
@@ -237,20 +226,18 @@ VANTAGE_INLINE void ViewSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
       }
       count += last >= stop.slice ? 1 : 0;
     }
+    windows.count = static_cast<std::size_t>(std::max<std::int64_t>(last - windows.first + 1, 0));
+    place.along = beam.along(windows.first);
   };
 #if defined(__x86_64__)
   if (set_ == InstructionSet::Avx512) {
-    cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window_avx512(from, cut, to); });
-  } else {
-    compiled_for(set_, [&] {
-      cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, cut, to); });
-    });
+    cut_all([&](const std::uint64_t* from, std::uint32_t* to) { return cut_window_avx512(from, shift, patch, to); });
+    return;
   }
-#else
-  cut_all([&cut](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, cut, to); });
 #endif
-  windows.count = static_cast<std::size_t>(std::max<std::int64_t>(last - windows.first + 1, 0));
-  place.along = beam.along(windows.first);
+  compiled_for(set_, [&] {
+    cut_all([&](const std::uint64_t* from, std::uint32_t* to) { return cut_window(from, shift, patch, to); });
+  });
 }
 
 VANTAGE_INLINE Stop GridSlices::next_stop(const SliceBeam& beam, std::int64_t slice) {
@@ -293,8 +280,7 @@ VANTAGE_INLINE void GridSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   const VoxelIndex lo = place.at(place.along >> 2, place.first_u >> 2, place.first_v >> 2);
   const std::int32_t u_words = (cells.hi[0] >> 2) - (cells.lo[0] >> 2);
   const std::int32_t v_words = (cells.hi[1] >> 2) - (cells.lo[1] >> 2);
-  const std::uint32_t columns = ~std::uint32_t{0} << (cells.lo[0] & 3) &
-                                ~std::uint32_t{0} >> (SliceWindows::kWidth - 1 - (cells.hi[0] - place.first_u));
+  const std::uint32_t columns = bits_between(cells.lo[0] & 3, cells.hi[0] - place.first_u);
   const std::uint64_t taken = ~std::uint64_t{0} >> (64U - 16U * count);
   const auto skipped = static_cast<unsigned>(place.up ? place.along & 3 : 3 - (place.along & 3)) * 16U;
   std::array<std::uint64_t, SliceWindows::kWidth / 4> words;

@@ -77,9 +77,9 @@ inline void TileHits::take(const SliceHits& hits, const SlicePlace& place) {
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       const std::int32_t at = where[i];
       const std::int32_t is_new = ~(at >> 31);  // all bits set, or none
-      cell_m[i] ^= (cell_m[i] ^ (along + step * (at >> 9))) & is_new;
-      cell_u[i] ^= (cell_u[i] ^ (first_u + (at & (SliceWindows::kWidth - 1)))) & is_new;
-      cell_v[i] ^= (cell_v[i] ^ (first_v + (at >> 5 & (SliceWindows::kHeight - 1)))) & is_new;
+      cell_m[i] ^= (cell_m[i] ^ (along + step * SliceHits::slice(at))) & is_new;
+      cell_u[i] ^= (cell_u[i] ^ (first_u + SliceHits::column(at))) & is_new;
+      cell_v[i] ^= (cell_v[i] ^ (first_v + SliceHits::row(at))) & is_new;
     }
   });
 }
@@ -93,13 +93,13 @@ inline void TileHits::take(std::size_t ray, const VoxelIndex& by) {
 
 // Neighbouring rays stop at the same cell, so only the first ray of a run is used.
 inline void CellStamps::take(const SliceHits& hits, const SlicePlace& place) {
-  const auto first_slice = static_cast<std::uint32_t>(place.along & 3);
   std::uint32_t touched = 0;
   for (std::uint64_t left = hits.stopped & changes_of(hits.where, set_); left != 0; left &= left - 1) {
-    const auto where = static_cast<std::uint32_t>(hits.where[static_cast<std::size_t>(std::countr_zero(left))]);
-    const std::uint32_t word = (where >> 2U & 7U) | (where >> 4U & 24U);
-    const std::uint32_t slice = place.up ? first_slice + (where >> 9U) : first_slice - (where >> 9U);
-    words_[word] |= std::uint64_t{1} << ((where & 3U) | (where >> 3U & 12U) | slice << 4U);
+    const std::int32_t where = hits.where[static_cast<std::size_t>(std::countr_zero(left))];
+    const VoxelIndex cell{SliceHits::column(where), SliceHits::row(where),
+                          place.along + (place.up ? SliceHits::slice(where) : -SliceHits::slice(where))};
+    const std::int32_t word = cell.x >> 2 | cell.y >> 2 << 3;
+    words_[static_cast<std::size_t>(word)] |= CellSet::bit_of(cell);
     touched |= std::uint32_t{1} << word;
   }
   for (; touched != 0; touched &= touched - 1) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/single_walk.hpp>
 #include <vantage/raytrace/impl/slices.hpp>
@@ -40,8 +39,8 @@ class TileWalk {
 inline TileWalk::TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin,
                           InstructionSet set)
     : grid_(grid), frame_(frame), set_(set), origin_(origin), slices_(grid, set), walk_(set) {
-  for (std::size_t of = 0; of < beams_.size(); ++of) {
-    beams_[of] = SliceBeam(frame, origin, of / 2, of % 2 == 1);
+  for (std::int32_t of = 0; of < 6; ++of) {
+    beams_[static_cast<std::size_t>(of)] = SliceBeam(frame, origin, of);
   }
 }
 
@@ -55,8 +54,7 @@ inline void TileWalk::walk(const RayBlock& block, std::uint64_t rays, const Voxe
     const std::int32_t chosen = classes[static_cast<std::size_t>(std::countr_zero(rays))];
     const std::uint64_t of_class = equal_to(classes, chosen, set_) & rays;
     rays &= ~of_class;
-    constexpr int kFew = 4;
-    singly |= std::popcount(of_class) < kFew
+    singly |= std::popcount(of_class) < SliceWalk::kFewRays
                   ? of_class
                   : walk_class(beams_[static_cast<std::size_t>(chosen)], extents, of_class, within, free_share, hits);
   }
@@ -70,23 +68,12 @@ inline void TileWalk::walk(const RayBlock& block, std::uint64_t rays, const Voxe
   }
 }
 
-// The class of each ray: twice its major axis, plus one if it goes up.
 inline RayBlock::PerRay<std::int32_t> TileWalk::classes_of(const RayExtents& extents) const {
   RayBlock::PerRay<std::int32_t> classes;
-  compiled_for(set_, [extent_x = extents[0].data(), extent_y = extents[1].data(), extent_z = extents[2].data(),
-                      of = classes.data()] {
+  compiled_for(set_, [x = extents[0].data(), y = extents[1].data(), z = extents[2].data(), of = classes.data()] {
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
-      const double x = std::abs(extent_x[i]);
-      const double y = std::abs(extent_y[i]);
-      const double z = std::abs(extent_z[i]);
-      const double by_x = extent_x[i] > 0.0 ? 1.0 : 0.0;
-      const double by_y = extent_y[i] > 0.0 ? 3.0 : 2.0;
-      const double by_z = extent_z[i] > 0.0 ? 5.0 : 4.0;
-      const double of_y_or_z = y >= z ? by_y : by_z;
-      const double y_or_z = y >= z ? y : z;
-      const double fastest = x >= y_or_z ? by_x : of_y_or_z;
-      of[i] = static_cast<std::int32_t>(fastest);
+      of[i] = class_of_ray(x[i], y[i], z[i]);
     }
   });
   return classes;

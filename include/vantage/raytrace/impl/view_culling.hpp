@@ -186,7 +186,7 @@ inline double FreeCone::free_m(const RayCone& cone, double enough_m) {
     const Eigen::Vector3d at = origin_ + reached * axis;
     const std::array<double, 3> place{at.x(), at.y(), at.z()};
     const auto cell = [&](std::size_t i) { return static_cast<std::int32_t>(std::floor(place[i])); };
-    const VoxelIndex word = BlockingGrid::word_of({cell(0), cell(1), cell(2)});
+    const VoxelIndex word = CellSet::word_of({cell(0), cell(1), cell(2)});
     const std::int32_t free = 4 * (reader_.distance(word) - 1);
     if (free < 0) {
       break;

@@ -8,31 +8,17 @@
 
 namespace vantage::detail {
 
-/// Transforms the rays of a view into the world frame, tile by tile. Each ray reaches as far as a ray of
-/// Scan::no_return.
-class ViewPlacer {
- public:
-  /// Throws std::invalid_argument if the pose is not rigid or a ray is not addressable.
-  ViewPlacer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame)
-      : placer_{SensorFrame(world_from_sensor), rays.max_range_m(), frame.size_m * kFurthestVoxel, frame.size_m} {
-    if (!is_rigid(world_from_sensor)) {
-      throw std::invalid_argument("the pose of a view must be a rotation and a translation");
-    }
-    const Eigen::Vector3d reach = world_from_sensor.translation().cwiseAbs().array() + 2.0 * rays.max_range_m();
-    if (!frame.addressable(reach)) {
-      throw std::invalid_argument("the rays of a view reach further than cells can be addressed");
-    }
+/// Transforms the rays of a view into the world frame. Each ray reaches as far as a ray of Scan::no_return. Throws
+/// std::invalid_argument if the pose is not rigid or a ray is not addressable.
+inline RayPlacer view_placer(const Pose& world_from_sensor, const ViewRays& rays, const VoxelFrame& frame) {
+  if (!is_rigid(world_from_sensor)) {
+    throw std::invalid_argument("the pose of a view must be a rotation and a translation");
   }
-
-  /// Computes the ends of the rays of a tile from their directions.
-  void place_ends(const RayTile& tile, RayBlock& block) const {
-    placer_.place_ends(tile.directions, tile.stretch, block);
+  const Eigen::Vector3d reach = world_from_sensor.translation().cwiseAbs().array() + 2.0 * rays.max_range_m();
+  if (!frame.addressable(reach)) {
+    throw std::invalid_argument("the rays of a view reach further than cells can be addressed");
   }
-  /// Computes the cells of the ends.
-  void place_cells(RayBlock& block) const { placer_.place_cells(block); }
-
- private:
-  RayPlacer placer_;
-};
+  return {SensorFrame(world_from_sensor), rays.max_range_m(), frame.size_m * kFurthestVoxel, frame.size_m};
+}
 
 }  // namespace vantage::detail

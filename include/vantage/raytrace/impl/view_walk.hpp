@@ -60,7 +60,6 @@ class ViewWalk {
   enum class Known : std::uint8_t { Nothing, Passages, Free };
 
   [[nodiscard]] Class& class_of(const Eigen::Vector3d& direction);
-  [[nodiscard]] Class made(std::size_t major, bool up) const;
   [[nodiscard]] std::uint64_t measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
                                       const SliceBeam& beam);
   void spread_tiles();

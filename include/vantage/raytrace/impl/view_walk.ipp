@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 #include <vantage/geometry/impl/along.hpp>
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/view_walk.hpp>
 
 namespace vantage::detail {
-
-inline constexpr int kFewRays = 4;
 
 // Limits the slopes of a beam to the directions in which a box appears from the origin. Without effect if the box is
 // not completely in front of the origin.
@@ -187,7 +184,7 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk(const RayTile& tile, const Outlook& 
   if (outlook.is_mixed) {
     return walk_mixed(tile, rays, hits);
   }
-  if (std::popcount(rays) < kFewRays) {
+  if (std::popcount(rays) < SliceWalk::kFewRays) {
     return rays;
   }
   rays &= measure(tile.directions, outlook.beam);  // rays outside the beam meet no cell of the box
@@ -225,9 +222,10 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk_recorded(const Outlook& outlook, std
     std::uint64_t found = 0;
     for (std::uint64_t stopped = met.stopped & changes_of(met.where, set_); stopped != 0; stopped &= stopped - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(stopped));
-      const auto where = static_cast<std::uint32_t>(met.where[lane]);
-      std::uint32_t& row = passage.wanted[skipped + (where >> 9U)][where >> 5U & 15U];
-      const std::uint32_t bit = std::uint32_t{1} << (where & 31U);
+      const std::int32_t where = met.where[lane];
+      const auto slice = static_cast<std::size_t>(SliceHits::slice(where));
+      std::uint32_t& row = passage.wanted[skipped + slice][static_cast<std::size_t>(SliceHits::row(where))];
+      const std::uint32_t bit = std::uint32_t{1} << SliceHits::column(where);
       found |= std::uint64_t{(row & bit) != 0} << lane;
       row &= ~bit;
     }
@@ -248,7 +246,7 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint
     const std::uint64_t of_class = of.is_narrow ? measure(tile.directions, of.all) & rays : 0;
     if (of.beam.is_empty()) {  // no ray of the class meets a cell of the box
       others |= std::uint64_t{1} << first & ~of_class;
-    } else if (std::popcount(of_class) < kFewRays) {
+    } else if (std::popcount(of_class) < SliceWalk::kFewRays) {
       others |= of_class | (std::uint64_t{1} << first);
     } else {
       SliceBeam beam = of.beam;
@@ -293,23 +291,16 @@ VANTAGE_INLINE ViewWalk::Class& ViewWalk::class_of(const Eigen::Vector3d& direct
   const auto along = [&](std::size_t axis) {
     return sensor_.rotated(axis, direction.x(), direction.y(), direction.z());
   };
-  const auto faster = [&](std::size_t a, std::size_t b) { return std::abs(along(b)) > std::abs(along(a)) ? b : a; };
-  const std::size_t major = faster(faster(0, 1), 2);
-  const bool up = along(major) > 0.0;
-  std::optional<Class>& of = classes_[2 * major + (up ? 1 : 0)];
+  const std::int32_t number = class_of_ray(along(0), along(1), along(2));
+  std::optional<Class>& of = classes_[static_cast<std::size_t>(number)];
   if (!of) {
-    of.emplace(made(major, up));
+    const SliceBeam all(frame_, origin_, number);
+    of.emplace(Class{all, all, ViewSlices(grid_, set_)});
+    const std::int64_t last = all.last_slice_of(box_);
+    spread_over(of->beam, box_);
+    of->is_narrow = last < SliceBeam::kLastOfLayers && (of->beam.is_empty() || of->slices.begin(of->beam, last));
   }
   return *of;
-}
-
-VANTAGE_INLINE ViewWalk::Class ViewWalk::made(std::size_t major, bool up) const {
-  const SliceBeam all(frame_, origin_, major, up);
-  Class of{all, all, ViewSlices(grid_, set_)};
-  const std::int64_t last = of.beam.last_slice_of(box_);
-  spread_over(of.beam, box_);
-  of.is_narrow = last < SliceBeam::kLastOfLayers && (of.beam.is_empty() || of.slices.begin(of.beam, last));
-  return of;
 }
 
 }  // namespace vantage::detail

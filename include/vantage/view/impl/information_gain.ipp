@@ -252,9 +252,9 @@ VANTAGE_INLINE double ViewGain::of_tile(const Pose& world_from_sensor, const Ray
   box.min.array() -= frame.size_m;
   box.max.array() += frame.size_m;
   const bool may_be_too_near = box.distance_to(origin) < rays_->min_range_m();
-  const detail::ViewPlacer placer(world_from_sensor, *rays_, frame);
+  const detail::RayPlacer placer = detail::view_placer(world_from_sensor, *rays_, frame);
   detail::RayBlock block;
-  placer.place_ends(tile, block);
+  placer.place_ends(tile.directions, tile.stretch, block);
   std::vector<RayCell> passed;
   double sum = 0.0;
   for (std::uint64_t left = tile.rays; left != 0; left &= left - 1) {
