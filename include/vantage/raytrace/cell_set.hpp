@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
+#include <vantage/map/brick.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -30,7 +31,7 @@ class CellSet {
   [[nodiscard]] static VoxelIndex word_of(const VoxelIndex& cell) { return {cell.x >> 2, cell.y >> 2, cell.z >> 2}; }
   /// The bit of a cell in its word.
   [[nodiscard]] static std::uint64_t bit_of(const VoxelIndex& cell) {
-    return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
+    return std::uint64_t{1} << (Brick::offset_of(cell) & 63U);
   }
   /// The cells that the set can hold.
   [[nodiscard]] const VoxelBox& box() const { return box_; }
@@ -100,13 +101,12 @@ class CellSet {
   /// Calls `visit(VoxelIndex)` for every cell, word by word.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-      for (std::uint64_t left = words_[i]; left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left);
-        const VoxelIndex word = word_at(i);
-        visit(VoxelIndex{word.x * 4 + (bit & 3), word.y * 4 + (bit >> 2 & 3), word.z * 4 + (bit >> 4)});
+    for_each_word([&](const VoxelIndex& word, std::uint64_t left) {
+      const VoxelIndex first{word.x * 4, word.y * 4, word.z * 4};
+      for (; left != 0; left &= left - 1) {
+        visit(first + Brick::cell_at(static_cast<std::size_t>(std::countr_zero(left))));
       }
-    }
+    });
   }
 
  private:

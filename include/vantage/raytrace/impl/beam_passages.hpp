@@ -53,35 +53,6 @@ class BeamPassages {
   alignas(64) PerPassage<double> from_v_{};
 };
 
-inline bool any_in(const WindowPatch& patch, const WindowRows& rows) {
-  std::uint32_t any = 0;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    any |= rows[row] & patch.in_row(row);
-  }
-  return any != 0;
-}
-
-// A bit for each slice that holds any of these cells inside the patch.
-inline std::uint32_t slices_with(const WindowPatch& patch, const WindowCells& cells) {
-  std::uint32_t slices = 0;
-  for (std::size_t slice = 0; slice < cells.size(); ++slice) {
-    slices |= std::uint32_t{any_in(patch, cells[slice])} << slice;
-  }
-  return slices;
-}
-
-#if defined(__x86_64__)
-VANTAGE_TARGET_AVX512 inline std::uint32_t slices_with_avx512(const WindowPatch& patch, const WindowCells& cells) {
-  const __m512i of_patch = rows_of(patch);
-  std::uint32_t slices = 0;
-  for (std::size_t slice = 0; slice < cells.size(); ++slice) {
-    const bool any = _mm512_test_epi32_mask(_mm512_load_si512(cells[slice].data()), of_patch) != 0;
-    slices |= std::uint32_t{any} << slice;
-  }
-  return slices;
-}
-#endif
-
 inline void BeamPassages::keep(const SliceBeam& beam) {
   const Passage& passage = passages_[size_];
   enters_[size_] = beam.entered_at(passage.windows.first);
@@ -112,22 +83,13 @@ inline std::uint64_t BeamPassages::to_pass(const SliceBeam& beam, InstructionSet
                                 row_at(from_v_[i] + bottom + SliceBeam::kRounding));
     }
   });
-  const auto slices_of = [set](const WindowPatch& patch, const WindowCells& cells) {
-#if defined(__x86_64__)
-    if (set == InstructionSet::Avx512) {
-      return slices_with_avx512(patch, cells);
-    }
-#endif
-    (void)set;
-    return slices_with(patch, cells);
-  };
   std::uint64_t blocking = 0;
   std::uint64_t wanted = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     const WindowPatch patch{columns[i], rows[i]};
     const std::uint32_t there = (1U << passages_[i].windows.count) - 1;
-    blocking |= std::uint64_t{slices_of(patch, passages_[i].windows.rows) & there} << 4 * i;
-    wanted |= std::uint64_t{slices_of(patch, passages_[i].wanted)} << 4 * i;
+    blocking |= std::uint64_t{slices_with(patch, passages_[i].windows.rows, set) & there} << 4 * i;
+    wanted |= std::uint64_t{slices_with(patch, passages_[i].wanted, set)} << 4 * i;
   }
   return wanted == 0 ? 0 : blocking & ~std::uint64_t{0} >> std::countl_zero(wanted);
 }

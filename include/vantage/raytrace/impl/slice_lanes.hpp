@@ -34,6 +34,7 @@ struct SliceHits {
   /// For a stopped ray, its cell: column in the window + 32 * row + 512 * index of the slice.
   alignas(64) RayBlock::PerRay<std::int32_t> where{};
 
+  /// The parts of `where`.
   [[nodiscard]] static constexpr std::int32_t column(std::int32_t where) { return where & 31; }
   [[nodiscard]] static constexpr std::int32_t row(std::int32_t where) { return where >> 5 & 15; }
   [[nodiscard]] static constexpr std::int32_t slice(std::int32_t where) { return where >> 9; }

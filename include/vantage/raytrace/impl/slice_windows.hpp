@@ -69,6 +69,38 @@ VANTAGE_TARGET_AVX512 inline __m512i rows_of(const WindowPatch& patch) {
 }
 #endif
 
+#if defined(__x86_64__)
+VANTAGE_TARGET_AVX512 inline std::uint32_t slices_with_avx512(const WindowPatch& patch, const WindowCells& cells) {
+  const __m512i of_patch = rows_of(patch);
+  std::uint32_t slices = 0;
+  for (std::size_t slice = 0; slice < cells.size(); ++slice) {
+    const bool any = _mm512_test_epi32_mask(_mm512_load_si512(cells[slice].data()), of_patch) != 0;
+    slices |= std::uint32_t{any} << slice;
+  }
+  return slices;
+}
+#endif
+
+/// A bit for each slice that holds any of these cells inside the patch.
+[[nodiscard]] inline std::uint32_t slices_with(const WindowPatch& patch, const WindowCells& cells,
+                                               InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::Avx512) {
+    return slices_with_avx512(patch, cells);
+  }
+#endif
+  (void)set;
+  std::uint32_t slices = 0;
+  for (std::size_t slice = 0; slice < cells.size(); ++slice) {
+    std::uint32_t any = 0;
+    for (std::size_t row = 0; row < cells[slice].size(); ++row) {
+      any |= cells[slice][row] & patch.in_row(row);
+    }
+    slices |= std::uint32_t{any != 0} << slice;
+  }
+  return slices;
+}
+
 /// Permutes the bits of a word: swaps two binary digits of the index of every bit. This is a transposition.
 template <unsigned kLow, unsigned kHigh>
 inline std::uint64_t swap_index_bits(std::uint64_t word) {

@@ -15,8 +15,8 @@ namespace vantage::detail {
 // How rays are cast. Every noun of raytrace/impl/ is named here once.
 //
 //                  view: a pose and its rays (ViewRays)
-//                  group: 4 x 4 tiles; tile: 8 x 8 neighbouring rays, a RayBlock once its ends are placed
-//                  (view_placer) cone: bounds the directions of a tile or a group
+//                  group: 4 x 4 tiles; tile: 8 x 8 neighbouring rays, a RayBlock once placed (view_placer)
+//                  cone: bounds the directions of a tile or a group
 //                    |
 //      BoxCulling    |  cones that miss the box of interest          BlockingGrid
 //      FreeCone      |  cones without a cell that stops a ray          word: 4 x 4 x 4 cells as 64 bits

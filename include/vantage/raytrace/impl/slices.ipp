@@ -19,6 +19,11 @@ inline std::uint64_t reversed(std::uint64_t slices) {
   return (slices & 0x0000FFFF0000FFFFU) << 16U | (slices >> 16U & 0x0000FFFF0000FFFFU);
 }
 
+inline WindowPatch patch_of(const LateralCells& cells, const SlicePlace& place) {
+  return {bits_between(cells.lo[0] - place.first_u, cells.hi[0] - place.first_u),
+          bits_between(cells.lo[1] - place.first_v, cells.hi[1] - place.first_v)};
+}
+
 inline bool any_in_rows(const std::uint64_t* rows, std::int32_t count, std::uint64_t columns) {
   std::uint64_t any = 0;
   for (std::int32_t row = 0; row < count; ++row) {
@@ -212,8 +217,7 @@ VANTAGE_INLINE void ViewSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   const std::int32_t column = (place.first_u - layer.first_u) / kColumn;
   const auto shift = static_cast<unsigned>(place.first_u - layer.first_u - column * kColumn);
   const std::int32_t from_row = place.first_v - layer.first_v;
-  const WindowPatch patch{bits_between(cells.lo[0] - place.first_u, cells.hi[0] - place.first_u),
-                          bits_between(cells.lo[1] - place.first_v, cells.hi[1] - place.first_v)};
+  const WindowPatch patch = patch_of(cells, place);
   windows.first = stop.next;
   std::int64_t last = stop.slice - 1;
   const auto cut_all = [&](const auto& cut_one) {
@@ -280,27 +284,20 @@ VANTAGE_INLINE void GridSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   const VoxelIndex lo = place.at(place.along >> 2, place.first_u >> 2, place.first_v >> 2);
   const std::int32_t u_words = (cells.hi[0] >> 2) - (cells.lo[0] >> 2);
   const std::int32_t v_words = (cells.hi[1] >> 2) - (cells.lo[1] >> 2);
-  const std::uint32_t columns = bits_between(cells.lo[0] & 3, cells.hi[0] - place.first_u);
   const std::uint64_t taken = ~std::uint64_t{0} >> (64U - 16U * count);
   const auto skipped = static_cast<unsigned>(place.up ? place.along & 3 : 3 - (place.along & 3)) * 16U;
   std::array<std::uint64_t, SliceWindows::kWidth / 4> words;
-  std::uint32_t any = 0;
   for (std::int32_t v = 0; v <= v_words; ++v) {
     for (std::int32_t u = 0; u <= u_words; ++u) {
       const std::uint64_t slices = in_slices(reader_.blocking(lo + place.at(0, u, v)), place.major);
       words[static_cast<std::size_t>(u)] = (place.up ? slices : reversed(slices)) >> skipped & taken;
     }
     const WordRows rows = rows_of_words(std::span(words).first(static_cast<std::size_t>(u_words) + 1), set_);
-    const std::int32_t first = place.first_v + v * 4;
     for (std::size_t i = 0; i < SliceWindows::kMost; ++i) {
       std::copy_n(&rows[4 * i], 4, &windows.rows[i][static_cast<std::size_t>(v) * 4]);
-      for (std::int32_t r = 0; r < 4; ++r) {
-        const bool is_met = cells.lo[1] <= first + r && first + r <= cells.hi[1];
-        any |= is_met ? rows[4 * i + static_cast<std::size_t>(r)] : 0;
-      }
     }
   }
-  windows.count = (any & columns) != 0 ? count : 0;
+  windows.count = slices_with(patch_of(cells, place), windows.rows, set_) != 0 ? count : 0;
 }
 
 }  // namespace vantage::detail

@@ -39,8 +39,8 @@ class TileWalk {
 inline TileWalk::TileWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin,
                           InstructionSet set)
     : grid_(grid), frame_(frame), set_(set), origin_(origin), slices_(grid, set), walk_(set) {
-  for (std::int32_t of = 0; of < 6; ++of) {
-    beams_[static_cast<std::size_t>(of)] = SliceBeam(frame, origin, of);
+  for (std::int32_t number = 0; SliceBeam & of_class : beams_) {
+    of_class = SliceBeam(frame, origin, number++);
   }
 }
 
