@@ -285,7 +285,8 @@ TEST_F(ProgramOutput, OptionsThatWouldDoNothingAreRefused) {
   refused("--world table --noise 1e9", "--noise is 1e+09, must be in [0, 1000]");
   refused("--world table --scan-spacing inf", "--scan-spacing is inf, must be in [0, 1e6] metres");
   refused("--world table --start 1e7,0,0", "--start: '1e7'");
-  refused("--world table --planner next-best-view --set radii_m=nan",
+  refused("--world table --planner next-best-view --set radii_m=1", "has no setting 'radii_m'");
+  refused("--world table --planner next-best-view --set object=0,0,0,1,1,1 --set radii_m=nan",
           "setting 'radii_m' is 'nan', must be numbers > 0, with commas between them");
   refused("--world table --planner harmonic --set tolerance=inf", "setting 'tolerance' is 'inf'");
 }

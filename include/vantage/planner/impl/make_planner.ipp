@@ -52,7 +52,7 @@ std::unique_ptr<ExplorationPlanner> made_one_of(std::string_view name, const Set
   const std::vector<Setting> own = table.list();
   for (const Setting& setting : all_next_best_view_settings()) {
     const auto given = settings.find(setting.name);
-    if (given != settings.end() && given->second == setting.default_value &&
+    if (given != settings.end() && !given->second.empty() && given->second == setting.default_value &&
         std::none_of(own.begin(), own.end(), [&](const Setting& one) { return one.name == setting.name; })) {
       settings.erase(given);
     }
