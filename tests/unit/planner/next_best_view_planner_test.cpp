@@ -241,7 +241,7 @@ TEST(NextBestViewPlanner, DrawsAimedViewsForTheMapAlone) {
 TEST(NextBestViewPlanner, IsBlockedIfNoViewIsAdmittedOrTheRobotDoesNotMove) {
   std::size_t blocked = 0;
   for (const Settings& more : {Settings{{"min_unknown_cells", "5"}}, Settings{}}) {
-    Settings settings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"radii_m", "0.7"}};
+    Settings settings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}, {"radii_m", "0.7"}, {"aimed_candidates", "0"}};
     settings.insert(more.begin(), more.end());
     const auto expect_blocked = [&](const Plan& plan, std::string_view remedy) {
       EXPECT_EQ(plan.outcome, Outcome::Blocked) << plan.reason;
