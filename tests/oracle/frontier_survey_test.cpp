@@ -500,7 +500,7 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
   std::size_t thrown = 0;
   std::uint64_t operations = 0;
   std::uint64_t operations_from_nothing = 0;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 12; ++i) {
     SurveyedWorld world = random_world(engine);
     while (world.flyer.can_tilt() != (i % 3 != 0)) {
       world = random_world(engine);
@@ -565,11 +565,11 @@ TEST(FrontierSurveyor, SurveysAChangingMapAsIfItHadNeverSeenIt) {
       }
     }
   }
-  EXPECT_EQ(compared, 6U * (18U + 2U * 3U));
-  EXPECT_GT(targets, 20'000U);
-  EXPECT_GT(failed, 150U);
-  EXPECT_GT(rested, 25U);
-  EXPECT_GT(thrown, 2U);
+  EXPECT_EQ(compared, 12U * (18U + 2U * 3U));
+  EXPECT_GT(targets, 50'000U);
+  EXPECT_GT(failed, 300U);
+  EXPECT_GT(rested, 50U);
+  EXPECT_GT(thrown, 5U);
   EXPECT_GT(operations_from_nothing, 0U);
   EXPECT_LT(3 * operations, 2 * operations_from_nothing);
 }

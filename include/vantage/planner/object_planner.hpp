@@ -19,7 +19,7 @@ namespace VANTAGE_EXPORT vantage {
 struct ObjectPlannerOptions {
   ObjectViewOptions candidates;  ///< where to look from
   /// Minimum weight of the sides of the surface that a view is expected to observe first, as a share of the weight
-  /// observed so far, in [0, 1].
+  /// observed so far, in [0, 1).
   double min_new_share = 0.001;
   /// What a view costs beside the path to it, in radii of the first sphere, in (0, 1e6]. The view of most weight for
   /// its cost is taken: a small price saves path, a large one saves views.

@@ -30,7 +30,7 @@ struct ObjectViewOptions {
   /// radius up to it, for each plan (aimed_views).
   std::size_t aimed_candidates = 320;
 
-  /// The options of the aimed candidates. `radii_m` must not be empty.
+  /// The options of the aimed candidates. Throws std::invalid_argument if `radii_m` is empty.
   [[nodiscard]] AimedViewOptions aimed() const;
 };
 
@@ -45,7 +45,7 @@ struct ObjectViewOptions {
                                            const Platform& platform, double resolution_m);
 
 /// The candidate views of an object that the platform admits, in orientations that it can take: on the spheres, at
-/// random places, then `aimed`. Equal seeds give equal views.
+/// random places, then `aimed`. Equal seeds give equal views. Throws std::invalid_argument if `radii_m` is empty.
 [[nodiscard]] std::vector<Pose> views_of_object(const ObjectViewOptions& options, const OccupancyMap& map,
                                                 const Platform& platform, std::span<const Pose> aimed,
                                                 std::uint64_t seed);

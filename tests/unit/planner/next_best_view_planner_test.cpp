@@ -194,6 +194,21 @@ TEST(NextBestViewPlanner, ReconstructsFromAnyCandidates) {
   }
 }
 
+// The box of the object is all that has to be said.
+TEST(NextBestViewPlanner, ReconstructsFromADistanceThatFits) {
+  for (const Settings& more : {Settings{}, Settings{{"min_unknown_cells", "5"}}}) {
+    double coverage = 0.0;
+    for (std::uint32_t seed = 501; seed <= 504; ++seed) {
+      RobotAtTable run(seed);
+      Settings settings{{"object", "-0.3,-0.3,0.7,0.3,0.3,1.15"}};
+      settings.insert(more.begin(), more.end());
+      EXPECT_LT(reconstruct(run, *make_planner("next-best-view", run.setup(), settings), 0), 15U);
+      coverage += run.coverage() / 4.0;
+    }
+    EXPECT_GT(coverage, 0.97);
+  }
+}
+
 // Aimed views see parts that views of the whole object miss. So the choice that is the default needs fewer views.
 TEST(NextBestViewPlanner, SeesMoreFromAimedViewsByDefault) {
   double by_one_shell = 0.0;

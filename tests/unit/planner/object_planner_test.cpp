@@ -142,8 +142,8 @@ TEST(ObjectPlanner, NamesWhatIsWrong) {
               o.candidates.radii_m = {1.0, 0.0};
             }),
             "ObjectViewOptions::radii_m is 0, must be > 0");
-  EXPECT_EQ(complaint([](ObjectPlannerOptions& o) { o.min_new_share = 1.5; }),
-            "ObjectPlannerOptions::min_new_share is 1.5, must be in [0, 1]");
+  EXPECT_EQ(complaint([](ObjectPlannerOptions& o) { o.min_new_share = 1.0; }),
+            "ObjectPlannerOptions::min_new_share is 1, must be in [0, 1)");
   EXPECT_EQ(complaint([](ObjectPlannerOptions& o) { o.view_price = 0.0; }),
             "ObjectPlannerOptions::view_price is 0, must be in (0, 1e+06]");
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/view/object_views.hpp>
 
@@ -39,6 +40,10 @@ TEST(FittingRadius, HasTheWholeBoxInViewAndRoomForTheBody) {
               (std::vector{2.0, 3.0}));
   }
   EXPECT_GT(fitted, 200U);
+  EXPECT_THROW((void)ObjectViewOptions{}.aimed(), std::invalid_argument);
+  EXPECT_THROW((void)views_of_object({.object = {{0, 0, 0}, {1, 1, 1}}}, OccupancyMap({.resolution_m = 0.1}),
+                                     FreeFlyer(), {}, 1),
+               std::invalid_argument);
 }
 
 }  // namespace

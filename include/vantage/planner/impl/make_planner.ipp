@@ -32,15 +32,13 @@ std::unique_ptr<ExplorationPlanner> made(std::string_view name, const SettingTab
 
 // The settings of all planners behind the name "next-best-view".
 inline std::vector<Setting> all_next_best_view_settings() {
-  std::vector<Setting> all;
-  for (const std::vector<Setting>& more : {object_planner_settings().list(), next_best_view_settings().list(),
-                                           next_best_view_explorer_settings().list()}) {
-    for (const Setting& setting : more) {
-      if (std::none_of(all.begin(), all.end(), [&](const Setting& one) { return one.name == setting.name; })) {
-        all.push_back(setting);
-      }
-    }
-  }
+  std::vector<Setting> all = object_planner_settings().list();
+  std::vector<Setting> of_the_paper = next_best_view_settings().list();
+  std::erase_if(of_the_paper, [](const Setting& one) { return object_planner_settings().has(one.name); });
+  std::vector<Setting> without_object = next_best_view_explorer_settings().list();
+  std::erase_if(without_object, [](const Setting& one) { return next_best_view_settings().has(one.name); });
+  all.insert(all.end(), of_the_paper.begin(), of_the_paper.end());
+  all.insert(all.end(), without_object.begin(), without_object.end());
   return all;
 }
 
@@ -49,11 +47,10 @@ inline std::vector<Setting> all_next_best_view_settings() {
 template <class Planner, class Options>
 std::unique_ptr<ExplorationPlanner> made_one_of(std::string_view name, const SettingTable<Options>& table,
                                                 const PlannerSetup& setup, Settings settings) {
-  const std::vector<Setting> own = table.list();
   for (const Setting& setting : all_next_best_view_settings()) {
     const auto given = settings.find(setting.name);
-    if (given != settings.end() && !given->second.empty() && given->second == setting.default_value &&
-        std::none_of(own.begin(), own.end(), [&](const Setting& one) { return one.name == setting.name; })) {
+    if (given != settings.end() && !table.has(setting.name) && !given->second.empty() &&
+        given->second == setting.default_value) {
       settings.erase(given);
     }
   }

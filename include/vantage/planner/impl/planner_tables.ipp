@@ -99,7 +99,7 @@ VANTAGE_INLINE const SettingTable<ObjectPlannerOptions>& object_planner_settings
   static const auto table =
       with_object_views<O>("ObjectPlannerOptions", &O::candidates)
           .number("min_new_share", "", "a view that shows less than this share of the surface seen does not count",
-                  within(0, 1), &O::min_new_share)
+                  {0.0, 1.0, true, false}, &O::min_new_share)
           .number("view_price", "", "what a view costs beside its path, in radii of the first shell",
                   {0.0, 1e6, false}, &O::view_price);
   return table;
@@ -112,19 +112,18 @@ VANTAGE_INLINE const SettingTable<NextBestViewOptions>& next_best_view_settings(
     for (const std::string_view name : ray_gain_names()) {
       gains.emplace_back(name, ray_gain_named(name));
     }
-    return with_object_views<O>("NextBestViewOptions", &O::candidates)
-        .choice<VisibilityMethod>("method", "how views are evaluated",
-                                  {{"default", VisibilityMethod::Exact},
-                                   {"uniform", VisibilityMethod::Uniform},
-                                   {"hierarchical", VisibilityMethod::Hierarchical}},
-                                  &O::method)
+    auto all = with_object_views<O>("NextBestViewOptions", &O::candidates);
+    all.choice<VisibilityMethod>("method", "how views are evaluated",
+                                 {{"default", VisibilityMethod::Exact},
+                                  {"uniform", VisibilityMethod::Uniform},
+                                  {"hierarchical", VisibilityMethod::Hierarchical}},
+                                 &O::method)
         .choice<RayGainMaker>("gain", "what new surface is worth", gains, &O::gain)
         .number("min_overlap_cells", "cells", "occupied cells of the object a view must see (h_oc)", at_least(0),
                 &O::min_overlap_cells)
         .number("min_unknown_cells", "cells", "unknown cells of the object a view must see", at_least(1),
-                &O::min_unknown_cells)
-        .number("patience", "places", "from which a cell is looked at in vain before it is given up", within(1, 100),
-                &O::patience);
+                &O::min_unknown_cells);
+    return add_patience(all, &O::patience);
   }();
   return table;
 }

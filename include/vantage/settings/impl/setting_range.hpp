@@ -15,9 +15,10 @@ struct SettingRange {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool least_itself = true;  ///< false: `least` itself is excluded
+  bool most_itself = true;   ///< false: `most` itself is excluded
 
   [[nodiscard]] bool holds(double value) const {
-    return (least_itself ? value >= least : value > least) && value <= most;
+    return (least_itself ? value >= least : value > least) && (most_itself ? value <= most : value < most);
   }
   /// The range as text for error messages, e.g. "in [0, 1]".
   [[nodiscard]] std::string rule() const;
@@ -35,7 +36,7 @@ inline std::string SettingRange::rule() const {
     return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
   };
   if (std::isfinite(most)) {
-    return (least_itself ? "in [" : "in (") + number(least) + ", " + number(most) + "]";
+    return (least_itself ? "in [" : "in (") + number(least) + ", " + number(most) + (most_itself ? "]" : ")");
   }
   return (least_itself ? ">= " : "> ") + number(least);
 }

@@ -109,14 +109,16 @@ class SettingTable {
     std::transform(rows_.begin(), rows_.end(), std::back_inserter(all), [](const Row& row) { return row.setting; });
     return all;
   }
+  /// Whether there is a setting of this name.
+  [[nodiscard]] bool has(std::string_view name) const {
+    return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) { return row.setting.name == name; });
+  }
   /// Applies the given settings in the order of the table. Throws std::invalid_argument if a setting is not in the
   /// table or its text is invalid.
   void read(std::string_view planner, const Settings& settings, Options& options) const {
     const std::string who = "planner '" + std::string(planner) + "'";
-    const auto foreign = std::find_if(settings.begin(), settings.end(), [&](const auto& given) {
-      return std::none_of(rows_.begin(), rows_.end(),
-                          [&](const Row& row) { return row.setting.name == given.first; });
-    });
+    const auto foreign =
+        std::find_if(settings.begin(), settings.end(), [&](const auto& given) { return !has(given.first); });
     if (foreign != settings.end()) {
       const std::string names = joined(rows_, [](const Row& row) { return row.setting.name; });
       throw std::invalid_argument(who + " has no setting '" + foreign->first + "'; it has: " + names);

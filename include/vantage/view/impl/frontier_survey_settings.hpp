@@ -7,13 +7,19 @@
 
 namespace vantage::detail {
 
+/// Adds TriedViewsOptions::patience, at the end of `members`, to a table.
+template <class Options, class... Members>
+SettingTable<Options>& add_patience(SettingTable<Options>& table, Members... members) {
+  return table.number("patience", "places", "from which a cell is looked at in vain before it is given up",
+                      within(1, 100), members...);
+}
+
 /// The settings of how frontiers are surveyed, at the end of `members`.
 template <class Options, class... Members>
 SettingTable<Options> with_survey(std::string_view owner, Members... members) {
   using Survey = FrontierSurveyOptions;
-  return SettingTable<Options>(owner)
-      .number("patience", "places", "from which a cell is looked at in vain before it is given up", within(1, 100),
-              members..., &Survey::patience)
+  SettingTable<Options> table(owner);
+  return add_patience(table, members..., &Survey::patience)
       .limit("FrontierSurveyOptions::sight_directions", at_least(6), members..., &Survey::sight_directions);
 }
 

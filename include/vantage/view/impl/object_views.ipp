@@ -6,9 +6,20 @@
 #include <vantage/view/candidate_views.hpp>
 #include <vantage/view/object_views.hpp>
 
+#include <vantage/settings/impl/option_rule.hpp>
+
 namespace vantage {
 
+namespace detail {
+
+inline void require_radii(const ObjectViewOptions& options) {
+  require_option(!options.radii_m.empty(), "ObjectViewOptions::radii_m.size()", options.radii_m.size(), ">= 1");
+}
+
+}  // namespace detail
+
 VANTAGE_INLINE AimedViewOptions ObjectViewOptions::aimed() const {
+  detail::require_radii(*this);
   const double largest_m = *std::max_element(radii_m.begin(), radii_m.end());
   return {.count = aimed_candidates, .min_distance_m = largest_m / 3.0, .max_distance_m = largest_m};
 }
@@ -36,6 +47,7 @@ VANTAGE_INLINE ObjectViewOptions with_radii(const ObjectViewOptions& options, co
 VANTAGE_INLINE std::vector<Pose> views_of_object(const ObjectViewOptions& options, const OccupancyMap& map,
                                                  const Platform& platform, std::span<const Pose> aimed,
                                                  std::uint64_t seed) {
+  detail::require_radii(options);
   std::vector<Pose> views;
   const auto add = [&](std::span<const Pose> more) {
     for (const Pose& view : more) {
