@@ -106,17 +106,15 @@ void drive_through_halls(OccupancyMap& map, const Note& after_scan) {
 
 // The map may keep a fifth, or a twentieth, of itself in memory (1: all). One iteration is 80 scans.
 void insert_partly_on_disk(benchmark::State& state) {
-  OccupancyMapOptions options{.resolution_m = 0.1};
+  const OccupancyMapOptions options{.resolution_m = 0.1};
   OccupancyMap in_memory(options);
   drive_through_halls(in_memory, [] {});
-  if (state.range(0) > 1) {
-    options.resident_bytes = in_memory.memory_bytes() / static_cast<std::size_t>(state.range(0));
-    options.resident_folder = std::filesystem::temp_directory_path();
-  }
+  const std::size_t limit_bytes = in_memory.memory_bytes() / static_cast<std::size_t>(state.range(0));
   std::size_t most_resident = 0;
   std::size_t refused = 0;
   for ([[maybe_unused]] auto _ : state) {
-    OccupancyMap map(options);
+    OccupancyMap map = state.range(0) > 1 ? OccupancyMap(options, std::filesystem::temp_directory_path(), limit_bytes)
+                                          : OccupancyMap(options);
     drive_through_halls(map, [&] { most_resident = std::max(most_resident, map.resident_bytes()); });
     refused += map.cells_refused();
   }
@@ -125,7 +123,7 @@ void insert_partly_on_disk(benchmark::State& state) {
   const double on_heap =
       static_cast<double>(in_memory.memory_bytes()) - static_cast<double>(in_memory.brick_count() * sizeof(Brick));
   state.counters["map_mb"] = 1e-6 * static_cast<double>(in_memory.memory_bytes());
-  state.counters["limit_mb"] = 1e-6 * static_cast<double>(options.resident_bytes);
+  state.counters["limit_mb"] = 1e-6 * static_cast<double>(limit_bytes);
   state.counters["resident_mb"] = 1e-6 * static_cast<double>(most_resident);
   state.counters["bytes_per_known"] = static_cast<double>(in_memory.memory_bytes()) / known;
   state.counters["always_resident_per_known"] = on_heap / known;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
+#include <string>
 #include <vantage/compiler.hpp>
 #include <vantage/map/brick.hpp>
 #include <vantage/map/brick_directory.hpp>
@@ -30,7 +30,7 @@ class BrickStore {
   BrickStore() = default;
   /// Bricks in a new file without a name in `folder`, of which about `resident_bytes` stay in memory. Throws
   /// std::runtime_error with the folder if no file can be made there.
-  BrickStore(const std::filesystem::path& folder, std::size_t resident_bytes);
+  BrickStore(const std::string& folder, std::size_t resident_bytes);
   /// Copies the bricks; a store with a file makes its own in the same folder. Throws std::runtime_error with the
   /// folder if there is no room on its disk.
   BrickStore(const BrickStore& other);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
@@ -46,19 +47,24 @@ class OccupancyMap {
   };
 
   OccupancyMap() : OccupancyMap(OccupancyMapOptions{}) {}
-  /// Throws std::invalid_argument, which names the option that is out of range, and std::runtime_error if no file can
-  /// be made in OccupancyMapOptions::resident_folder.
+  /// Throws std::invalid_argument, which names the option that is out of range.
   explicit OccupancyMap(const OccupancyMapOptions& options);
+  /// The same map, of which about `resident_bytes` (at least 65536) of bricks stay in memory. Bricks that were not
+  /// written to for longest go to a file in `folder` and come back when they are used; those that are only read stay
+  /// until a later scan. If the disk is full, updates are refused as beyond `max_bytes`, which counts all bricks. The
+  /// file has no name and ends with the process. If the disk fails, the kernel may end the process by SIGBUS. Throws
+  /// as the other constructor, and std::runtime_error if no file can be made in the folder.
+  OccupancyMap(const OccupancyMapOptions& options, const std::string& folder, std::size_t resident_bytes);
   ~OccupancyMap() = default;
-  /// Copies the cells and the change log. The copy gets its own identity. Throws std::runtime_error if it needs a
-  /// file (OccupancyMapOptions::resident_folder) and the disk is full.
+  /// Copies the cells and the change log. The copy gets its own identity. Throws std::runtime_error if the bricks are
+  /// in a file and there is no room on its disk for another.
   OccupancyMap(const OccupancyMap& other) = default;
   /// Copies the cells and the change log into this map, which gets a new identity. Throws as the copy constructor;
   /// this map is then unchanged.
   OccupancyMap& operator=(const OccupancyMap& other);
-  /// Takes over the map. `other` becomes an empty map with the same options.
+  /// Takes over the map. `other` becomes an empty map in memory with the same options.
   OccupancyMap(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor): it allocates
-  /// Takes over `other` into this map. `other` becomes an empty map with the same options.
+  /// Takes over `other` into this map. `other` becomes an empty map in memory with the same options.
   OccupancyMap& operator=(OccupancyMap&& other);  // NOLINT(performance-noexcept-move-constructor)
   /// Exchanges two maps, identities included.
   void swap(OccupancyMap& other);
@@ -102,7 +108,7 @@ class OccupancyMap {
   [[nodiscard]] Counts counts() const;
   /// The smallest box that contains all known cells; empty if there are none.
   [[nodiscard]] VoxelBox bounds() const { return may_have_shrunk_ ? box_of_known() : bounds_; }
-  /// Bytes of the map, directory included, in memory or on disk (OccupancyMapOptions::resident_bytes), none shared.
+  /// Bytes of the map, directory included, in memory or on disk, none shared.
   [[nodiscard]] std::size_t memory_bytes() const;
   /// What of it is in memory: equal free bricks (`assign`) count once. Bricks on disk that were read add to it.
   [[nodiscard]] std::size_t resident_bytes() const;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/box.hpp>
@@ -31,15 +30,6 @@ struct OccupancyMapOptions {
   /// brick beyond the limit is refused and counted (ScanReport::cells_refused, OccupancyMap::cells_refused), and its
   /// cell stays unknown. Existing bricks are still updated. The work space of a scan comes on top: at most 1 GB.
   std::size_t max_bytes = 0;
-  /// Most bytes of bricks to keep in memory; 0: all, else at least 65536. Bricks beyond it, those that were not
-  /// written to for longest, go to a file in `resident_folder` and come back by themselves when they are read or
-  /// written. The map stays the same in every bit. What readers bring back is taken out again step by step, by the
-  /// next scans. If the disk is full, updates are refused as beyond `max_bytes`, which counts bricks on disk too.
-  std::size_t resident_bytes = 0;
-  /// The folder for the bricks that are not in memory; needed with `resident_bytes`. Its file has no name and ends
-  /// with the process, however that ends. Copies of the map have files of their own. If the disk fails and
-  /// a brick cannot be read back, the kernel ends the process by SIGBUS.
-  std::filesystem::path resident_folder = {};
 
   /// Options that reproduce `octomap::OcTree::insertPointCloud` update for update.
   [[nodiscard]] static OccupancyMapOptions octomap(double resolution_m) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps whose bricks are mostly on disk (OccupancyMapOptions::resident_bytes) beside the same maps in memory.
+// Maps whose bricks are mostly on disk beside the same maps in memory.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -44,8 +44,8 @@ std::size_t bytes_in_memory(const std::filesystem::path& folder) {
   return bytes;
 }
 
-OccupancyMapOptions on_disk(const std::filesystem::path& folder, std::size_t blocks) {
-  return {.resident_bytes = blocks * kBlockBytes, .resident_folder = folder};
+OccupancyMap on_disk(const std::filesystem::path& folder, std::size_t blocks) {
+  return {{}, folder, blocks * kBlockBytes};
 }
 
 /// Writes in one of the ways of a host around a place that moves; both maps get the same.
@@ -103,7 +103,7 @@ TEST(ResidentBricks, EqualAMapInMemory) {
   constexpr std::uint32_t kSeeds = test::kSanitized ? 2 : 3;
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const std::size_t blocks = seed == 1 ? 1 : 4;
-    OccupancyMap paged(on_disk(folder.path(), blocks));
+    OccupancyMap paged = on_disk(folder.path(), blocks);
     OccupancyMap whole;
     Host host(seed);
     OccupancyMap::Revision seen = 0;
@@ -137,7 +137,7 @@ TEST(ResidentBricks, EqualAMapInMemory) {
 TEST(ResidentBricks, LeaveTheMemoryOfTheProcess) {
   const test::TemporaryFolder folder;
   constexpr std::size_t kBlocks = 16;
-  OccupancyMap map(on_disk(folder.path(), kBlocks));
+  OccupancyMap map = on_disk(folder.path(), kBlocks);
   ASSERT_LE(bytes_in_memory(folder.path()), kBlocks * kBlockBytes);
   std::size_t most = 0;
   for (std::int32_t x = 0; x < 400; ++x) {
@@ -160,7 +160,7 @@ TEST(ResidentBricks, LeaveTheMemoryOfTheProcess) {
 
 TEST(ResidentBricks, AreReadByManyThreads) {
   const test::TemporaryFolder folder;
-  OccupancyMap paged(on_disk(folder.path(), 2));
+  OccupancyMap paged = on_disk(folder.path(), 2);
   OccupancyMap whole;
   Host host(7);
   for (int step = 0; step < 400; ++step) {
@@ -198,7 +198,7 @@ TEST(ResidentBricks, LeaveNoFile) {
   };
   const std::size_t before = open_files();
   {
-    OccupancyMap map(on_disk(folder.path(), 1));
+    OccupancyMap map = on_disk(folder.path(), 1);
     map.set_log_odds(VoxelBox{{0, 0, 0}, {100, 100, 100}}, 1.0);
     const OccupancyMap copy = map;
     EXPECT_EQ(open_files(), before + 2);
@@ -210,26 +210,21 @@ TEST(ResidentBricks, LeaveNoFile) {
 
 TEST(ResidentBricks, NeedAFolder) {
   const test::TemporaryFolder folder;
-  const auto message_of = [](const OccupancyMapOptions& options) -> std::string {
+  const auto message_of = [](const std::filesystem::path& in, std::size_t resident_bytes) -> std::string {
     try {
-      const OccupancyMap map(options);
+      const OccupancyMap map({}, in, resident_bytes);
     } catch (const std::exception& error) {
       return error.what();
     }
     return "";
   };
   const std::filesystem::path missing = folder.path() / "missing";
-  EXPECT_EQ(message_of(on_disk(missing, 1)),
-            missing.string() +
-                ": OccupancyMapOptions::resident_folder: no file can be made here: No such file or directory");
-  EXPECT_EQ(message_of({.resident_bytes = 65536}),
-            "OccupancyMapOptions::resident_folder is \"\", must be given with resident_bytes, and only then");
-  EXPECT_EQ(message_of({.resident_folder = "/a"}),
-            "OccupancyMapOptions::resident_folder is \"/a\", must be given with resident_bytes, and only then");
-  EXPECT_EQ(message_of({.resident_bytes = 1000, .resident_folder = folder.path()}),
-            "OccupancyMapOptions::resident_bytes is 1000, must be 0 or at least 65536");
-  EXPECT_THROW(OccupancyMap(on_disk(missing, 1)), std::runtime_error);
-  EXPECT_THROW(OccupancyMap({.resident_bytes = 65536}), std::invalid_argument);
+  EXPECT_EQ(message_of(missing, 65536),
+            missing.string() + ": no file can be made here for the bricks of a map: No such file or directory");
+  EXPECT_EQ(message_of("", 65536), ": no file can be made here for the bricks of a map: No such file or directory");
+  EXPECT_EQ(message_of(folder.path(), 1000), "OccupancyMap: resident_bytes is 1000, must be at least 65536");
+  EXPECT_THROW(on_disk(missing, 1), std::runtime_error);
+  EXPECT_THROW(OccupancyMap({}, folder.path(), 1000), std::invalid_argument);
 }
 
 /// No file may be larger than `bytes` while this lives: to a map, a full disk.
@@ -256,7 +251,7 @@ class FileLimit {
 
 TEST(ResidentBricks, AFullDiskIsAFullMap) {
   const test::TemporaryFolder folder;
-  OccupancyMap map(on_disk(folder.path(), 1));
+  OccupancyMap map = on_disk(folder.path(), 1);
   const VoxelBox first{{0, 0, 0}, {80, 80, 8}};    // 100 bricks, one block
   const VoxelBox later{{0, 80, 0}, {80, 240, 8}};  // 200 more
   {

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <deque>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -41,13 +40,12 @@ class BrickFile {
   static constexpr std::size_t kBlockBytes = std::size_t{1} << 16U;
   static constexpr std::size_t kBricksOfBlock = kBlockBytes / sizeof(Brick);
 
-  BrickFile(std::filesystem::path folder, std::size_t hot_bytes)
+  BrickFile(std::string folder, std::size_t hot_bytes)
       : folder_(std::move(folder)), most_hot_(std::max<std::size_t>(1, hot_bytes / kBlockBytes)) {
     file_ = open_unnamed(folder_);
     if (file_ < 0) {
-      throw std::runtime_error(folder_.string() +
-                               ": OccupancyMapOptions::resident_folder: no file can be made here: " +
-                               std::generic_category().message(errno));
+      throw std::runtime_error(
+          folder_ + ": no file can be made here for the bricks of a map: " + std::generic_category().message(errno));
     }
   }
   BrickFile(const BrickFile&) = delete;
@@ -61,7 +59,7 @@ class BrickFile {
     ::close(file_);
   }
 
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] std::size_t most_hot_bytes() const { return most_hot_ * kBlockBytes; }
   [[nodiscard]] std::size_t hot_bytes() const { return hot_.size() * kBlockBytes; }
 
@@ -122,14 +120,14 @@ class BrickFile {
     bool used = false;  // written to since it became hot or was last considered
   };
 
-  static int open_unnamed(const std::filesystem::path& folder) {
+  static int open_unnamed(const std::string& folder) {
 #ifdef O_TMPFILE
     const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (unnamed >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) {
       return unnamed;
     }
 #endif
-    std::string name = folder / "vantage-map-XXXXXX";
+    std::string name = folder + "/vantage-map-XXXXXX";
     const int file = ::mkstemp(name.data());
     if (file >= 0) {
       ::unlink(name.c_str());
@@ -165,7 +163,7 @@ class BrickFile {
     ::madvise(address_of(from), (to - from) * kBlockBytes, MADV_DONTNEED);
   }
 
-  std::filesystem::path folder_;
+  std::string folder_;
   std::size_t most_hot_;
   int file_ = -1;
   std::vector<std::byte*> segments_;

@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-VANTAGE_INLINE BrickStore::BrickStore(const std::filesystem::path& folder, std::size_t resident_bytes)
+VANTAGE_INLINE BrickStore::BrickStore(const std::string& folder, std::size_t resident_bytes)
     : file_(std::make_unique<detail::BrickFile>(folder, resident_bytes)) {}
 
 VANTAGE_INLINE BrickStore::BrickStore(const BrickStore& other) {
@@ -22,8 +22,7 @@ VANTAGE_INLINE BrickStore::BrickStore(const BrickStore& other) {
   copy.bricks_.reserve(other.size());
   for (std::size_t number = 0; number < other.size(); ++number) {
     if (!copy.add()) {
-      throw std::runtime_error(copy.file_->folder().string() +
-                               ": OccupancyMapOptions::resident_folder: no room for a copy of the map");
+      throw std::runtime_error(copy.file_->folder() + ": no room for a copy of the map");
     }
     *copy.bricks_.back() = other[number];
     if (other.is_shared(number)) {

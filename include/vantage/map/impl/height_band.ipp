@@ -30,8 +30,6 @@ inline void validate(const HeightBandOptions& options) {
 inline OccupancyMapOptions plane_options(const OccupancyMapOptions& of_map, const HeightBandOptions& options) {
   validate(options);
   OccupancyMapOptions plane = of_map;
-  plane.resident_bytes = 0;  // one layer is small
-  plane.resident_folder.clear();
   const double size_m = of_map.resolution_m;
   const double layer_m = (std::floor(options.sensor_height_m / size_m) + 0.5) * size_m;
   const double furthest_m = size_m * (kFurthestVoxel - 1);

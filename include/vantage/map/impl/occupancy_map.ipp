@@ -29,12 +29,6 @@ inline void validate(const OccupancyMapOptions& options) {
                          "OccupancyMapOptions::log_odds_max", options.log_odds_max, "> 0");
   detail::require_option(options.erase_range_m > 0, "OccupancyMapOptions::erase_range_m", options.erase_range_m,
                          "> 0");
-  detail::require_option(options.resident_bytes == 0 || options.resident_bytes >= BrickFile::kBlockBytes,
-                         "OccupancyMapOptions::resident_bytes", options.resident_bytes, "0 or at least 65536");
-  if ((options.resident_bytes != 0) != !options.resident_folder.empty()) {
-    throw std::invalid_argument("OccupancyMapOptions::resident_folder is \"" + options.resident_folder.string() +
-                                "\", must be given with resident_bytes, and only then");
-  }
   if (options.region) {
     const VoxelFrame frame{options.resolution_m};
     if (options.region->empty() || !frame.addressable(options.region->min) ||
@@ -75,10 +69,6 @@ inline bool holds_addresses(const VoxelIndex& coarse, std::int32_t edge) {
 VANTAGE_INLINE OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
     : options_(options), frame_{options.resolution_m} {
   detail::validate(options);
-  if (options.resident_bytes != 0) {
-    BrickStore on_disk(options.resident_folder, options.resident_bytes);
-    bricks_.swap(on_disk);
-  }
   step_ = detail::choose_step(options);
   if (options.region) {
     region_ = frame_.cells_centred_in(*options.region);
@@ -93,6 +83,15 @@ VANTAGE_INLINE OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
   miss_steps_ = steps(options.log_odds_miss);
   min_steps_ = steps(options.log_odds_min);
   max_steps_ = steps(options.log_odds_max);
+}
+
+VANTAGE_INLINE OccupancyMap::OccupancyMap(const OccupancyMapOptions& options, const std::string& folder,
+                                          std::size_t resident_bytes)
+    : OccupancyMap(options) {
+  detail::require_option(resident_bytes >= detail::BrickFile::kBlockBytes, "OccupancyMap: resident_bytes",
+                         resident_bytes, "at least 65536");
+  BrickStore on_disk(folder, resident_bytes);
+  bricks_.swap(on_disk);
 }
 
 VANTAGE_INLINE bool OccupancyMap::contested(const VoxelIndex& cell) const {
