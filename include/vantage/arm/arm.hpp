@@ -19,7 +19,7 @@ class ClearSpace;
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Where an Arm stands and how it moves.
+/// Pose of an Arm's base, boxes declared clear, and parameters of the samples and of the path search.
 struct ArmOptions {
   Pose world_from_base = Pose::Identity();  ///< pose of the base, which does not move
   /// Boxes (world frame, metres) that the host knows to be clear. Unknown cells whose centre lies in one of them are
@@ -41,8 +41,8 @@ struct ArmOptions {
 ///
 /// The body is the set of capsules of the chain. It must stay in cells that are clear (OccupancyMap::is_clear) or
 /// declared clear; other unknown cells are obstacles. Capsules of the base itself are not tested. Each sensor pose
-/// belongs to a unique joint configuration (see `configuration`). So if a host follows the paths of an Arm, its
-/// joints are where the next path starts.
+/// belongs to a unique joint configuration (see `configuration`). So if a host follows the paths of an Arm, each
+/// path starts at the current joint values.
 ///
 ///     const auto chain = KinematicChain::from_urdf("arm.urdf", "base_link", "sensor");
 ///     const auto arm = std::make_shared<Arm>(chain, ArmOptions{.declared_clear = {around_the_robot}});
@@ -52,7 +52,7 @@ class Arm final : public Platform {
   /// Samples the postures. Throws std::invalid_argument, which names the invalid option, or as CapabilityMap.
   explicit Arm(const KinematicChain& chain, const ArmOptions& options = {});
 
-  /// The kinematic chain.
+  /// The chain that was passed to the constructor.
   [[nodiscard]] const KinematicChain& chain() const { return chain_; }
   /// The options that were passed to the constructor.
   [[nodiscard]] const ArmOptions& options() const { return options_; }
@@ -94,13 +94,13 @@ class Arm final : public Platform {
   /// this, it looks along the direction of the nearest sampled posture that the arm can reach at this position. If
   /// the arm cannot reach the position at all, the pose looks along `direction` without roll.
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
-  /// The straight-line distance, a lower bound on the path of the sensor.
+  /// Straight-line distance between the positions, metres: a lower bound on the length of the sensor's path.
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
   /// Poses along `joint_path`, with at most `pose_step_rad` between them in each joint.
   [[nodiscard]] std::optional<std::vector<Pose>> path(const OccupancyMap& map, const Pose& from,
                                                       const Pose& to) const override;
-  /// A cube around the sensor: half its edge is the radius of the largest ball around the sensor inside a capsule of
-  /// the last link. The free space that the rest of the arm needs must be declared by the host.
+  /// A cube around the sensor, metres, world: half its edge is the radius of the largest ball around the sensor
+  /// inside a capsule behind the last joint. The host must declare the free space for the rest of the arm.
   [[nodiscard]] Box body_box(const Pose& pose) const override;
   [[nodiscard]] bool can_tilt() const override { return true; }
 

@@ -38,10 +38,10 @@ struct DhRow {
   bool slides = false;     ///< whether the joint slides along z instead of rotating about it
 };
 
-/// Options of KinematicChain::inverse.
+/// Tolerances and iteration limit of KinematicChain::inverse.
 struct InverseOptions {
   bool free_roll = false;       ///< whether the rotation about the optical axis is free
-  int max_iterations = 60;      ///< > 0
+  int max_iterations = 60;      ///< iterations before the search fails, > 0
   double tolerance_m = 1e-6;    ///< tolerance of the position, > 0
   double tolerance_rad = 1e-6;  ///< tolerance of the orientation, > 0
 };
@@ -72,9 +72,9 @@ class KinematicChain {
 
   /// The number of movable joints.
   [[nodiscard]] std::size_t joint_count() const;
-  /// The range of each movable joint.
+  /// The range of each movable joint, from the base outwards.
   [[nodiscard]] const std::vector<JointRange>& ranges() const;
-  /// The names of the movable joints.
+  /// The names of the movable joints, from the base outwards.
   [[nodiscard]] const std::vector<std::string>& joint_names() const;
   /// The body, each capsule in the frame of its link.
   [[nodiscard]] const std::vector<Capsule>& capsules() const;

@@ -9,7 +9,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of RrtPlatform.
+/// Parameters of the random tree of RrtPlatform.
 struct RrtOptions {
   double goal_bias = 0.05;          ///< share of the samples that are the goal itself, in [0, 1)
   double step_m = 0.3;              ///< maximum length of a new branch, metres, > 0

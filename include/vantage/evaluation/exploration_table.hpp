@@ -14,19 +14,18 @@ namespace VANTAGE_EXPORT vantage {
 
 /// One run among those that are compared.
 struct EvaluatedRun {
-  std::string world;        ///< its name in the tables; implies the sensor and the robot
-  std::string planner;      ///< with its settings: NAME[,KEY=VALUE]...
-  std::uint64_t start = 1;  ///< number of the start, the same for every planner
-  RunFigures figures = {};  ///< what came of it
-  std::optional<PathBound> bound =
-      std::nullopt;  ///< on the path of any planner from that start; none if it was not asked for
+  std::string world;                              ///< its name in the tables; implies the sensor and the robot
+  std::string planner;                            ///< with its settings: NAME[,KEY=VALUE]...
+  std::uint64_t start = 1;                        ///< number of the start, the same for every planner
+  RunFigures figures = {};                        ///< figures from the report of the run
+  std::optional<PathBound> bound = std::nullopt;  ///< lower bound on the path from this start; none: not computed
 };
 
 /// Worlds that share a table.
 struct WorldClass {
   std::string name = {};                 ///< heading
-  std::string about = {};                ///< sensor, robot and cells, in a sentence
-  std::string command = {};              ///< what prints the table
+  std::string about = {};                ///< one sentence on sensor, robot and cell size
+  std::string command = {};              ///< the command line that prints the table
   std::vector<std::string> worlds = {};  ///< names, in the order of the rows
 };
 
@@ -38,9 +37,10 @@ struct WorldClass {
 
 /// The figures of `exploration_tables` and the curves of the runs as JSON, for scripts and for write_evaluation_html:
 ///   {"classes": [{name, about, command, worlds}], "columns": [{key, title, digits}],
-///    "rows": [{world, planner, runs, outcomes, collisions, plan_p50_ms, plan_p99_ms, KEY: {median, q1, q3} | null}],
+///    "rows": [{world, planner, runs, outcomes, collisions, bounds_met, plan_p50_ms, plan_p99_ms,
+///              KEY: {median, q1, q3} | null}],
 ///    "runs": [{world, planner, start, outcome, curve: [[metres, seconds | null, share], ...]}]}
-/// What was reached never is null, and a curve has at most 250 points.
+/// A figure that was not measured, or a quantile that was never reached, is null. A curve has at most 250 points.
 [[nodiscard]] std::string exploration_json(std::span<const WorldClass> classes, std::span<const EvaluatedRun> runs);
 
 }  // namespace vantage

@@ -19,12 +19,12 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a peer of the object planner is given.
+/// Inputs of a peer, a planner to compare ObjectPlanner with. No pointer may be null.
 struct ObjectPeerSetup {
-  std::shared_ptr<const Platform> platform;  ///< what carries the sensor; not null
+  std::shared_ptr<const Platform> platform;  ///< the body that carries the sensor
   const ObjectScene* scene = nullptr;        ///< the scene; must outlive the peer
   const Truth* truth = nullptr;              ///< ground truth; must outlive the peer; views are admitted in it
-  const SeenSurface* surface = nullptr;  ///< what has been seen; must outlive the peer; only `oracle-greedy` needs it
+  const SeenSurface* surface = nullptr;  ///< what has been seen; must outlive the peer; only `oracle-greedy` reads it
   std::size_t views = 8;                 ///< number of views of `evenly-spaced`, > 0
   std::uint64_t seed = 1;                ///< seed of everything random: the turn of the spiral, the random order
 };
@@ -33,7 +33,7 @@ struct ObjectPeerSetup {
 /// map; only the path from view to view does.
 class ObjectPeer : public ExplorationPlanner {
  public:
-  /// The view it would start with; none: it starts anywhere.
+  /// The first view of the peer's order (world_from_sensor); none if the order does not determine it.
   [[nodiscard]] virtual std::optional<Pose> first_view() = 0;
 };
 
@@ -41,7 +41,7 @@ class ObjectPeer : public ExplorationPlanner {
 /// - `evenly-spaced`: `views` views spread evenly over the admitted part of the first shell, in the order of a
 ///   spiral;
 /// - `random-views`: views of the shells in a random order;
-/// - `furthest-view`: always the view furthest from all views taken;
+/// - `furthest-view`: always the view that is furthest from the nearest view taken;
 /// - `oracle-greedy`: always the view that shows most of the true surface not yet seen. It knows the ground truth;
 ///   it is the best that a greedy choice can do.
 ///

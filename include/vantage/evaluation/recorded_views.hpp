@@ -16,9 +16,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What was known after each view of an order, as shares of what is known after all of them.
+/// What is known after each view of an order. `volume` and `surface` are shares of what is known after all views.
 struct ViewOrderCurve {
-  std::string name = {};                ///< who chose
+  std::string name = {};                ///< name of the rule that chose the order
   std::vector<std::size_t> order = {};  ///< numbers of the views
   std::vector<double> volume = {};      ///< known cells (free or occupied) after 1, 2, ... views
   std::vector<double> surface = {};     ///< cells in which a return ended, after 1, 2, ... views
@@ -34,10 +34,10 @@ struct ViewOrderCurve {
   [[nodiscard]] double void_area() const;
 };
 
-/// Views that a real sensor has taken, as candidates: how good would another order have been?
+/// The scans of a real sensor as candidate views, to compare their recorded order with other orders.
 ///
 /// Which cells a scan frees or hits does not depend on the scans before it. So every order ends with the same
-/// known cells, and what counts is how soon.
+/// known cells; orders differ in how soon these become known.
 class RecordedViews {
  public:
   /// Inserts every scan into a map of its own. With an `object` (metres, world frame) only its cells count, and
@@ -48,11 +48,11 @@ class RecordedViews {
 
   /// Number of views.
   [[nodiscard]] std::size_t size() const { return scans_.size(); }
-  /// The scans, by number.
+  /// The scans. The number of a view is its index here.
   [[nodiscard]] const std::vector<Scan>& scans() const { return scans_; }
   /// Options of the map for the scans.
   [[nodiscard]] const OccupancyMapOptions& options() const { return options_; }
-  /// The box whose cells count, metres; none: all cells.
+  /// The box whose cells count, world frame, metres; none: all cells.
   [[nodiscard]] const std::optional<Box>& object() const { return object_; }
   /// The map before the first view: empty, except for what is known around an object.
   [[nodiscard]] OccupancyMap map_before() const;
@@ -98,14 +98,14 @@ using ChooseView =
 [[nodiscard]] std::vector<std::size_t> chosen_order(const RecordedViews& views, std::size_t start,
                                                     const ChooseView& choose);
 
-/// Chooses the view that sees most unknown cells, exactly counted. A pose in unknown space sees only its own cell, so
-/// this rule loses to random orders wherever recorded poses do. (Vasquez-Gomez et al. 2013, eq. 4)
+/// Chooses the view that sees most unknown cells, exactly counted. A pose in an unknown cell sees only that cell,
+/// so the rule is poor where recorded poses lie in unknown space. (Vasquez-Gomez et al. 2013, eq. 4)
 [[nodiscard]] ChooseView most_unknown_cells(const RecordedViews& views, const RangeSensor& sensor,
                                             std::size_t threads = 1);
 
-/// Chooses the view that is expected to make most cells known. A ray goes on through the unknown with the
-/// probability that an earlier return came from further away than the cell, given that it came from beyond the
-/// start of the unknown. A cell counts by its most likely ray.
+/// Chooses the view that is expected to make most cells known. A ray whose first unknown cell is at the range r0
+/// reaches an unknown cell at the range r with the probability n(r) / n(r0), where n(x) is the number of earlier
+/// returns from beyond x. If several rays pass a cell, the highest probability counts.
 [[nodiscard]] ChooseView most_expected_cells(const RecordedViews& views, const RangeSensor& sensor);
 
 }  // namespace vantage

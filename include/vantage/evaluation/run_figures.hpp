@@ -11,7 +11,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What was known after a view.
+/// Path, time and coverage after one scan of a run.
 struct KnownSoFar {
   std::size_t view = 0;           ///< number of the scan, from 1
   double path_m = 0.0;            ///< path of the sensor so far, metres
@@ -19,7 +19,7 @@ struct KnownSoFar {
   std::optional<double> covered;  ///< share, in [0, 1]; see RunFigures::covered
 };
 
-/// What tables and curves show of a run.
+/// The figures of a run that tables and curves show.
 struct RunFigures {
   std::string command;                  ///< "explore", "reconstruct", ...
   std::string world;                    ///< name or file
@@ -28,10 +28,10 @@ struct RunFigures {
   double resolution_m = 0.0;            ///< edge of a cell of the map, metres
   std::string outcome;                  ///< "explored", "unreachable", "blocked", "budget" or "interrupted"
   std::size_t views = 0;                ///< integrated scans
-  double path_m = 0.0;                  ///< metres
+  double path_m = 0.0;                  ///< path of the sensor, metres
   double turned_deg = 0.0;              ///< total turn of the sensor, degrees
   std::optional<double> duration_s;     ///< RunRecord::duration_s
-  std::optional<double> covered;        ///< at the end: what was seen of an object, or else the coverage of the world
+  std::optional<double> covered;        ///< share at the end, in [0, 1]: RunRecord::seen_coverage, or else coverage
   std::size_t collisions = 0;           ///< motions in which the body touched a true surface
   double computing_s = 0.0;             ///< time of inserting and planning, seconds
   std::vector<double> plan_ms;          ///< time of each plan, milliseconds

@@ -25,7 +25,7 @@ struct BrickState {
 
 /// The potential field of a planner at one cell.
 struct FieldArrow {
-  VoxelIndex cell;                                     ///< the cell
+  VoxelIndex cell;                                     ///< the sampled cell
   Eigen::Vector3f downhill = Eigen::Vector3f::Zero();  ///< unit direction of descent in the world frame, to about 1
                                                        ///< %; zero where the field is level
   float phi = 0.0F;                                    ///< potential: 1 at the sensor, 0 at a frontier
@@ -33,7 +33,7 @@ struct FieldArrow {
 
 /// What a record holds of one integrated scan and of the plan made after it.
 struct RecordedCycle {
-  ViewRecord view;              ///< the scan and its figures
+  ViewRecord view;              ///< number, pose and measured values of the scan
   bool planned = false;         ///< whether a plan was made after this scan; the fields below belong to that plan
   std::string reason = {};      ///< Plan::reason
   std::vector<Pose> path = {};  ///< Plan::path
@@ -42,7 +42,7 @@ struct RecordedCycle {
   double survey_ms = 0.0;                ///< PlanStatistics::survey_ms
   double choose_ms = 0.0;                ///< PlanStatistics::evaluate_ms and choose_ms
   double path_ms = 0.0;                  ///< PlanStatistics::path_ms
-  std::vector<FieldArrow> field = {};    ///< samples of the planner's field; empty if it has none
+  std::vector<FieldArrow> field = {};    ///< samples of the planner's potential field; empty: the planner has none
   std::vector<BrickState> changes = {};  ///< bricks with a cell that changed its state since the previous cycle
 };
 

@@ -8,7 +8,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// One run on a page.
+/// A run to show on a page.
 struct ReportedRun {
   std::string report;            ///< the JSON text of report_json
   std::filesystem::path record;  ///< the record of a RunRecorder, for the replay; empty: only curves and figures

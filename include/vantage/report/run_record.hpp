@@ -111,8 +111,8 @@ struct RunRecord {
   std::size_t cells_refused = 0;
   double peak_memory_mb = 0.0;             ///< peak memory of the whole process, MiB
   std::optional<PathBound> path_bound;     ///< lower bound with full knowledge of the world; none if not asked for
-  std::optional<AuditRecord> audit;        ///< brute-force check of the end; none if not asked for
-  std::vector<ViewRecord> views;           ///< one per scan
+  std::optional<AuditRecord> audit;        ///< result of `audit` on the last map; none if not asked for
+  std::vector<ViewRecord> views;           ///< one per integrated scan, in order
   std::vector<Eigen::Vector3d> travelled;  ///< successive sensor positions, the start first; world frame, metres
 
   /// Length of the whole path, metres; 0 without a scan.

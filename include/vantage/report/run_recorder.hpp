@@ -16,7 +16,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a record says about the run before its first cycle.
+/// The head of a record: names, seed and sensor of the run, and how the record is written.
 struct RunRecorderSetup {
   std::string command = "host";  ///< what drives the run; the program writes its command
   std::string world = {};        ///< name of the place, for a person
@@ -43,8 +43,8 @@ struct RunRecorderSetup {
 ///     recorder.finish(RunOutcome::Explored, plan.reason);
 ///
 /// The file only grows, by one checked chunk per cycle (docs/record.md). Whatever ends the process, the record can
-/// be read up to the last complete cycle (RunRecordReader). A cycle costs what the change log of the map names, a
-/// small part of the insertion. The recorder keeps a copy of the cell states, 2 bits per cell.
+/// be read up to the last complete cycle (RunRecordReader). The cost of a cycle follows the changes of the map and
+/// is small beside the insertion of the scan. The recorder keeps a copy of the cell states, 2 bits per cell.
 class RunRecorder {
  public:
   /// Creates the file or replaces it. Throws std::runtime_error with the path if it cannot be written.
@@ -56,21 +56,22 @@ class RunRecorder {
   /// Closes the file. A record without `finish` stays unfinished, and its reader says so.
   ~RunRecorder();
 
-  /// Records the scan just inserted into `map` and, if one was made, the plan after it with the field behind it.
-  /// All views are of one map with one resolution, which the first call sets. The figures of `view` are kept as
-  /// they are, except those that a plan gives: utility, outcome, and frontier and void cells if it counted any.
-  /// Throws std::runtime_error with the path if the file cannot be written; the record then ends with the previous
-  /// cycle. Throws std::invalid_argument if the resolution changes and std::logic_error if the record has ended.
+  /// Records the scan just inserted into `map` and, if one was made, the plan after it and the field of the
+  /// planner. All views are of one map with one resolution, which the first call sets. The figures of `view` are
+  /// kept as they are, except those that a plan gives: utility, outcome, and frontier and void cells if it counted
+  /// any. Throws std::runtime_error with the path if the file cannot be written; the record then ends with the
+  /// previous cycle. Throws std::invalid_argument if the resolution changes and std::logic_error if the record has
+  /// ended.
   void record(const OccupancyMap& map, ViewRecord view, const Plan* plan = nullptr,
               const HarmonicField* field = nullptr);
-  /// Records a scan and the plan after it, for hosts that keep no ViewRecord: counts the views and the metres,
-  /// straight from pose to pose. Throws as the overload above.
+  /// Records a scan and the plan after it, for hosts that keep no ViewRecord: counts the views and measures the
+  /// path straight from pose to pose. Throws as the overload above.
   void record(const OccupancyMap& map, const Pose& world_from_sensor, const Plan& plan, double insert_ms = 0.0,
               double plan_ms = 0.0);
 
-  /// Ends the record. `run.views` may be empty. Recording again throws.
+  /// Ends the record. `run.views` may be empty. Further calls of `record` and `finish` throw std::logic_error.
   void finish(const RunRecord& run);
-  /// Ends the record, for hosts that keep no RunRecord. Recording again throws.
+  /// Ends the record, for hosts that keep no RunRecord. Otherwise as the overload above.
   void finish(RunOutcome outcome, const std::string& reason);
 
   /// Length of the file so far, bytes.

@@ -13,7 +13,7 @@ struct Setting {
   std::string name;           ///< key in Settings
   std::string default_value;  ///< as text; empty if there is none
   std::string unit;           ///< empty if there is none
-  std::string meaning;        ///< one line
+  std::string meaning;        ///< description in one line
 };
 
 /// Values by name of the setting, as `--set key=value` gives them.

@@ -27,7 +27,7 @@ class TimedRobot;
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of ExplorationRun.
+/// Map, budgets, motion, noise and measurements of an ExplorationRun.
 struct ExplorationRunOptions {
   /// The map; without a region it gets that of the world. In a world that is a plane, z of the region is ignored:
   /// the map is the layer of cells above z = 0.
@@ -57,7 +57,7 @@ struct ExplorationRunOptions {
   /// Radius of the sphere for collisions with true surfaces, metres, >= 0. None: half the least extent of
   /// Platform::body_box, which includes a margin that the platform keeps.
   std::optional<double> body_radius_m = std::nullopt;
-  int threads = 1;  ///< for the observable cells, > 0
+  int threads = 1;  ///< threads of the search for observable cells, > 0
   /// Whether coverage is measured. That takes finding all observable cells first: those of `unknown_box` if there
   /// is one.
   bool measure_coverage = true;
@@ -91,7 +91,7 @@ class ExplorationRun {
   /// Called after every scan with its record and with the map that the planner plans in (`known`).
   using OnView = std::function<void(const ViewRecord&, const OccupancyMap&)>;
 
-  /// Throws std::invalid_argument naming the option at fault.
+  /// Throws std::invalid_argument, which names the invalid option.
   ExplorationRun(const World& world, const RangeSensor& sensor, std::shared_ptr<const Platform> platform,
                  const ExplorationRunOptions& options = {});
 
@@ -99,7 +99,7 @@ class ExplorationRun {
   [[nodiscard]] const Truth& truth() const { return truth_; }
   /// The surfaces of the world.
   [[nodiscard]] const TriangleScene& scene() const { return scene_; }
-  /// The map of the last run; with a band too, the map of space.
+  /// The map of the last run. With a band it is the map from which the plane is projected.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   /// The map that the planner plans in: the plane of the band, or else `map()`.
   [[nodiscard]] const OccupancyMap& known() const { return band_ ? band_->plane() : map_; }
@@ -117,7 +117,7 @@ class ExplorationRun {
   struct Progress;
   void assume_start_free(const Pose& start);
   void scan(Progress& progress);
-  // At once without a robot.
+  // Turns once on the spot, with scans; in time if there is a robot.
   void look_around(Progress& progress, detail::TimedRobot* robot, const OnView& on_view);
   void plan(Progress& progress, ExplorationPlanner& planner);
   [[nodiscard]] bool goes_on(Progress& progress, ExplorationPlanner& planner, const OnView& on_view);

@@ -11,8 +11,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A floor plan as pixels, solid or free: the world of a robot that drives in one plane (read_nav2_map). Whoever
-/// takes one calls `validate`.
+/// A floor plan as pixels, solid or free: the world of a robot that drives in one plane (read_nav2_map).
+/// World::from_plan calls `validate`.
 struct GroundPlan {
   double pixel_m = 0.05;  ///< edge of a pixel, metres, > 0
   double x_m = 0.0;       ///< world x of the lower left corner of pixel (0, 0), metres

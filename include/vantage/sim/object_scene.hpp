@@ -17,16 +17,16 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of object_scene.
+/// Where the object stands, and the views around it.
 struct ObjectSceneOptions {
   std::string name = "object";  ///< World::name
-  bool table = false;           ///< whether it stands in the world `table`; else it hangs in free space
+  bool table = false;           ///< true: it stands in the world `table`; false: it hangs in free space
   std::optional<Box> object_box = std::nullopt;  ///< box to reconstruct, metres; none: the object with 3 cm around it
   std::vector<double> radii_m =
       {};  ///< radii of the shells of views, metres; empty: one from which the whole box is in view
   double resolution_m = 0.02;   ///< edge of a cell of the map, metres, > 0
   double body_radius_m = 0.05;  ///< radius of the robot, metres: there is room for it on the shells
-  /// Where the robot starts in the room of the table, metres; none: on the first shell.
+  /// Position of the sensor at the start in the room of the table, world frame, metres; none: on the first shell.
   std::optional<Eigen::Vector3d> start = std::nullopt;
 };
 

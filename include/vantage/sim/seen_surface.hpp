@@ -42,7 +42,7 @@ class SeenSurface {
   [[nodiscard]] bool seen(std::uint32_t sample) const { return seen_[sample]; }
   /// How many samples were seen.
   [[nodiscard]] std::size_t seen_count() const { return seen_count_; }
-  /// The samples.
+  /// The samples that were passed to the constructor.
   [[nodiscard]] const std::vector<SurfaceSample>& samples() const { return samples_; }
   /// Share of the samples seen so far, in [0, 1]; 1 if there are none.
   [[nodiscard]] double share() const;

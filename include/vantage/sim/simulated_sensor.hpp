@@ -37,7 +37,7 @@ class SimulatedSensor {
   /// sequence of poses gives the same scans. Throws std::invalid_argument for a pose that is not rigid.
   [[nodiscard]] Scan scan(const Pose& world_from_sensor);
 
-  /// The simulated sensor.
+  /// The sensor model that was passed to the constructor.
   [[nodiscard]] const RangeSensor& sensor() const { return sensor_; }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A mesh prepared for ray casts and distances (a bounding volume hierarchy of Embree). Immutable, safe to use
-/// from several threads. Copies share the data.
+/// A mesh prepared for ray casts and distances (a bounding volume hierarchy of Embree). All points and directions
+/// are in the frame of the mesh, metres. Immutable, safe to use from several threads. Copies share the data.
 class TriangleScene {
  public:
   /// Throws std::invalid_argument if a triangle names a vertex that does not exist.

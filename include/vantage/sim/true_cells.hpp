@@ -22,9 +22,9 @@ enum class CellTruth : std::uint8_t {
 /// number each.
 class TrueCells {
  public:
-  /// No cell.
+  /// An empty box.
   TrueCells() : TrueCells(VoxelBox{}) {}
-  /// Free cells.
+  /// A box in which every cell is free.
   explicit TrueCells(const VoxelBox& box) : box_(box), numbers_(Brick::over(box), 0), bricks_(1) {}
 
   /// The cells that have a state.

@@ -11,13 +11,13 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of watchman_route.
+/// Limits of the search of watchman_route.
 struct WatchmanOptions {
   /// Largest number of witnesses, in [1, 12]. Memory and time double with each: 4 bytes times 2^witnesses per
   /// reachable cell.
   std::size_t max_witnesses = 8;
-  int threads = 1;  ///< for lines of sight, > 0
-  /// Asked again and again, by any thread: true gives up, and the route is the one so far.
+  int threads = 1;  ///< threads that test lines of sight, > 0
+  /// Called often, from several threads at once. Once it returns true, the search ends with the route so far.
   std::function<bool()> stop = {};
 };
 

@@ -16,7 +16,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of generated worlds.
+/// Seed and size of the worlds that World::by_name generates.
 struct WorldOptions {
   std::uint64_t seed = 1;  ///< random seed of `office` and `maze`
   double length_m = 0.0;   ///< extent along x of `office` and `maze`, metres: 0 (default of the world) or in [4, 200]
@@ -25,7 +25,7 @@ struct WorldOptions {
 
 /// A known world: its surfaces and the region to explore.
 struct World {
-  /// NAME or file.
+  /// The name given to the function that made the world, or the file.
   std::string name;
   TriangleMesh mesh;  ///< all surfaces, metres, z up
   Box region;         ///< region to explore, metres; includes the walls of a closed world

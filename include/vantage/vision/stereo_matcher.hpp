@@ -19,7 +19,7 @@ enum class StereoMethod : std::uint8_t {
   Block,  ///< OpenCV's StereoBM: block matching by the sum of absolute differences (as in Shade & Newman 2011, V-1)
 };
 
-/// Options of StereoMatcher.
+/// Search range, window and rejection tests of StereoMatcher.
 struct StereoOptions {
   StereoMethod method = StereoMethod::SemiGlobal;  ///< matching algorithm
   int least_disparity_px = 0;                      ///< smallest disparity to search

@@ -16,17 +16,17 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Voids and what is drawn with them. The spans must be valid during the call.
+/// What the two pictures of voids show. The spans must be valid during the call.
 struct VoidContent {
   std::string title = {};                       ///< drawn above the picture
   std::span<const VoxelIndex> voids = {};       ///< void cells
   std::span<const VoxelIndex> frontier = {};    ///< frontier cells
   std::span<const Ellipsoid> ellipsoids = {};   ///< ellipsoids of the voids with a frontier
-  std::span<const VoxelIndex> places = {};      ///< cells with a utility
+  std::span<const VoxelIndex> places = {};      ///< reachable cells with a utility
   std::span<const std::uint64_t> utility = {};  ///< accumulated utility of each of `places`, > 0
-  Pose sensor = Pose::Identity();               ///< pose of the sensor
-  std::optional<Pose> view = std::nullopt;      ///< the next view
-  std::optional<Box> extent = std::nullopt;     ///< region to show; nullopt: everything known
+  Pose sensor = Pose::Identity();               ///< current pose (world_from_sensor)
+  std::optional<Pose> view = std::nullopt;      ///< the chosen view (world_from_sensor); none: not drawn
+  std::optional<Box> extent = std::nullopt;     ///< region to show, metres, world; none: everything known
 };
 
 /// Draws the map from above with voids in violet, frontiers in red, and the outlines of the ellipsoids, as Fig. 2 and
