@@ -15,14 +15,15 @@ namespace VANTAGE_EXPORT vantage {
 enum class FieldSolver : std::uint8_t {
   /// Multigrid, to a small residual. It certifies that descent from every cell ends at a sink.
   Multigrid,
-  /// The method of the paper: relaxation from zero until the largest relative change is small (eq. 10).
+  /// The method of the paper: relaxation from zero until the largest relative change is small (eq. 10). It
+  /// continues until descent from the source reaches a sink, or `max_sweeps` are done.
   GaussSeidel,
 };
 
-/// Options of a harmonic field.
+/// Solver, boundary condition and stopping rule of HarmonicField::solve.
 struct HarmonicFieldOptions {
-  FieldSolver solver = FieldSolver::Multigrid;          ///< how the field is solved
-  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< closed faces; Mirror (eq. 9) needs GaussSeidel
+  FieldSolver solver = FieldSolver::Multigrid;          ///< the linear solver
+  NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< scheme at closed faces; Mirror (eq. 9) needs GaussSeidel
   double tolerance = 1e-4;         ///< GaussSeidel: largest relative change of the last sweep, in [1e-15, 1] (eq. 10)
   std::size_t max_sweeps = 50000;  ///< GaussSeidel: maximum number of sweeps per field, in [1, 1e7]
   double uniform_source = 1e-4;    ///< see RelaxationOptions; 0: the field of the paper
@@ -44,8 +45,9 @@ struct HarmonicField {
   /// Throws std::invalid_argument if an option is invalid, or if `source` is not in the domain or is a sink.
   [[nodiscard]] static HarmonicField solve(LaplaceDomain domain, const VoxelIndex& source,
                                            const HarmonicFieldOptions& options, std::size_t threads);
-  /// Follows the field from `position` (metres, world), or from the centre of the source if it lies in another cell.
-  /// Fills in `streamline`, by cells of steepest descent where there is no smooth one. Returns its cells.
+  /// Follows the field from `position` (metres, world), or from the centre of the source if it lies in another
+  /// cell. Fills in `streamline`, by cells of steepest descent where there is no smooth one. Returns the cells of
+  /// the path.
   std::vector<VoxelIndex> follow(const VoxelFrame& frame, const Eigen::Vector3d& position);
 };
 

@@ -13,7 +13,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of LaplaceMultigrid.
+/// Stopping rule, extra source and threads of LaplaceMultigrid.
 struct MultigridOptions {
   double tolerance = 1e-8;  ///< stop when the residual is below this share of the source (Euclidean norm), in (0, 1)
   /// A small extra source, distributed evenly over all unknowns: its total as a share of the source at the sensor, >=
@@ -49,11 +49,11 @@ enum class MultigridStop : std::uint8_t {
   return "";
 }
 
-/// Statistics of LaplaceMultigrid.
+/// How a solution by LaplaceMultigrid ended: stop, certificate, sizes and times.
 struct MultigridReport {
   MultigridStop stop = MultigridStop::IterationLimit;  ///< why the solver has stopped
   bool certified = false;                              ///< every cell except the sinks has a strictly lower neighbour
-  std::size_t stuck_cells = 0;                         ///< number of cells without one
+  std::size_t stuck_cells = 0;                         ///< number of cells without one, sinks excluded
   std::size_t unknowns = 0;                            ///< cells of the sensor's component, without sinks
   std::size_t sinks = 0;                               ///< sinks of that component
   std::size_t dropped_cells = 0;                       ///< cells of other components

@@ -95,7 +95,7 @@ class LaplaceRelaxation {
   LaplaceReport report_;
 };
 
-/// One-shot version. Errors as LaplaceRelaxation.
+/// Runs a LaplaceRelaxation until it stops and returns its field. Errors as LaplaceRelaxation.
 [[nodiscard]] LaplaceSolution relax_laplace(const LaplaceProblem& problem, const RelaxationOptions& options = {});
 
 }  // namespace vantage

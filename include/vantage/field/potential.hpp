@@ -21,9 +21,9 @@ class Potential {
  public:
   /// An empty domain.
   Potential() = default;
-  /// The constant 1: the solution without sinks.
+  /// The value 1 in every cell: the solution for a domain without sinks.
   Potential(LaplaceDomain domain, const VoxelIndex& source) : domain_(std::move(domain)), source_(source) {}
-  /// `values` must be those of the unknowns of `domain`. Solvers make it.
+  /// For solvers: takes the solution, stored in the bricks of `domain`, 0 in cells that are not unknowns.
   Potential(LaplaceDomain domain, const VoxelIndex& source, detail::CellValues&& values);
   /// The values `phi`, by position in the problem. Throws std::invalid_argument unless there is one per cell.
   Potential(const LaplaceProblem& problem, std::span<const double> phi);

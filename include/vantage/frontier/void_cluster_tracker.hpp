@@ -21,7 +21,7 @@ namespace VANTAGE_EXPORT vantage {
 /// cluster ends at the faces of its tile. The result depends on the cells alone, not on former updates.
 class VoidClusterTracker {
  public:
-  /// No clusters.
+  /// Starts without clusters.
   explicit VoidClusterTracker(const VoidClusterOptions& options = {}) : options_(options) {}
 
   /// The clusters of `cells`, tiles in raster order. Errors as `cluster_void_cells`.

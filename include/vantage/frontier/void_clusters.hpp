@@ -90,7 +90,7 @@ class VoidClusters {
  private:
   struct Joined {
     std::shared_ptr<const VoidClusters> clusters;
-    std::uint32_t first;  // what is added to their numbers
+    std::uint32_t first;  // number in `clusters_` of the first of these clusters
   };
 
   std::vector<VoidCluster> clusters_;

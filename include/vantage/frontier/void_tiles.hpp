@@ -26,7 +26,7 @@ class VoidTiles {
   [[nodiscard]] const std::vector<VoxelIndex>& tiles() const { return tiles_; }
   /// Whether a tile is searched.
   [[nodiscard]] bool contains(const VoxelIndex& tile) const { return near_.find(tile) != nullptr; }
-  /// The bricks of the map in a tile, as the cells of a brick; null if there are none.
+  /// The bricks of a tile that the map holds, one bit per brick (Brick::offset_of); null if there are none.
   [[nodiscard]] const BrickPlane* held(const VoxelIndex& tile) const { return held_.find(tile); }
   /// The bricks of a tile, as a box in units of bricks.
   [[nodiscard]] static VoxelBox bricks_of(const VoxelIndex& tile) {

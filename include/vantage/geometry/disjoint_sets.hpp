@@ -48,8 +48,8 @@ class DisjointSets {
     --count_;
     return true;
   }
-  /// The set of every element. Sets are numbered from 0 in the order of their first element, so the labels depend
-  /// only on the partition and not on the order of the merges.
+  /// The number of the set of every element. Sets are numbered from 0 in the order of their first element, so the
+  /// labels depend only on the partition and not on the order of the merges.
   [[nodiscard]] std::vector<std::size_t> labels() {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> label_of_root(size(), kNone);

@@ -8,10 +8,10 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A solid ellipsoid.
+/// A solid ellipsoid in the world frame.
 struct Ellipsoid {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();     ///< centre, metres
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();     ///< unit direction of each axis, one per column
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();     ///< unit directions, one per column, longest axis first
   Eigen::Vector3d semi_axes_m = Eigen::Vector3d::Zero();  ///< half axes, metres, longest first
 
   /// Volume, cubic metres.

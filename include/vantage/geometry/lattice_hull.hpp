@@ -44,7 +44,8 @@ class LatticeHull {
   [[nodiscard]] bool empty() const { return facets_.empty(); }
   /// Whether a point lies in the hull or on its surface.
   [[nodiscard]] bool contains(const VoxelIndex& point) const;
-  /// The number of triangles. Insertions in the plane of others add triangles that the hull of its corners has not.
+  /// The number of triangles. It may be above that of the hull of the corners alone, if points were inserted in
+  /// the plane of a triangle.
   [[nodiscard]] std::size_t triangle_count() const { return facets_.size() - unused_.size(); }
   /// The planes that bound the hull, each once, sorted by normal.
   [[nodiscard]] std::vector<Plane> planes() const;

@@ -8,13 +8,13 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Something that is made from a map, `T(map)`, and brought up to date by `update()`, such as a FrontierTracker.
-/// Made anew when it is asked to follow another map.
+/// Holds an object that is constructed from a map, `T(map)`, and updated by `T::update()`, such as a
+/// FrontierTracker. Constructs a new one for another map, or if the map was moved to another address.
 template <class T>
 class Following {
  public:
-  /// Brings the value up to date with `map`, which must outlive its next use. Returns whether it was made anew.
-  /// Throws what T throws; the next call then makes it anew.
+  /// Updates the object to the state of `map`, which must outlive the object's next use. Returns whether a new
+  /// object was constructed. Throws what T throws; the next call then constructs a new object.
   bool follow(const OccupancyMap& map) {
     if (map_.is_in_place(map)) {
       value_->update();
@@ -26,11 +26,11 @@ class Following {
     return true;
   }
 
-  /// The value for the last followed map. Requires a call of `follow`.
+  /// The object for the last followed map. Requires a call of `follow`.
   [[nodiscard]] const T& operator*() const { return *value_; }
-  /// Members of the value for the last followed map. Requires a call of `follow`.
+  /// Members of the object for the last followed map. Requires a call of `follow`.
   [[nodiscard]] const T* operator->() const { return &*value_; }
-  /// Members that change the value for the last followed map. Requires a call of `follow`.
+  /// Members that change the object for the last followed map. Requires a call of `follow`.
   [[nodiscard]] T* operator->() { return &*value_; }
 
  private:

@@ -25,13 +25,13 @@ class PointsView {
   /// All points of an array.
   explicit PointsView(std::span<const Eigen::Vector3f> points)
       : PointsView(points.data(), points.size(), sizeof(Eigen::Vector3f)) {}
-  /// `count` points, the x of the first of which is at `first`. Throws std::invalid_argument if `first` is null and
-  /// `count` is not 0, or if `stride_bytes` is less than kBytes.
+  /// `count` points; `first` is the address of the x coordinate of the first one. Throws std::invalid_argument if
+  /// `first` is null and `count` is not 0, or if `stride_bytes` is less than kBytes.
   PointsView(const void* first, std::size_t count, std::size_t stride_bytes);
 
   /// The number of points.
   [[nodiscard]] std::size_t size() const { return count_; }
-  /// Where the x of a point is. `number` must be less than `size()`.
+  /// Address of the x coordinate of a point. `number` must be less than `size()`.
   [[nodiscard]] const std::byte* at(std::size_t number) const { return first_ + number * stride_bytes_; }
   /// A point. `number` must be less than `size()`.
   [[nodiscard]] Eigen::Vector3f operator[](std::size_t number) const {

@@ -12,7 +12,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A Scan whose points stay where the host has them; fields as there. OccupancyMap::insert reads them in place.
+/// A Scan whose points stay in the memory of the host; OccupancyMap::insert reads them there. Fields as in Scan.
 struct ScanView {
   Pose world_from_sensor = Pose::Identity();  ///< pose of the sensor
   PointsView points = {};                     ///< returns in the sensor frame, metres
@@ -45,7 +45,7 @@ struct Scan {
   std::size_t width = 0;   ///< columns of the depth image, or 0
   std::size_t height = 0;  ///< rows of the depth image, or 0
 
-  /// A scan with a copy of these points, for a ScanLog or for memory that does not live on.
+  /// A scan with a copy of these points, for a ScanLog or if the scan must outlive the memory of the host.
   [[nodiscard]] static Scan from_points(const PointsView& points, const Pose& world_from_sensor);
   /// A view of this scan; the scan must outlive it.
   [[nodiscard]] ScanView view() const;

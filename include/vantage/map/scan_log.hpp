@@ -23,7 +23,7 @@ namespace VANTAGE_EXPORT vantage {
 /// built.
 class ScanLog {
  public:
-  /// Errors as OccupancyMap.
+  /// Starts without scans and with an empty map. Errors as OccupancyMap.
   explicit ScanLog(const OccupancyMapOptions& options, RayPolicy policy = RayPolicy::EveryReturn);
 
   /// Inserts a scan into the map and keeps it. Errors as OccupancyMap::insert; a rejected scan is not kept.

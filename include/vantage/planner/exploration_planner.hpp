@@ -43,14 +43,14 @@ struct PlanStatistics {
   std::size_t frontier_cells = 0;    ///< all frontier cells in the region, reachable or not
   std::size_t observable_cells = 0;  ///< those of them that some reachable pose can observe
   std::size_t reachable_cells = 0;   ///< cells to which the platform can bring the sensor
-  std::size_t void_cells = 0;        ///< planners that search voids only
+  std::size_t void_cells = 0;        ///< void cells; 0 unless the planner searches voids
   std::size_t views_scored = 0;      ///< candidate views evaluated
   std::uint64_t ray_operations = 0;  ///< cells visited along rays, plus cell updates of a field
-  std::size_t solver_sweeps = 0;     ///< planners that solve a field only
+  std::size_t solver_sweeps = 0;     ///< sweeps of the solver; 0 unless the planner solves a field
   double survey_ms = 0.0;            ///< milliseconds: frontier, reachability, observability
-  double evaluate_ms = 0.0;  ///< milliseconds: visibility of candidate views; planners that evaluate it separately
-  double choose_ms = 0.0;    ///< milliseconds: choice of the view
-  double path_ms = 0.0;      ///< milliseconds: path to the view
+  double evaluate_ms = 0.0;          ///< milliseconds: visibility of candidate views, if timed separately
+  double choose_ms = 0.0;            ///< milliseconds: choice of the view
+  double path_ms = 0.0;              ///< milliseconds: path to the view
 };
 
 /// The result of a call of `plan`: where the sensor should look next.
@@ -79,7 +79,7 @@ struct Plan {
 ///       follow(plan.path);                              // host: scan on the way, see `check`
 ///     }
 ///
-/// All planners keep one contract, which one test suite holds:
+/// All planners keep this contract, and one test suite checks it (tests/contract):
 /// - The path starts at `current`, ends at `goal.pose` and stays in cells that the platform admits.
 /// - Explored means that nothing is left that the sensor could observe and has not looked at in vain.
 /// - The same map, pose and seed give the same plan for any number of threads.
@@ -88,7 +88,7 @@ struct Plan {
 /// - A planner keeps only what it can rebuild from the map, and the memory of tried views, which belongs to one map
 ///   and can be saved with it.
 ///
-/// An ObjectPlanner remembers goals that were not reached, and ends by its own rule.
+/// ObjectPlanner differs: it remembers only goals that were not reached, and it ends by its own rule.
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;
@@ -104,9 +104,9 @@ class ExplorationPlanner {
   virtual void report(const OccupancyMap& map, const Pose& current, GoalResult result);
   /// What the planner remembers of tried views, as text, to be saved beside the map. Empty if it remembers nothing.
   [[nodiscard]] virtual std::string memory() const;
-  /// Goes on with a memory that belongs to this map, so that a robot that starts again from its saved map does not
-  /// look again at what it looked at in vain. Throws std::runtime_error if the text is no memory, or one of cells
-  /// of another size; nothing else tells to which map a text belongs.
+  /// Restores a text of `memory()` that belongs to this map, so that after a restart the robot does not look again
+  /// at what it looked at in vain. Throws std::runtime_error if the text is no memory, or is of cells of another
+  /// size. Otherwise the caller must ensure that the text belongs to the map.
   virtual void recall(const OccupancyMap& map, std::string_view memory);
 };
 

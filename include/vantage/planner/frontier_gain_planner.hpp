@@ -7,14 +7,15 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of FrontierGainPlanner.
+/// Number, placement and cost of the random poses of FrontierGainPlanner.
 struct FrontierGainOptions {
   std::size_t hypotheses = 100;  ///< random poses evaluated per plan, in [1, 1e6]
   /// Share of the hypotheses that stand at the viewpoint of a random target and see it, in [0, 1]. The others are
   /// drawn anywhere in the reachable space. With the paper's 0, aimed poses are tried only if no random pose sees a
   /// frontier.
   double aimed_share = 0.0;
-  /// Cost of a metre of straight distance, in frontier cells, >= 0. With the paper's 0, the gain alone decides.
+  /// Cost of one metre of straight-line distance, in frontier cells, >= 0. With the paper's 0, the gain alone
+  /// decides.
   double cost_per_m = 0.0;
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };

@@ -18,7 +18,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What FrontierVoidPlanner does beyond the paper or differently.
+/// The points in which FrontierVoidPlanner extends the paper or differs from it.
 struct FrontierVoidStrategy {
   /// The frontier cells through which a void is observed.
   FrontierShare share = FrontierShare::TouchingCells;
@@ -72,7 +72,7 @@ struct FrontierVoidStrategy {
   }
 };
 
-/// Options of FrontierVoidPlanner.
+/// All options of FrontierVoidPlanner. Settings (make_planner) set some of them by name.
 struct FrontierVoidOptions {
   VoidClusterOptions clusters = {};    ///< how void cells are clustered; its seed is replaced by that of the setup
   FrontierVoidStrategy strategy = {};  ///< refinements of the method
@@ -109,7 +109,8 @@ class FrontierVoidPlanner final : public FrontierPlanner {
 
   [[nodiscard]] std::string_view name() const override { return "frontier-void"; }
 
-  /// The intermediate results of the last plan; but for the clusters, empty if no observable frontier was left.
+  /// The intermediate results of the last plan. If no observable frontier was left, they are empty, except that
+  /// the clusters are still those of an earlier plan.
   [[nodiscard]] const VoidSearch& search() const { return search_; }
 
  private:

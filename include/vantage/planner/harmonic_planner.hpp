@@ -14,7 +14,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What HarmonicPlanner does beyond the paper or differently.
+/// The points in which HarmonicPlanner extends the paper or differs from it.
 struct HarmonicStrategy {
   /// A sink whose path is longer than that to the nearest sink by more than this waits for a later plan, metres, >=
   /// 0. So nearby frontiers are finished first, and the field covers only the cells that are nearer than its sinks.
@@ -24,10 +24,10 @@ struct HarmonicStrategy {
   bool look_early = true;
   /// With look_early: after this length of the path, metres, >= 0, any other frontier in sight is looked at, too.
   double look_spacing_m = 0.5;
-  /// For a sensor that does not see all around: before it moves on, it looks from its current place in the direction
-  /// of highest expected gain, as long as that gain is at least this volume of unknown space, m^3, >= 0. At its goal
-  /// it also takes the direction of highest gain. Infinity: one look per place, at most of the frontier. Ignored for
-  /// a map of one layer of cells.
+  /// For a sensor that does not see all around: before it moves on, it looks from its current place in the
+  /// direction of highest expected gain, as long as that gain is at least this volume of unknown space, m^3, >= 0.
+  /// At its goal it also takes the direction of highest gain. Infinity: one look per place, in the direction that
+  /// sees most targets. Ignored for a map of one layer of cells.
   double look_again_m3 = 0.1;
   /// True: takes the shortest path to the place of the view, not the streamline.
   bool shortest_way = true;
@@ -40,7 +40,7 @@ struct HarmonicStrategy {
   }
 };
 
-/// Options of HarmonicPlanner.
+/// All options of HarmonicPlanner. Settings (make_planner) set most of them by name.
 struct HarmonicOptions {
   HarmonicFieldOptions field = {};    ///< how the field is solved
   HarmonicStrategy strategy = {};     ///< refinements of the method

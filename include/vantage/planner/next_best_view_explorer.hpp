@@ -7,7 +7,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of NextBestViewExplorer.
+/// How many views NextBestViewExplorer evaluates, and how it surveys frontiers.
 struct NextBestViewExplorerOptions {
   std::size_t hypotheses = 100;       ///< views evaluated per plan, >= 1
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed

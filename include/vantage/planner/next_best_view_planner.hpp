@@ -15,9 +15,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of NextBestViewPlanner.
+/// Candidate views, thresholds and information gain of NextBestViewPlanner.
 struct NextBestViewOptions {
-  ObjectViewOptions candidates;  ///< the object, and where to look at it from
+  ObjectViewOptions candidates;  ///< the box of the object and its candidate views
   /// Minimum number of occupied cells of the object that a view must see, `h_oc` in eq. 2. Ignored while no cell of
   /// the object is occupied.
   std::size_t min_overlap_cells = 0;
@@ -30,7 +30,7 @@ struct NextBestViewOptions {
   RayGainMaker gain = nullptr;
   SensingOptions sensing = {};  ///< which of the cells that a view sees the sensor would measure (II-C)
 
-  VisibilityMethod method = VisibilityMethod::Exact;  ///< how views are evaluated
+  VisibilityMethod method = VisibilityMethod::Exact;  ///< how the cells that a view sees are counted
   int patience = TriedViewsOptions{}.patience;        ///< TriedViewsOptions::patience
 };
 

@@ -15,20 +15,20 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Options of ObjectPlanner.
+/// Candidate views of ObjectPlanner, its end condition and the cost of a view.
 struct ObjectPlannerOptions {
-  ObjectViewOptions candidates;  ///< where to look from
+  ObjectViewOptions candidates;  ///< the box of the object and its candidate views
   /// Minimum weight of the sides of the surface that a view is expected to observe first, as a share of the weight
   /// observed so far, in [0, 1).
   double min_new_share = 0.001;
-  /// What a view costs beside the path to it, in radii of the first sphere, in (0, 1e6]. The view of most weight for
-  /// its cost is taken: a small price saves path, a large one saves views.
+  /// What a view costs beside the path to it, in radii of the first sphere, in (0, 1e6]. The planner takes
+  /// the view of largest weight / (price + path length): a small price saves path, a large one saves views.
   double view_price = 4.0;
 };
 
-/// Reconstructs one object: takes a view that is expected to observe most of its surface that no view has
-/// observed yet, by the weight of sides of cells (UnseenSurface). The run ends when no admitted candidate is expected
-/// to observe enough of them.
+/// Reconstructs one object. A view counts by the weight of the sides of surface cells that it is expected to be
+/// the first to observe (UnseenSurface); the planner takes the view of most weight for its cost. The run ends when
+/// no admitted candidate reaches ObjectPlannerOptions::min_new_share.
 ///
 /// Unlike other planners, it remembers which sides of the surface were observed, which the map does not store. A new
 /// planner for an existing map looks at some sides again.

@@ -58,15 +58,15 @@ class Situation {
   /// std::invalid_argument unless `current` is finite and rigid up to 1e-3.
   void sync(const OccupancyMap& map, const Pose& current);
   /// If no target is left: the plan that ends the run, or that turns the sensor on the spot, steps aside or looks
-  /// closely at what was looked at in vain (TriedViews::looked_closely). If the robot does not move although goals
-  /// are asked for (TriedViews::is_stuck), and targets are left in refused directions alone: Blocked. None if there
-  /// are targets otherwise. Leftover and counts are those of the survey.
+  /// closely at cells that were looked at in vain (TriedViews::looked_closely). If the robot does not move
+  /// (TriedViews::is_stuck) and every target lies in a refused direction: a Blocked plan. Otherwise none. Leftover
+  /// and counts of the plan are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
   bool drop(const TargetView& view);
-  /// Stores this plan for the next `sync`. `hoped`: see TriedViews::expect. Returns false, with the targets that are
-  /// left, if the robot comes no nearer to its goal.
+  /// Stores this plan for the next `sync`; `hoped` as in TriedViews::expect. Returns false if the robot comes no
+  /// nearer to the goal: the goal then rests, and `survey()` holds the targets that are left.
   [[nodiscard]] bool remember(const Plan& plan, std::vector<VoxelIndex> hoped);
 
   /// The setup of the planner.
@@ -96,7 +96,7 @@ class Situation {
   void report(GoalResult result) { tried_.report(result); }
   /// Replaces the memory of tried views, see TriedViews::recall.
   void recall(const OccupancyMap& map, std::string_view memory) { tried_.recall(map, memory); }
-  /// The map, the sensor and its body, and what the survey found.
+  /// References to the map, the robot and the results of the survey, valid until the next `sync`.
   [[nodiscard]] SurveyedMap surveyed() const { return {map(), sensor(), platform(), reachable(), survey_, tried_}; }
   /// Casts the rays of the sensor through the map of the last `sync`. The first call after a `sync` updates it, which
   /// has a cost; later calls may come from several threads.

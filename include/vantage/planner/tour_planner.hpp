@@ -16,19 +16,19 @@ class EstimatedMotion;
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a tour is to save.
+/// The cost that a tour minimises.
 enum class TourCost : std::uint8_t {
-  Time,  ///< seconds by the motion model of the setup: the longer of moving and turning
-  Path,  ///< metres
+  Time,  ///< seconds, by a motion model: for each leg the longer of moving and turning
+  Path,  ///< path length, metres
 };
 
-/// Options of TourPlanner.
+/// Cost and size of the tours of TourPlanner.
 struct TourOptions {
-  TourCost cost = TourCost::Time;  ///< what a tour is to save
+  TourCost cost = TourCost::Time;  ///< the cost that a tour minimises
   /// Largest extent along an axis of a part of the frontier, metres, > 0. Larger clusters of frontier cells are
   /// divided.
   double site_m = 1.5;
-  std::size_t most_sites = 24;  ///< number of nearest parts that are looked at, and most views of a tour, in [1, 200]
+  std::size_t most_sites = 24;        ///< maximum number of parts (the nearest) and of views in a tour, in [1, 200]
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
@@ -41,8 +41,8 @@ struct TourOptions {
 ///     o   o     |
 ///          o    S
 ///
-/// 1. Views: from places around the nearest parts, beside the others, and from where the robot is, towards the
-///    middles of the parts; what each sees of the frontier is found by rays, for an even choice of its unknown cells.
+/// 1. Views: from places around the nearest parts, at the others, and from the current place, towards the middles
+///    of the parts. Rays find which unknown cells each view sees, for a sample of at most about 500 cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
 /// 3. Order: the order of the chosen views that minimises the average of the cost of the whole tour and the mean cost
 ///    until a cell is seen. So a view that shows little comes late, unless it lies on the path.
@@ -51,12 +51,12 @@ struct TourOptions {
 /// A sensor that sees all around needs no aim: for it 1, 2 and 4 are left out, and the tour leads over one place for
 /// each part, the nearest that sees a cell of it. It sees much in passing, so the legs behind the first count half.
 ///
-/// A leg takes the longer of moving and turning. The first leg starts from the current motion of the robot: with a
-/// motion model in the setup, the planner assumes that it follows the path of the last plan. So a robot turns back
-/// only if that saves time.
+/// With TourCost::Time, a leg takes the longer of moving and turning. With a motion model in the setup, the
+/// planner assumes that the robot follows the path of the last plan, and the first leg starts from this motion. So
+/// a robot turns back only if that saves time.
 ///
-/// On the path to the first view the sensor looks aside at parts of the frontier, where the motion model leaves time
-/// to turn there and on. So small parts are seen in passing. The robot is to pass these poses without a stop.
+/// With a motion model in the setup, the sensor also looks aside at parts of the frontier on the path to the first
+/// view, where there is time to turn there and on. The robot is to pass these poses without a stop.
 ///
 /// Half of the cells that the first view sees are its goal: those first that no later view of the tour sees, and that
 /// are in the middle of the image. Once they are known, the tour is planned again, so a moving robot need not stop.

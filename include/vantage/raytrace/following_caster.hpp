@@ -37,10 +37,10 @@ class FollowingCaster {
   [[nodiscard]] const RayCaster& caster() const { return *caster_; }
   /// The rays of the sensor, as dense as the cells of the map require. Requires a call of `follow`.
   [[nodiscard]] const ViewRays& rays() const { return *rays_; }
-  /// About a quarter of them, which tell good views apart. Requires a call of `follow`.
+  /// About a quarter of `rays()`, to rank the best views of a first ranking. Requires a call of `follow`.
   [[nodiscard]] const ViewRays& medium_rays() const { return *medium_rays_; }
-  /// About a sixteenth of them, for a first ranking of many views, or about 1,000 if that is fewer. Requires a call
-  /// of `follow`.
+  /// About a sixteenth of `rays()`, at most about 1,000, for a first ranking of many views. Requires a call of
+  /// `follow`.
   [[nodiscard]] const ViewRays& sparse_rays() const { return *sparse_rays_; }
 
  private:

@@ -32,7 +32,7 @@ struct HierarchicalCounts {
 template <class Tree, class Cast>
 [[nodiscard]] HierarchicalCounts trace_hierarchically(const Tree& tree, const Cast& cast);
 
-/// Options of HierarchicalRayTracer.
+/// Number of resolutions of HierarchicalRayTracer, and its rules for coarse cells.
 struct HierarchicalRayTracerOptions {
   /// Number of resolutions from the coarsest to the finest, in [1, 16]. The paper's start depth 14 in an octree of
   /// depth 16 is 3 levels. One level is uniform ray tracing.
@@ -56,7 +56,7 @@ class HierarchicalRayTracer {
 
   /// Applies the changes of the map since the last call.
   void update();
-  /// The ray tree.
+  /// The rays of all resolutions; level 0 is the coarsest.
   [[nodiscard]] const RayTree& tree() const { return tree_; }
   /// Counts the rays of a view that end in `object`. A coarse cell counts if it overlaps the box. Throws
   /// std::invalid_argument if a ray is not addressable.

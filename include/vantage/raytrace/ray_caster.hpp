@@ -36,8 +36,8 @@ template <OccupancyLookup Lookup>
                                     const Eigen::Vector3d& to);
 
 /// Whether nothing stands between a point and the centre of a cell: all cells of the line are free; the target
-/// itself may be in any state. World frame, metres; both ends must be addressable in `frame`. Starts at the target,
-/// because most blocked lines are blocked near it, and adds the cells asked to `operations`.
+/// itself may be in any state. World frame, metres; both ends must be addressable in `frame`. Starts at the
+/// target, because most blocked lines are blocked near it, and adds the number of tested cells to `operations`.
 template <OccupancyLookup Lookup>
 [[nodiscard]] bool in_plain_sight(const Lookup& map, const VoxelFrame& frame, const Eigen::Vector3d& from,
                                   const VoxelIndex& target, std::uint64_t& operations) {
@@ -47,7 +47,7 @@ template <OccupancyLookup Lookup>
   });
 }
 
-/// Options of RayCaster.
+/// Cell size of a RayCaster, and the rule for the state of its cells.
 struct RayCasterOptions {
   /// Cells have an edge of 2^level finest cells of the map; level in [0, 16]. This is depth 16 - level in an OctoMap.
   int level = 0;

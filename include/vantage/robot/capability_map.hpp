@@ -25,7 +25,7 @@ struct JointRange {
 /// valid, e.g. because of a self-collision.
 using ForwardKinematics = std::function<std::optional<Pose>(std::span<const double> joints)>;
 
-/// Options of a CapabilityMap.
+/// Resolution and number of samples of a CapabilityMap.
 struct CapabilityMapOptions {
   double cell_m = 0.05;  ///< edge of a position cell, metres, > 0
   /// Direction bins along each edge of each face of a cube, in [1, 32]. 4 gives 96 bins of about 20 degrees.

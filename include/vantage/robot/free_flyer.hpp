@@ -7,7 +7,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Body and motion limits of a FreeFlyer.
+/// Radius, safety margin, height limits and tilt of a FreeFlyer.
 struct FreeFlyerOptions {
   /// Radius of the body, a sphere around the sensor, metres, in [0, 1000] (0: the sensor's cell)
   double radius_m = 0.3;

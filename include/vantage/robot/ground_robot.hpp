@@ -6,7 +6,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Body of a GroundRobot.
+/// Radius and safety margin of the body of a GroundRobot.
 struct GroundRobotOptions {
   /// Radius of the body, a disc around the sensor, metres, in [0, 1000] (0: the sensor's cell)
   double radius_m = 0.3;

@@ -6,8 +6,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// How fast a robot moves, turns, scans and plans: from it follows how many seconds a path takes. Speed and
-/// acceleration are bounded as vectors. Turning has its own limits and goes on in parallel.
+/// Limits of a robot's motion and turning, its scan rate and its planning latency. They determine how many seconds
+/// a path takes. Speed and acceleration are limited as vectors; turning has its own limits and runs in parallel.
 struct MotionModel {
   double max_speed_m_s = 1.0;  ///< largest norm of the velocity, in [1e-3, 1000]
   /// Largest norm of the acceleration vector: speeding up, braking and cornering together, in [1e-3, 10000].

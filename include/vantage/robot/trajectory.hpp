@@ -12,20 +12,20 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Where a robot is and how fast it goes, in the world.
+/// Position and velocity of the sensor in the world frame.
 struct MotionState {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();    ///< of the sensor
-  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< of the sensor
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();    ///< position, metres
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< velocity, metres per second
 };
 
 /// A motion over time, in pieces of constant acceleration, from a state to rest. On straight pieces the robot speeds
 /// up and brakes. Corners are rounded by parabolas at full acceleration, entered and left at the same speed.
 class Trajectory {
  public:
-  /// Whether the robot may go straight from one position to the other.
+  /// Whether the robot may move straight from one position to the other (world, metres).
   using Admits = std::function<bool(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m)>;
 
-  /// Stays where it is.
+  /// A trajectory of duration 0 that rests at `position_m` (world, metres).
   explicit Trajectory(const Eigen::Vector3d& position_m) : end_m_(position_m) {}
 
   /// From `start` to rest at the last of `corners` (world, metres; at least one), through the corners between. These
@@ -43,14 +43,15 @@ class Trajectory {
   /// This trajectory until `time_s`, then straight on while braking to rest.
   [[nodiscard]] Trajectory braked(double time_s, const MotionModel& motion) const;
 
-  /// Time from the start to rest.
+  /// Time from the start to rest, seconds.
   [[nodiscard]] double duration_s() const { return duration_s_; }
-  /// The state at a time, >= 0; at rest at the end after it.
+  /// The state `time_s` seconds (>= 0) after the start. After `duration_s` it is at rest at the end.
   [[nodiscard]] MotionState at(double time_s) const;
-  /// Time at which it is nearest to each of the corners that it was made through; 0 for those left out.
+  /// For each corner given to `through`: the time, seconds, at which the trajectory is nearest to it; 0 for a
+  /// corner that was left out.
   [[nodiscard]] const std::vector<double>& passes_at_s() const { return passes_at_s_; }
-  /// Points from `time_s` on to the end, world, metres. They are so close that the chords between them are within 0.1
-  /// mm of the curve.
+  /// Points from `time_s` (seconds) to the end, world, metres, so close that the chords between them are within
+  /// 0.1 mm of the curve.
   [[nodiscard]] std::vector<Eigen::Vector3d> points_from(double time_s) const;
 
  private:
@@ -63,7 +64,7 @@ class Trajectory {
   };
   class Search;
   void add(double lasts_s, const MotionState& from, const Eigen::Vector3d& acceleration_m_s2, bool is_straight);
-  // Straight on from a position, within the limits, and as fast as they allow.
+  // Adds a straight motion from a position, as fast as the limits allow.
   void add_straight(const Eigen::Vector3d& from_m, const Eigen::Vector3d& direction, double length_m,
                     double speed_m_s, double last_speed_m_s, const MotionModel& motion);
 

@@ -7,8 +7,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// An orientation that turns towards others within a MotionModel's limits, by the smaller angle, independently of the
-/// position.
+/// The orientation of a sensor while it turns towards given orientations, by the smaller angle and within the
+/// limits of a MotionModel. Turning does not depend on the position.
 class Turning {
  public:
   /// Starts at rest with this orientation (world_from_sensor).
@@ -19,7 +19,7 @@ class Turning {
   /// step if the angular acceleration is not limited, and four steps if it is.
   void advance(const Eigen::Matrix3d& target, double step_s, const MotionModel& motion);
 
-  /// world_from_sensor.
+  /// The current orientation (rotation of world_from_sensor).
   [[nodiscard]] Eigen::Matrix3d orientation() const;
   /// Angle between the current orientation and another, radians.
   [[nodiscard]] double angle_to_rad(const Eigen::Matrix3d& other) const;

@@ -11,9 +11,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A path between two views of an object, as poses joined by admitted motions. Tries the straight motion first, then
-/// an arc around `middle` (metres, world), because both are quickly checked, then the platform's own path search.
-/// None if all fail.
+/// A path between two views of an object, as poses (world_from_sensor) joined by admitted motions. Tries the
+/// straight motion first, then an arc around `middle` (metres, world), because both are quickly checked, then the
+/// platform's own path search. None if all fail.
 [[nodiscard]] std::optional<std::vector<Pose>> way_around(const OccupancyMap& map, const Platform& platform,
                                                           const Pose& from, const Pose& to,
                                                           const Eigen::Vector3d& middle);

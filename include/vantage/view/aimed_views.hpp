@@ -19,7 +19,7 @@ struct CellSide {
   VoxelIndex normal;  ///< step from the cell across a face, an edge or a corner, one of kAllNeighbours
 };
 
-/// Options of aimed_views.
+/// Number and distances of the views that aimed_views draws.
 struct AimedViewOptions {
   std::size_t count = 0;        ///< number of random draws of a face; each draw gives at most one view
   double min_distance_m = 0.5;  ///< smallest distance from a view to its face, metres, > 0

@@ -15,7 +15,7 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Where to look at an object from.
+/// The box of an object and its candidate views.
 struct ObjectViewOptions {
   Box object;  ///< box of the object, metres, world, min < max
   /// Radii of the candidate spheres around the centre of the object, metres, each > 0; none: one `fitting_radius_m`.

@@ -9,14 +9,14 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// A map and what a survey found in it. Borrows all of it.
+/// References to a map, the robot and the results of a survey. All must outlive this struct.
 struct SurveyedMap {
-  const OccupancyMap& map;          ///< what was surveyed
+  const OccupancyMap& map;          ///< the surveyed map
   const RangeSensor& sensor;        ///< the sensor that is to see the targets
   const Platform& platform;         ///< the body that carries the sensor
-  const ReachableSpace& reachable;  ///< the cells to which it can bring the sensor
-  const FrontierSurvey& survey;     ///< the targets
-  const TriedViews& tried;          ///< views of them that were tried
+  const ReachableSpace& reachable;  ///< the cells to which the body can bring the sensor
+  const FrontierSurvey& survey;     ///< the result of the survey, with the targets
+  const TriedViews& tried;          ///< memory of the views that were tried
 };
 
 /// A view and the cells that it is to resolve.

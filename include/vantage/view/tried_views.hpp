@@ -98,9 +98,10 @@ class TriedViews {
   /// file. Throws std::runtime_error, which names the line, if the text is no such memory or is of cells of another
   /// size; the memory is then unchanged.
   void recall(const OccupancyMap& map, std::string_view text);
-  /// Ends the rest of all places that are not given up. Returns whether there were any.
+  /// Ends the rest of every place, except those that are given up (places_given_up). Returns whether any rested.
   bool try_resting_again();
-  /// No place rests for more than 8 further plans. For a plan that is no Move: a host that waits is asked again.
+  /// Limits the rest of every place to 8 further plans. Called before a plan that is no Move, so that a host that
+  /// waits and plans again soon gets goals again.
   void end_run();
 
   // --- queries
@@ -111,17 +112,17 @@ class TriedViews {
   }
   /// Whether there is any evidence about this unknown cell.
   [[nodiscard]] bool tried(const VoxelIndex& unknown) const { return looks_at(unknown) != nullptr; }
-  /// Whether it was looked at in vain from this place or from one that does not differ, or missed from this place.
+  /// Whether the cell was looked at in vain from this place or one that does not differ, or missed from here.
   [[nodiscard]] bool tried_from(const VoxelIndex& unknown, const VoxelIndex& place) const;
   /// Whether a view from this place should not hope for the cell: `gave_up` or `tried_from`, or hoped for in vain
   /// from this place or from 2 * `patience` places.
   [[nodiscard]] bool hoped_in_vain(const VoxelIndex& unknown, const VoxelIndex& place) const;
   /// Whether the evidence suffices to give the cell up.
   [[nodiscard]] bool gave_up(const VoxelIndex& unknown) const;
-  /// Whether the evidence suffices to end a run, with lines that are still clear in this map.
+  /// Whether the evidence suffices to end a run: the stricter rule above, for lines that are clear in this map.
   [[nodiscard]] bool looked_closely(const OccupancyMap& map, const VoxelIndex& unknown) const;
-  /// Whether a look at it along a line that is still clear was taken from this place or one that touches it, or it
-  /// was missed from this place.
+  /// Whether a look at the cell, along a line that is clear in this map, was taken from this place or one that
+  /// touches it, or the cell was missed from this place.
   [[nodiscard]] bool looked_from_beside(const OccupancyMap& map, const VoxelIndex& unknown,
                                         const VoxelIndex& place) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.

@@ -15,7 +15,8 @@ namespace VANTAGE_EXPORT vantage {
 
 /// Assumptions about the content of unknown cells.
 struct UnknownSightOptions {
-  /// Probability that a wanted cell stops a ray, in (0, 1]. With 1, only the first wanted cell of each ray is seen.
+  /// Probability that a wanted cell (see UnknownSight) stops a ray, in (0, 1]. With 1, only the first wanted cell
+  /// of each ray is seen.
   double opaque_share = 1.0;
   /// Probability that a wanted cell with an occupied face neighbour stops a ray, in (0, 1]: the surface probably
   /// continues there.
@@ -26,8 +27,8 @@ struct UnknownSightOptions {
 
 /// A cell and the probability that a view observes it.
 struct SightedCell {
-  VoxelIndex cell;      ///< a wanted cell
-  double chance = 0.0;  ///< probability, in (0, 1]
+  VoxelIndex cell;      ///< one of the wanted cells of UnknownSight
+  double chance = 0.0;  ///< probability that the view observes the cell, in (0, 1]
 };
 
 /// Predicts which unknown cells a view will observe, where rays may pass beyond the first unknown cell.

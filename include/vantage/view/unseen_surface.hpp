@@ -63,7 +63,7 @@ class UnseenSurface {
   [[nodiscard]] std::size_t looked_at() const;
   /// The sum of the weights of sides.
   [[nodiscard]] static std::size_t weight_of(std::span<const Side> sides);
-  /// Shows the map together with the assumptions about unknown cells.
+  /// Casts rays through the map together with the assumptions about unknown cells.
   [[nodiscard]] const RayCaster& caster() const { return caster_; }
   /// The cell of a side.
   [[nodiscard]] VoxelIndex cell_of(Side side) const { return looked_.cell_at(side / kAllNeighbours.size()); }

@@ -26,14 +26,16 @@ struct VoidSampling {
 /// Candidate views of voids. All of them are admitted by the platform. (Dornhege & Kleiner 2011, IV-C.)
 class VoidViews {
  public:
-  /// Borrows both. Adds the number of cells visited by rays to `operations`, also later.
+  /// What `surveyed` refers to, and `operations`, must outlive the object. All functions add the number of cells
+  /// that their rays visit to `operations`.
   VoidViews(const SurveyedMap& surveyed, const VoidClusters& voids, std::uint64_t& operations);
 
-  /// Draws orientations at `places`, those of the highest of `values` first, until there are `count` views.
+  /// Draws orientations at `places` (reachable cells), in descending order of `values` (one per place), until
+  /// there are `count` views or no place is left.
   [[nodiscard]] std::vector<Pose> draw(std::span<const VoxelIndex> places, std::span<const double> values,
                                        std::span<const FrontierVoid> voids, const VoidSampling& sampling,
                                        std::size_t count, std::uint64_t seed) const;
-  /// Views of at most `most` targets at voids, evenly distributed over the survey.
+  /// Views of at most `most` (> 0) targets whose unknown cell is in a void, evenly spread over the survey.
   [[nodiscard]] std::vector<Pose> of_targets(std::size_t most) const;
 
  private:
