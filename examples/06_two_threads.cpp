@@ -46,7 +46,6 @@ int main() {
                 .pose = vantage::pose_looking({0.9, 0.9, 1.0}, 0.0)};
   shared.map.assume_free(robot->body_box(shared.pose));
   const std::jthread mapping(map_scans, std::ref(shared), std::ref(camera));  // stopped and joined at the end
-
   std::unique_lock guard(shared.lock);
   for (;;) {
     shared.scanned.wait(guard, [&] { return shared.scans > 0 && shared.last_scan.isApprox(shared.pose); });
