@@ -24,9 +24,9 @@ struct ObjectPeerSetup {
   std::shared_ptr<const Platform> platform;  ///< the body that carries the sensor
   const ObjectScene* scene = nullptr;        ///< the scene; must outlive the peer
   const Truth* truth = nullptr;              ///< ground truth; must outlive the peer; views are admitted in it
-  const SeenSurface* surface = nullptr;  ///< what has been seen; must outlive the peer; only `oracle-greedy` reads it
-  std::size_t views = 8;                 ///< number of views of `evenly-spaced`, > 0
-  std::uint64_t seed = 1;                ///< seed of everything random: the turn of the spiral, the random order
+  const SeenSurface* surface = nullptr;      ///< what has been seen; must outlive the peer; for `oracle-greedy`
+  std::size_t views = 8;                     ///< number of views of `evenly-spaced`, > 0
+  std::uint64_t seed = 1;                    ///< seed of everything random: the turn of the spiral, the random order
 };
 
 /// A planner to compare with. It takes views from the shells of a scene in an order that does not depend on the

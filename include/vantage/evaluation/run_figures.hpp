@@ -31,7 +31,7 @@ struct RunFigures {
   double path_m = 0.0;                  ///< path of the sensor, metres
   double turned_deg = 0.0;              ///< total turn of the sensor, degrees
   std::optional<double> duration_s;     ///< RunRecord::duration_s
-  std::optional<double> covered;        ///< share at the end, in [0, 1]: RunRecord::seen_coverage, or else coverage
+  std::optional<double> covered;        ///< share at the end, in [0, 1]: RunRecord::seen_coverage, else coverage
   std::size_t collisions = 0;           ///< motions in which the body touched a true surface
   double computing_s = 0.0;             ///< time of inserting and planning, seconds
   std::vector<double> plan_ms;          ///< time of each plan, milliseconds

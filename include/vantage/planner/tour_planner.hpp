@@ -28,7 +28,7 @@ struct TourOptions {
   /// Largest extent along an axis of a part of the frontier, metres, > 0. Larger clusters of frontier cells are
   /// divided.
   double site_m = 1.5;
-  std::size_t most_sites = 24;        ///< maximum number of parts (the nearest) and of views in a tour, in [1, 200]
+  std::size_t most_sites = 24;        ///< most parts of the frontier (the nearest) and most views, in [1, 200]
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
