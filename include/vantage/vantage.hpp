@@ -57,6 +57,7 @@
 #include <vantage/planner/frontier_planner.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/planner/looks.hpp>
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/planner/nearest_frontier_planner.hpp>
 #include <vantage/planner/next_best_view_explorer.hpp>

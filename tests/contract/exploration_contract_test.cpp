@@ -84,7 +84,7 @@ struct Scene {
             std::array{0.1, 0.2, 0.4}[kind / 15 % 3], kind / 45 == 1};
   }
   /// The same with a depth camera or a lidar as they are.
-  static Scene with_a_real_sensor(std::uint32_t number) {
+  static Scene with_a_usual_sensor(std::uint32_t number) {
     Scene scene = numbered(number);
     scene.sensor_kind = 1 + number % 2;
     scene.reports_no_return = false;
@@ -113,7 +113,7 @@ struct Scene {
     scene.inset = host == Host::Inexact ? 0.25 : 0.0;
     return scene;
   }
-  /// Ideal sensors look all around, ahead, or all around near the horizon; 1 and 2 have real counterparts: a depth
+  /// Ideal sensors look all around, ahead, or all around near the horizon; 1 and 2 also as they usually are: a depth
   /// camera and a lidar that see nothing near them and do not report rays without return.
   [[nodiscard]] RangeSensor sensor() const {
     constexpr double kPi = std::numbers::pi;
@@ -499,16 +499,16 @@ TEST_P(ExplorationContract, Holds) {
   EXPECT_EQ(ended, seeds);
 }
 
-class ExplorationContractOfRealSensors : public ExplorationContract {};
+class ExplorationContractOfUsualSensors : public ExplorationContract {};
 
-TEST_P(ExplorationContractOfRealSensors, Holds) {
+TEST_P(ExplorationContractOfUsualSensors, Holds) {
   const auto& [planner, host] = GetParam();
   const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
   const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
   std::size_t ended = 0;
   for (std::uint32_t i = 0; i < seeds; ++i) {
     const std::uint32_t number = first + i * (kHosts + 2) + static_cast<std::uint32_t>(host);
-    ended += expect_contract(planner, host, Scene::with_a_real_sensor(number).met_by(host)) ? 1U : 0U;
+    ended += expect_contract(planner, host, Scene::with_a_usual_sensor(number).met_by(host)) ? 1U : 0U;
   }
   EXPECT_EQ(ended, seeds);
 }
@@ -643,7 +643,7 @@ std::string name_of_pair(const ::testing::TestParamInfo<std::tuple<std::string, 
 INSTANTIATE_TEST_SUITE_P(Every, ExplorationContract,
                          ::testing::Combine(::testing::ValuesIn(test::every_planner()), ::testing::ValuesIn(hosts())),
                          name_of_pair);
-INSTANTIATE_TEST_SUITE_P(Every, ExplorationContractOfRealSensors,
+INSTANTIATE_TEST_SUITE_P(Every, ExplorationContractOfUsualSensors,
                          ::testing::Combine(::testing::ValuesIn(test::every_planner()), ::testing::ValuesIn(hosts())),
                          name_of_pair);
 INSTANTIATE_TEST_SUITE_P(Every, ExplorationContractInRealBuildings,

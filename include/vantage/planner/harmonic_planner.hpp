@@ -76,11 +76,6 @@ class HarmonicPlanner final : public FrontierPlanner {
   [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
   [[nodiscard]] std::vector<VoxelIndex> way_down(const NearGoals& near, PlanStatistics& statistics);
   [[nodiscard]] NearGoals sinks() const;
-  [[nodiscard]] bool can_look(const FrontierTarget& target, const VoxelIndex& from, std::uint64_t& operations) const;
-  [[nodiscard]] FrontierTarget first_look(const std::vector<VoxelIndex>& way, std::uint64_t& operations) const;
-  [[nodiscard]] std::optional<TargetView> look_again(std::uint64_t& operations) const;
-  [[nodiscard]] TargetView look_at(const FrontierTarget& wanted, std::uint64_t& operations) const;
-  [[nodiscard]] bool chooses_directions() const;
 
   HarmonicOptions options_;
   std::optional<HarmonicField> field_;

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <fstream>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vantage/planner/make_planner.hpp>
@@ -59,6 +62,61 @@ TEST(PlannerSettings, EverySettingHasANameAndAMeaningAndItsDefaultIsTaken) {
   }
   EXPECT_GE(settings, 30U);
   EXPECT_THROW((void)planner_settings("best"), std::invalid_argument);
+}
+
+// The parts of a text between separators, without blanks and back quotes around them.
+std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text + separator);
+  for (std::string part; std::getline(in, part, separator);) {
+    const std::size_t first = part.find_first_not_of(" `");
+    const std::size_t last = part.find_last_not_of(" `");
+    parts.push_back(first == std::string::npos ? "" : part.substr(first, last + 1 - first));
+  }
+  return parts;
+}
+
+// The defaults by setting that docs/planners.md gives below the heading of a planner.
+std::map<std::string, std::string> documented_settings(const std::string& planner) {
+  std::map<std::string, std::string> settings;
+  std::ifstream page(VANTAGE_SOURCE_DIR "/docs/planners.md");
+  std::string heading;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("#")) {
+      heading = line;
+    } else if (heading == "### " + planner && line.starts_with("| `")) {
+      const std::vector<std::string> columns = parts_of(line, '|');
+      const std::vector<std::string> names = parts_of(columns[1], ',');
+      const std::vector<std::string> defaults = parts_of(columns[2], ',');
+      EXPECT_EQ(names.size(), defaults.size()) << line;
+      for (std::size_t i = 0; i < std::min(names.size(), defaults.size()); ++i) {
+        std::string name = names[i];
+        std::erase(name, '`');
+        settings[name] = defaults[i];
+      }
+    }
+  }
+  return settings;
+}
+
+TEST(PlannerSettings, ThePageOfPlannersHasAllOfThemWithTheirDefaults) {
+  for (const std::string_view planner : planner_names()) {
+    const std::map<std::string, std::string> documented = documented_settings(std::string(planner));
+    std::size_t settings = 0;
+    for (const Setting& setting : planner_settings(planner)) {
+      if (setting.name == "patience") {  // common to all
+        continue;
+      }
+      ++settings;
+      const auto found = documented.find(setting.name);
+      ASSERT_NE(found, documented.end()) << planner << " " << setting.name;
+      const bool is_same = is_number(setting.default_value) && is_number(found->second)
+                               ? std::stod(setting.default_value) == std::stod(found->second)
+                               : setting.name == "mode" || setting.default_value == found->second;
+      EXPECT_TRUE(is_same) << planner << " " << setting.name << ": " << found->second;
+    }
+    EXPECT_EQ(documented.size(), settings) << planner;
+  }
 }
 
 TEST(PlannerSettings, TextThatIsNoneIsRefusedByName) {

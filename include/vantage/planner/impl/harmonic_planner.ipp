@@ -10,10 +10,10 @@
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/harmonic_planner.hpp>
+#include <vantage/planner/looks.hpp>
 #include <vantage/robot/grid_path.hpp>
 
 #include <vantage/planner/impl/planner_tables.hpp>
-#include <vantage/view/impl/look_directions.hpp>
 
 namespace vantage {
 namespace detail {
@@ -68,7 +68,7 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   const HarmonicStrategy& strategy = options_.strategy;
   std::uint64_t& operations = plan.statistics.ray_operations;
   std::vector<VoxelIndex> way{*situation().reachable().start()};
-  if (std::optional<TargetView> look = look_again(operations)) {
+  if (std::optional<TargetView> look = look_around(situation(), strategy.look_again_m3, operations)) {
     return ChosenView{.view = std::move(*look), .way = std::move(way)};
   }
   std::optional<FrontierTarget> wanted = survey.target_seen_from(way.back());
@@ -82,9 +82,12 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
         way = situation().way_to(way.back());
       }
     }
-    wanted = strategy.look_early ? first_look(way, operations) : survey.target_seen_from(way.back());
+    wanted = strategy.look_early ? look_early(situation(), way, strategy.look_spacing_m, operations)
+                                 : survey.target_seen_from(way.back());
   }
-  ChosenView chosen{look_at(*wanted, operations)};
+  const bool looks_around = !std::isinf(strategy.look_again_m3);
+  ChosenView chosen{looks_around ? best_look_at(situation(), *wanted, operations)
+                                 : view_of_target(situation().surveyed(), *wanted, operations)};
   if (field_ && field_->followed && !strategy.shortest_way) {
     const OccupancyMap& map = situation().map();
     detail::cut_at(field_->streamline, map.frame(), wanted->viewpoint);
@@ -96,82 +99,6 @@ VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
   }
   chosen.way = situation().way_to(wanted->viewpoint);
   return chosen;
-}
-
-VANTAGE_INLINE bool HarmonicPlanner::chooses_directions() const {
-  return !std::isinf(options_.strategy.look_again_m3) &&
-         detail::LookDirections::choosable(situation().map(), situation().sensor());
-}
-
-// A view from the current place, if its expected gain is at least look_again_m3.
-VANTAGE_INLINE std::optional<TargetView> HarmonicPlanner::look_again(std::uint64_t& operations) const {
-  const OccupancyMap& map = situation().map();
-  const Eigen::Vector3d position = situation().current().translation();
-  const VoxelIndex here = map.frame().cell_of(position);
-  if (!chooses_directions() || here != *situation().reachable().start() || situation().tried().rests(here)) {
-    return std::nullopt;
-  }
-  std::optional<detail::Look> look = detail::LookDirections(situation().surveyed(), position, operations)
-                                         .best(situation().looking(), situation().setup().threads);
-  const double cell_m3 = std::pow(map.resolution_m(), 3);
-  return look && look->cells * cell_m3 >= options_.strategy.look_again_m3
-             ? std::optional<TargetView>(std::move(look->seen))
-             : std::nullopt;
-}
-
-// The view at the end of the path.
-VANTAGE_INLINE TargetView HarmonicPlanner::look_at(const FrontierTarget& wanted, std::uint64_t& operations) const {
-  if (chooses_directions()) {
-    const Eigen::Vector3d position = situation().reachable().position_in(wanted.viewpoint);
-    if (std::optional<detail::Look> look =
-            detail::LookDirections(situation().surveyed(), position, operations)
-                .best(situation().looking(), situation().setup().threads, wanted.unknown)) {
-      return std::move(look->seen);
-    }
-  }
-  return view_of_target(situation().surveyed(), wanted, operations);
-}
-
-// Whether `target` can be observed from the centre of `from`: the rule of FrontierSurvey, within the resolving range.
-VANTAGE_INLINE bool HarmonicPlanner::can_look(const FrontierTarget& target, const VoxelIndex& from,
-                                              std::uint64_t& operations) const {
-  if (from == target.viewpoint) {
-    return true;
-  }
-  const OccupancyMap& map = situation().map();
-  const RangeSensor& sensor = situation().sensor();
-  const Eigen::Vector3d position = situation().reachable().position_in(from);
-  const Eigen::Vector3d line = map.frame().centre_of(target.unknown) - position;
-  return line.norm() <= sensor.resolving_range_m(map.resolution_m()) &&
-         !situation().tried().tried_from(target.unknown, from) && !situation().tried().rests(from) &&
-         sees(map, sensor, situation().platform().facing(position, line), target.unknown, operations);
-}
-
-// The first cell on the path that sees the target frontier or, after look_spacing_m, any other target.
-VANTAGE_INLINE FrontierTarget HarmonicPlanner::first_look(const std::vector<VoxelIndex>& way,
-                                                          std::uint64_t& operations) const {
-  const FrontierSurvey& survey = situation().survey();
-  const VoxelFrame& frame = situation().map().frame();
-  const auto looked_at_from = [](FrontierTarget target, const VoxelIndex& cell) {
-    target.viewpoint = cell;
-    return target;
-  };
-  const FrontierTarget wanted = *survey.target_seen_from(way.back());
-  double gone_m = 0.0;
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    gone_m += i == 0 ? 0.0 : (frame.centre_of(way[i]) - frame.centre_of(way[i - 1])).norm();
-    const auto in_sight = [&](const FrontierTarget& target) { return can_look(target, way[i], operations); };
-    if (in_sight(wanted)) {
-      return looked_at_from(wanted, way[i]);
-    }
-    if (gone_m >= options_.strategy.look_spacing_m) {
-      const auto other = std::find_if(survey.targets.begin(), survey.targets.end(), in_sight);
-      if (other != survey.targets.end()) {
-        return looked_at_from(*other, way[i]);
-      }
-    }
-  }
-  return wanted;
 }
 
 // The sinks and the domain of the field: all viewpoints and the reachable space, or the viewpoints within detour_m of
