@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/view/tried_views.hpp>
 #include <vector>
 
