@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Properties that every planner must have with its default settings, over buildings with moving objects and windows
-// of real ones, imperfect hosts, ideal and real sensors, cell sizes, 3D and 2D. VANTAGE_CONTRACT_SEEDS: number of worlds per planner
-// and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
+// of real ones, imperfect hosts, ideal and real sensors, cell sizes, 3D and 2D. VANTAGE_CONTRACT_SEEDS: number of
+// worlds per planner and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -121,9 +121,10 @@ struct Scene {
     const double near_m = reports_no_return ? 0.0 : 2.0 * cell_m;
     const auto rows = [&](std::size_t count) { return flat ? std::size_t{1} : count; };
     RangeSensor sensor =
-        sensor_kind == 0   ? RangeSensor::spherical(180, rows(90), 2 * kPi, tall * kPi, near_m, 15.0 * cell_m)
-        : sensor_kind == 1 ? RangeSensor::pinhole(96, rows(72), 70.0 * kPi / 180.0, tall * 0.95, near_m, 25.0 * cell_m)
-                           : RangeSensor::spherical(240, rows(16), 2 * kPi, tall * 0.52, near_m, 25.0 * cell_m);
+        sensor_kind == 0 ? RangeSensor::spherical(180, rows(90), 2 * kPi, tall * kPi, near_m, 15.0 * cell_m)
+        : sensor_kind == 1
+            ? RangeSensor::pinhole(96, rows(72), 70.0 * kPi / 180.0, tall * 0.95, near_m, 25.0 * cell_m)
+            : RangeSensor::spherical(240, rows(16), 2 * kPi, tall * 0.52, near_m, 25.0 * cell_m);
     sensor.reports_no_return = reports_no_return;
     return sensor;
   }
@@ -141,8 +142,8 @@ std::ostream& operator<<(std::ostream& out, const Scene& scene) {
              << (scene.real != nullptr ? scene.real->name
                                        : "building " + std::to_string(static_cast<int>(scene.building)))
              << ", sensor " << scene.sensor_kind << (scene.reports_no_return ? "" : " without no-return")
-             << ", cells of " << scene.cell_m << " m, body of "
-             << scene.body_cells << " cells, " << (scene.flat ? "plane" : "space") << ")";
+             << ", cells of " << scene.cell_m << " m, body of " << scene.body_cells << " cells, "
+             << (scene.flat ? "plane" : "space") << ")";
 }
 
 Pose along(const std::vector<Pose>& path, double way_m) {

@@ -19,8 +19,9 @@
 namespace vantage {
 namespace detail {
 
-// Cells that one survey visits at most, in about a second, if the sampled rays find no target.
-inline constexpr std::uint64_t kMostOperations = 100'000'000;
+// Cells that one survey visits at most, in about ten seconds, if the sampled rays find no target. A house of 10 m in
+// cells of 0.1 m needs a tenth of it.
+inline constexpr std::uint64_t kMostOperations = 1'000'000'000;
 // The limit for cells that can only be seen in part, or only past others: a look makes little of them known.
 inline constexpr std::uint64_t kMostOperationsForParts = 10'000'000;
 
