@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <vantage/map/octomap_bridge.hpp>
 #include <vantage/report/report_html.hpp>
+#include <vantage/vision/depth_picture.hpp>
 #include <vantage/vision/floor_plan.hpp>
+#include <vantage/vision/read_picture.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>
 #include "apps/run_files.hpp"
@@ -46,7 +48,8 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
     } catch (const std::runtime_error&) {  // a sheet without colours is still useful
     }
   }
-  pictures.push_back(draw_depth(reading.depth, recording.camera().min_range_m, recording.camera().trusted_range_m()));
+  pictures.push_back(draw_depth(reading.depth.z_m, reading.depth.width, recording.camera().min_range_m,
+                                recording.camera().trusted_range_m()));
   const Pose& pose = record.run.views.back().pose;
   for (const TimedPlan& timed : frame.plans) {
     FloorPlanContent content = journey(record.run);

@@ -3,11 +3,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vantage/vision/depth_image.hpp>
 
 #include <vantage/settings/impl/option_rule.hpp>
-#include "vision/canvas.hpp"
 #include "vision/image_file.hpp"
 
 namespace vantage {
@@ -35,20 +33,6 @@ DepthImage read_depth_png(const std::filesystem::path& file, const DepthEncoding
     }
   }
   return depth;
-}
-
-Picture draw_depth(const DepthImage& depth, double near_m, double far_m) {
-  if (!(near_m < far_m) || depth.z_m.empty() || depth.z_m.size() != depth.width * depth.height) {
-    throw std::invalid_argument("draw_depth: the image must have pixels, and near_m must be below far_m");
-  }
-  Picture picture{depth.width, depth.height, {}};
-  picture.rgb.reserve(3 * depth.z_m.size());
-  for (const float z : depth.z_m) {
-    const double share = std::clamp((z - near_m) / (far_m - near_m), 0.0, 1.0);
-    const drawing::Colour colour = std::isfinite(z) ? drawing::level_colour(1.0 - share) : drawing::kUnknownSpace;
-    picture.rgb.insert(picture.rgb.end(), {colour.red, colour.green, colour.blue});
-  }
-  return picture;
 }
 
 }  // namespace vantage

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <vantage/compiler.hpp>
-#include <vantage/vision/picture.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -34,9 +33,5 @@ struct DepthEncoding {
 /// std::runtime_error, with the file and the reason, if the file is missing, not a PNG, truncated, damaged, or has
 /// another format.
 [[nodiscard]] DepthImage read_depth_png(const std::filesystem::path& file, const DepthEncoding& encoding = {});
-
-/// Renders a depth image in colours: near is light, far is dark, and pixels without a measurement are grey. Depths
-/// are clamped to [near_m, far_m]. Throws std::invalid_argument unless near_m < far_m and the image has pixels.
-[[nodiscard]] Picture draw_depth(const DepthImage& depth, double near_m, double far_m);
 
 }  // namespace vantage

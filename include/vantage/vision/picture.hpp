@@ -28,8 +28,4 @@ void write_png(const Picture& picture, const std::filesystem::path& file);
 /// Places pictures below each other, each scaled to `width` columns. Errors as side_by_side.
 [[nodiscard]] Picture below_each_other(std::span<const Picture> pictures, std::size_t width);
 
-/// Reads an image file (PNG, JPEG or PNM) as a colour picture. Throws std::runtime_error with the file and the
-/// reason.
-[[nodiscard]] Picture read_picture(const std::filesystem::path& file);
-
 }  // namespace vantage

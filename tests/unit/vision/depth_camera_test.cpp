@@ -208,9 +208,6 @@ TEST(DepthImage, ComesBackFromItsFile) {
   EXPECT_FLOAT_EQ(read_depth_png(folder / "depth.png", {.units_per_m = 5000.0}).at(2, 0), 0.2F);
   // 0x2001 rotated back by 13 bits: 0x0009.
   EXPECT_FLOAT_EQ(read_depth_png(folder / "depth.png", {.rotated_bits = 13}).at(2, 1), 0.009F);
-  const Picture picture = draw_depth(depth, 0.0, 2.0);
-  EXPECT_EQ(picture.rgb.size(), 18U);
-  EXPECT_THROW((void)draw_depth(depth, 2.0, 2.0), std::invalid_argument);
 }
 
 TEST(DepthImage, SaysWhatIsWrongWithAFile) {

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+#include <vantage/vision/read_picture.hpp>
 #include <vantage/vision/recording.hpp>
 #include <vector>
 
