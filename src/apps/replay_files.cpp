@@ -4,9 +4,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/picture/depth_picture.hpp>
+#include <vantage/picture/floor_plan.hpp>
 #include <vantage/report/report_html.hpp>
-#include <vantage/vision/depth_picture.hpp>
-#include <vantage/vision/floor_plan.hpp>
 #include <vantage/vision/read_picture.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>

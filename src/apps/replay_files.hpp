@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 #include <vantage/vision/recording.hpp>
 #include <vector>
 

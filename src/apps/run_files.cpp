@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <string>
 #include <vantage/map/octomap_bridge.hpp>
+#include <vantage/picture/floor_plan.hpp>
+#include <vantage/picture/void_picture.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
 #include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
-#include <vantage/vision/floor_plan.hpp>
-#include <vantage/vision/void_picture.hpp>
 #include <vector>
 
 #include <vantage/map/impl/whole_file.hpp>

@@ -8,10 +8,10 @@
 #include <string>
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
+#include <vantage/picture/picture.hpp>
 #include <vantage/planner/exploration_planner.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/report/run_record.hpp>
-#include <vantage/vision/picture.hpp>
 #include <vector>
 
 namespace vantage::apps {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 #include <vantage/compiler.hpp>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 
 namespace VANTAGE_EXPORT vantage {
 

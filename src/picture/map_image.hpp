@@ -5,7 +5,7 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
-namespace vantage::drawing {
+namespace vantage::detail {
 
 /// The cells shown in a picture of `map`: those centred in `extent`, or all known cells. Throws std::invalid_argument
 /// if there are none.
@@ -15,4 +15,4 @@ namespace vantage::drawing {
 /// unknown and occupied by their shares. In very large maps a pixel covers several columns.
 [[nodiscard]] cv::Mat map_from_above(const OccupancyMap& map, const VoxelBox& cells);
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "vision/map_sheet.hpp"
+#include "picture/map_sheet.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "vision/axis_ticks.hpp"
+#include "picture/axis_ticks.hpp"
 
-namespace vantage::drawing {
+namespace vantage::detail {
 namespace {
 
 constexpr double kMapSide = 880.0;    // pixels of the longer side of the map
@@ -125,4 +125,4 @@ void draw_end(Canvas& canvas, cv::Point2d at) {
   canvas.text({at.x, at.y + 5.0}, "E", 10.0, kPaper, Align::Centre, true);
 }
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

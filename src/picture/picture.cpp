@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vision/canvas.hpp"
+#include "picture/canvas.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace vantage::drawing {
+namespace vantage::detail {
 namespace {
 
 constexpr int kFine = 3;   // supersampling: resolution of the sheet relative to the picture
@@ -145,4 +145,4 @@ Picture Canvas::finish() const {
   return picture;
 }
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

@@ -6,9 +6,9 @@
 #include <string>
 #include <vantage/geometry/box.hpp>
 
-#include "vision/canvas.hpp"
+#include "picture/canvas.hpp"
 
-namespace vantage::drawing {
+namespace vantage::detail {
 
 /// A page with a map of the world's x-y plane, a title above, axes in metres, and a legend on the right.
 class MapSheet {
@@ -46,4 +46,4 @@ class MapSheet {
 void draw_start(Canvas& canvas, cv::Point2d at);
 void draw_end(Canvas& canvas, cv::Point2d at);
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

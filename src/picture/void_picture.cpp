@@ -5,18 +5,18 @@
 #include <stdexcept>
 #include <utility>
 #include <vantage/geometry/voxel_grid.hpp>
-#include <vantage/vision/void_picture.hpp>
+#include <vantage/picture/void_picture.hpp>
 #include <vector>
 
-#include "vision/map_image.hpp"
-#include "vision/map_sheet.hpp"
+#include "picture/map_image.hpp"
+#include "picture/map_sheet.hpp"
 
 namespace vantage {
 namespace {
 
-using drawing::Canvas;
-using drawing::Colour;
-using drawing::MapSheet;
+using detail::Canvas;
+using detail::Colour;
+using detail::MapSheet;
 
 constexpr Colour kVoid{148, 74, 196};
 constexpr Colour kFrontierCell{226, 38, 45};
@@ -26,14 +26,14 @@ constexpr Colour kMedium{254, 224, 80};
 constexpr Colour kHigh{26, 152, 80};
 
 Colour utility_colour(double share) {
-  return share < 0.5 ? drawing::mix(kLow, kMedium, 2.0 * share) : drawing::mix(kMedium, kHigh, 2.0 * share - 1.0);
+  return share < 0.5 ? detail::mix(kLow, kMedium, 2.0 * share) : detail::mix(kMedium, kHigh, 2.0 * share - 1.0);
 }
 
 // An overlay on the map from above, at the resolution of its image.
 class Overlay {
  public:
   Overlay(const OccupancyMap& map, const VoxelBox& cells)
-      : cells_(cells), image_(drawing::map_from_above(map, cells)) {}
+      : cells_(cells), image_(detail::map_from_above(map, cells)) {}
 
   [[nodiscard]] const VoxelBox& cells() const { return cells_; }
   [[nodiscard]] const cv::Mat& image() const { return image_; }
@@ -44,7 +44,7 @@ class Overlay {
     const int row =
         image_.rows - 1 - static_cast<int>(std::int64_t{y - cells_.lo.y} * image_.rows / std::max(1, extent.y));
     auto& pixel = image_.at<cv::Vec3b>(row, column);
-    const Colour mixed = drawing::mix({pixel[0], pixel[1], pixel[2]}, colour, share);
+    const Colour mixed = detail::mix({pixel[0], pixel[1], pixel[2]}, colour, share);
     pixel = cv::Vec3b(mixed.red, mixed.green, mixed.blue);
   }
 
@@ -94,10 +94,10 @@ void draw_pose(MapSheet& sheet, const Pose& pose, Colour colour) {
   const cv::Point2d direction(ahead.x(), -ahead.y());
   if (const double level = std::hypot(direction.x, direction.y); level > 0.1) {
     const cv::Point2d middle = at + direction * (0.5 * kLength / level);
-    sheet.canvas().arrow(middle, direction, kLength, drawing::kPaper, 6.0);
+    sheet.canvas().arrow(middle, direction, kLength, detail::kPaper, 6.0);
     sheet.canvas().arrow(middle, direction, kLength, colour, 3.0);
   }
-  sheet.canvas().disc(at, 8.5, drawing::kPaper);
+  sheet.canvas().disc(at, 8.5, detail::kPaper);
   sheet.canvas().disc(at, 6.5, colour);
 }
 
@@ -112,22 +112,22 @@ void legend_pose(MapSheet& sheet, Colour colour, const std::string& words) {
 
 // The common last part of both pictures.
 Picture finish(MapSheet& sheet, const VoidContent& content) {
-  draw_pose(sheet, content.sensor, drawing::kStart);
-  legend_pose(sheet, drawing::kStart, "sensor");
+  draw_pose(sheet, content.sensor, detail::kStart);
+  legend_pose(sheet, detail::kStart, "sensor");
   if (content.view) {
-    draw_pose(sheet, *content.view, drawing::kInk);
-    legend_pose(sheet, drawing::kInk, "next view");
+    draw_pose(sheet, *content.view, detail::kInk);
+    legend_pose(sheet, detail::kInk, "next view");
   }
-  sheet.legend_swatch(drawing::kOccupiedSpace, "occupied");
-  sheet.legend_swatch(drawing::kUnknownSpace, "unknown");
-  sheet.legend_swatch(drawing::kFreeSpace, "free");
+  sheet.legend_swatch(detail::kOccupiedSpace, "occupied");
+  sheet.legend_swatch(detail::kUnknownSpace, "unknown");
+  sheet.legend_swatch(detail::kFreeSpace, "free");
   return sheet.canvas().finish();
 }
 
 }  // namespace
 
 Picture draw_voids(const OccupancyMap& map, const VoidContent& content) {
-  Overlay overlay(map, drawing::cells_to_show(map, content.extent));
+  Overlay overlay(map, detail::cells_to_show(map, content.extent));
   const VoxelBox& cells = overlay.cells();
   const VoxelGrid<std::uint32_t> voids = columns_of(content.voids, cells);
   const VoxelGrid<std::uint32_t> frontier = columns_of(content.frontier, cells);
@@ -162,7 +162,7 @@ Picture draw_void_utility(const OccupancyMap& map, const VoidContent& content) {
     throw std::invalid_argument("VoidContent::utility has " + std::to_string(content.utility.size()) +
                                 " values, must be " + std::to_string(content.places.size()) + ", one per place");
   }
-  Overlay overlay(map, drawing::cells_to_show(map, content.extent));
+  Overlay overlay(map, detail::cells_to_show(map, content.extent));
   const VoxelBox& cells = overlay.cells();
   VoxelGrid<std::uint64_t> best({cells.lo, {cells.hi.x, cells.hi.y, cells.lo.z + 1}}, 0);
   std::uint64_t most = 0;

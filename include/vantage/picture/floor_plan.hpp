@@ -8,7 +8,7 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <utility>
-#include <vantage/vision/floor_plan.hpp>
-#include <vantage/vision/void_picture.hpp>
+#include <vantage/picture/floor_plan.hpp>
+#include <vantage/picture/void_picture.hpp>
 #include <vector>
 
 namespace vantage {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace vantage::drawing {
+namespace vantage::detail {
 
 /// Round numbers along an axis, and how they are written.
 struct AxisTicks {
@@ -20,4 +20,4 @@ struct AxisTicks {
 /// Formats `value` with as many decimals as `step` needs; never "-0".
 [[nodiscard]] std::string write_number(double value, double step);
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

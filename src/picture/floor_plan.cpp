@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <vantage/vision/floor_plan.hpp>
+#include <vantage/picture/floor_plan.hpp>
 
-#include "vision/axis_ticks.hpp"
-#include "vision/map_image.hpp"
-#include "vision/map_sheet.hpp"
+#include "picture/axis_ticks.hpp"
+#include "picture/map_image.hpp"
+#include "picture/map_sheet.hpp"
 
 namespace vantage {
 namespace {
 
-using drawing::Canvas;
-using drawing::journey_colour;
-using drawing::MapSheet;
-using drawing::write_number;
+using detail::Canvas;
+using detail::journey_colour;
+using detail::MapSheet;
+using detail::write_number;
 
 VoxelBox slice_of(VoxelBox cells, const VoxelFrame& frame, double slice_z_m) {
   cells.lo.z = frame.cell_of({0.0, 0.0, slice_z_m}).z;
@@ -38,7 +38,7 @@ void draw_path(MapSheet& sheet, const std::vector<Eigen::Vector3d>& travelled) {
   }
   // A light outline below the whole path keeps crossings readable.
   for (std::size_t i = 1; i < travelled.size(); ++i) {
-    sheet.canvas().line(sheet.at(travelled[i - 1]), sheet.at(travelled[i]), drawing::kPaper, 4.6);
+    sheet.canvas().line(sheet.at(travelled[i - 1]), sheet.at(travelled[i]), detail::kPaper, 4.6);
   }
   double so_far_m = 0.0;
   for (std::size_t i = 1; i < travelled.size(); ++i) {
@@ -49,9 +49,9 @@ void draw_path(MapSheet& sheet, const std::vector<Eigen::Vector3d>& travelled) {
   }
 }
 
-void draw_view(Canvas& canvas, cv::Point2d at, cv::Point2d direction, drawing::Colour colour) {
-  canvas.line(at, at + 17.0 * direction, drawing::kPaper, 4.4);
-  canvas.disc(at, 5.6, drawing::kPaper);
+void draw_view(Canvas& canvas, cv::Point2d at, cv::Point2d direction, detail::Colour colour) {
+  canvas.line(at, at + 17.0 * direction, detail::kPaper, 4.4);
+  canvas.disc(at, 5.6, detail::kPaper);
   canvas.line(at, at + 16.0 * direction, colour, 2.4);
   canvas.disc(at, 4.2, colour);
 }
@@ -67,12 +67,12 @@ void draw_views(MapSheet& sheet, const FloorPlanContent& content) {
 }
 
 void draw_legend(MapSheet& sheet, const FloorPlanContent& content) {
-  sheet.legend_swatch(drawing::kFreeSpace, "free");
-  sheet.legend_swatch(drawing::kOccupiedSpace, "occupied");
+  sheet.legend_swatch(detail::kFreeSpace, "free");
+  sheet.legend_swatch(detail::kOccupiedSpace, "occupied");
   if (!content.slice_z_m) {
-    sheet.legend_swatch(drawing::kPartlyOccupiedSpace, "free at some heights");
+    sheet.legend_swatch(detail::kPartlyOccupiedSpace, "free at some heights");
   }
-  sheet.legend_swatch(drawing::kUnknownSpace, "unknown");
+  sheet.legend_swatch(detail::kUnknownSpace, "unknown");
   if (!content.travelled.empty()) {
     sheet.legend([](Canvas& canvas, cv::Point2d at) { draw_start(canvas, at); }, "start");
     sheet.legend([](Canvas& canvas, cv::Point2d at) { draw_end(canvas, at); }, "end");
@@ -88,7 +88,7 @@ void draw_legend(MapSheet& sheet, const FloorPlanContent& content) {
   if (content.next) {
     sheet.legend(
         [](Canvas& canvas, cv::Point2d at) {
-          draw_view(canvas, at - cv::Point2d(6.0, 0.0), {1.0, 0.0}, drawing::kEnd);
+          draw_view(canvas, at - cv::Point2d(6.0, 0.0), {1.0, 0.0}, detail::kEnd);
         },
         "view chosen next");
   }
@@ -100,13 +100,13 @@ void draw_legend(MapSheet& sheet, const FloorPlanContent& content) {
 }  // namespace
 
 Picture draw_floor_plan(const OccupancyMap& map, const FloorPlanContent& content) {
-  VoxelBox cells = drawing::cells_to_show(map, content.extent);
+  VoxelBox cells = detail::cells_to_show(map, content.extent);
   if (content.slice_z_m) {
     cells = slice_of(cells, map.frame(), *content.slice_z_m);
   }
   const Box shown = map.frame().box_of(cells);
   MapSheet sheet(shown, content.title, subtitle_of(map, content, shown));
-  sheet.canvas().image(drawing::map_from_above(map, cells), sheet.area());
+  sheet.canvas().image(detail::map_from_above(map, cells), sheet.area());
   sheet.draw_axes();
   draw_path(sheet, content.travelled);
   draw_views(sheet, content);
@@ -116,7 +116,7 @@ Picture draw_floor_plan(const OccupancyMap& map, const FloorPlanContent& content
   }
   if (content.next) {
     const Eigen::Vector3d axis = optical_axis(*content.next);
-    draw_view(sheet.canvas(), sheet.at(content.next->translation()), {axis.x(), -axis.y()}, drawing::kEnd);
+    draw_view(sheet.canvas(), sheet.at(content.next->translation()), {axis.x(), -axis.y()}, detail::kEnd);
   }
   draw_legend(sheet, content);
   return sheet.canvas().finish();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "vision/axis_ticks.hpp"
+#include "picture/axis_ticks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace vantage::drawing {
+namespace vantage::detail {
 
 double round_down_to_nice(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
@@ -35,4 +35,4 @@ std::string write_number(double value, double step) {
 
 std::string AxisTicks::label(double value) const { return write_number(value, step); }
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
-#include <vantage/vision/depth_picture.hpp>
+#include <vantage/picture/depth_picture.hpp>
 #include <vector>
 
 namespace vantage {

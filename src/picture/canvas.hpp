@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 
-namespace vantage::drawing {
+namespace vantage::detail {
 
 struct Colour {
   std::uint8_t red, green, blue;
@@ -60,4 +60,4 @@ class Canvas {
   cv::Mat sheet_;
 };
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail

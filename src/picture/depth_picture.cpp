@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vantage/vision/depth_picture.hpp>
+#include <vantage/picture/depth_picture.hpp>
 
-#include "vision/canvas.hpp"
+#include "picture/canvas.hpp"
 
 namespace vantage {
 
@@ -16,8 +16,7 @@ Picture draw_depth(std::span<const float> depths_m, std::size_t width, double ne
   picture.rgb.reserve(3 * depths_m.size());
   for (const float depth_m : depths_m) {
     const double share = std::clamp((depth_m - near_m) / (far_m - near_m), 0.0, 1.0);
-    const drawing::Colour colour =
-        std::isfinite(depth_m) ? drawing::level_colour(1.0 - share) : drawing::kUnknownSpace;
+    const detail::Colour colour = std::isfinite(depth_m) ? detail::level_colour(1.0 - share) : detail::kUnknownSpace;
     picture.rgb.insert(picture.rgb.end(), {colour.red, colour.green, colour.blue});
   }
   return picture;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <vantage/compiler.hpp>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 
 namespace VANTAGE_EXPORT vantage {
 

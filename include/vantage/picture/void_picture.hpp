@@ -12,7 +12,7 @@
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/occupancy_map.hpp>
-#include <vantage/vision/picture.hpp>
+#include <vantage/picture/picture.hpp>
 
 namespace VANTAGE_EXPORT vantage {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vision/map_image.hpp"
+#include "picture/map_image.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "vision/canvas.hpp"
+#include "picture/canvas.hpp"
 
-namespace vantage::drawing {
+namespace vantage::detail {
 namespace {
 
 struct Column {
@@ -90,4 +90,4 @@ cv::Mat map_from_above(const OccupancyMap& map, const VoxelBox& cells) {
   return image;
 }
 
-}  // namespace vantage::drawing
+}  // namespace vantage::detail
