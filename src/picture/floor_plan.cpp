@@ -100,7 +100,7 @@ void draw_legend(MapSheet& sheet, const FloorPlanContent& content) {
 }  // namespace
 
 Picture draw_floor_plan(const OccupancyMap& map, const FloorPlanContent& content) {
-  VoxelBox cells = detail::cells_to_show(map, content.extent);
+  VoxelBox cells = detail::cells_to_show(map);
   if (content.slice_z_m) {
     cells = slice_of(cells, map.frame(), *content.slice_z_m);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -47,13 +46,10 @@ Colour column_colour(Column column, double height, std::uint32_t slabs) {
 
 }  // namespace
 
-VoxelBox cells_to_show(const OccupancyMap& map, const std::optional<Box>& extent) {
-  if (extent && extent->empty()) {
-    throw std::invalid_argument("the extent of a picture is empty");
-  }
-  const VoxelBox cells = extent ? map.frame().cells_centred_in(*extent) : map.bounds();
+VoxelBox cells_to_show(const OccupancyMap& map) {
+  const VoxelBox cells = map.bounds();
   if (cells.empty()) {
-    throw std::invalid_argument("a picture of a map needs an extent or a known cell");
+    throw std::invalid_argument("a picture of a map needs a known cell");
   }
   return cells;
 }

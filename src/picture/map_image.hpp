@@ -2,14 +2,12 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <vantage/geometry/box.hpp>
 #include <vantage/map/occupancy_map.hpp>
 
 namespace vantage::detail {
 
-/// The cells shown in a picture of `map`: those centred in `extent`, or all known cells. Throws std::invalid_argument
-/// if there are none.
-[[nodiscard]] VoxelBox cells_to_show(const OccupancyMap& map, const std::optional<Box>& extent);
+/// The box of all known cells. Throws std::invalid_argument if there are none.
+[[nodiscard]] VoxelBox cells_to_show(const OccupancyMap& map);
 
 /// The map from above as an RGB image, first row at the largest y. The colour of each column of `cells` mixes free,
 /// unknown and occupied by their shares. In very large maps a pixel covers several columns.

@@ -127,7 +127,7 @@ Picture finish(MapSheet& sheet, const VoidContent& content) {
 }  // namespace
 
 Picture draw_voids(const OccupancyMap& map, const VoidContent& content) {
-  Overlay overlay(map, detail::cells_to_show(map, content.extent));
+  Overlay overlay(map, detail::cells_to_show(map));
   const VoxelBox& cells = overlay.cells();
   const VoxelGrid<std::uint32_t> voids = columns_of(content.voids, cells);
   const VoxelGrid<std::uint32_t> frontier = columns_of(content.frontier, cells);
@@ -162,7 +162,7 @@ Picture draw_void_utility(const OccupancyMap& map, const VoidContent& content) {
     throw std::invalid_argument("VoidContent::utility has " + std::to_string(content.utility.size()) +
                                 " values, must be " + std::to_string(content.places.size()) + ", one per place");
   }
-  Overlay overlay(map, detail::cells_to_show(map, content.extent));
+  Overlay overlay(map, detail::cells_to_show(map));
   const VoxelBox& cells = overlay.cells();
   VoxelGrid<std::uint64_t> best({cells.lo, {cells.hi.x, cells.hi.y, cells.lo.z + 1}}, 0);
   std::uint64_t most = 0;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/box.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/picture/picture.hpp>
@@ -21,8 +20,6 @@ struct FloorPlanContent {
   /// whether to draw a line along the optical axis of each view; useless for a full sphere
   bool show_directions = true;
   std::optional<Pose> next = std::nullopt;  ///< the next view, chosen but not taken yet, in red
-  /// Region to show; nullopt: everything known. Cells above or below it are not drawn.
-  std::optional<Box> extent = std::nullopt;
   /// Height of a horizontal slice to show, metres; nullopt: all heights, seen from above.
   std::optional<double> slice_z_m = std::nullopt;
 };
@@ -30,7 +27,7 @@ struct FloorPlanContent {
 /// Draws the map from above, +x right and +y up, with the travelled path and the views. If all heights are shown, a
 /// column is darker the more of its cells are occupied, and greyer the more are unknown: walls are black, furniture
 /// lighter, open floor white. The number of occupied cells of a typical column, floor and ceiling, is subtracted.
-/// Throws std::invalid_argument if the extent is empty, or if there is neither an extent nor a known cell.
+/// Throws std::invalid_argument if the map knows no cell.
 [[nodiscard]] Picture draw_floor_plan(const OccupancyMap& map, const FloorPlanContent& content);
 
 }  // namespace vantage

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <vantage/compiler.hpp>
-#include <vantage/geometry/box.hpp>
 #include <vantage/geometry/ellipsoid.hpp>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/geometry/voxel.hpp>
@@ -26,17 +25,15 @@ struct VoidContent {
   std::span<const std::uint64_t> utility = {};  ///< accumulated utility of each of `places`, > 0
   Pose sensor = Pose::Identity();               ///< current pose (world_from_sensor)
   std::optional<Pose> view = std::nullopt;      ///< the chosen view (world_from_sensor); none: not drawn
-  std::optional<Box> extent = std::nullopt;     ///< region to show, metres, world; none: everything known
 };
 
 /// Draws the map from above with voids in violet, frontiers in red, and the outlines of the ellipsoids, as Fig. 2 and
-/// 3 of Dornhege & Kleiner 2011. Throws std::invalid_argument if the extent is empty, or if there is neither an
-/// extent nor a known cell.
+/// 3 of Dornhege & Kleiner 2011. Throws std::invalid_argument if the map knows no cell.
 [[nodiscard]] Picture draw_voids(const OccupancyMap& map, const VoidContent& content);
 
 /// Draws the map from above with the largest utility in every column, from red (low) over yellow to green (high), and
 /// the chosen view, as Fig. 4 of Dornhege & Kleiner 2011. Throws std::invalid_argument if `places` and `utility`
-/// differ in length, the extent is empty, or there is neither an extent nor a known cell.
+/// differ in length or the map knows no cell.
 [[nodiscard]] Picture draw_void_utility(const OccupancyMap& map, const VoidContent& content);
 
 }  // namespace vantage

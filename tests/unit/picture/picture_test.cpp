@@ -70,9 +70,8 @@ TEST(FloorPlan, ASliceShowsItsOwnHeightOnly) {
 
 TEST(FloorPlan, RefusesNothingToShow) {
   EXPECT_THROW((void)draw_floor_plan(OccupancyMap(), {}), std::invalid_argument);
-  FloorPlanContent content;
-  content.extent = Box{};
-  EXPECT_THROW((void)draw_floor_plan(walled_room(), content), std::invalid_argument);
+  EXPECT_THROW((void)draw_voids(OccupancyMap(), {}), std::invalid_argument);
+  EXPECT_THROW((void)draw_void_utility(OccupancyMap(), {}), std::invalid_argument);
 }
 
 TEST(FloorPlan, ManagesVeryLongAndVeryWideMaps) {
