@@ -130,5 +130,35 @@ TEST(OwnMap, IsReachedWhereItsMirrorIs) {
   EXPECT_TRUE(reachable_cells({}, VoxelBox{}, [](const VoxelIndex&) { return true; }).empty());
 }
 
+// Without a body: the component of the start in the known free domain, the space of a ball that fits in a cell.
+TEST(OwnMap, IsReachedWithoutABodyWhereItsMirrorIs) {
+  std::mt19937 engine(54);
+  std::size_t reached = 0;
+  std::size_t beyond = 0;
+  const FreeFlyer point(FreeFlyerOptions{.radius_m = 0.04});
+  for (int i = 0; i < 60; ++i) {
+    const World world(engine);
+    const VoxelIndex start = kOwnFrame.cell_of(random_point(engine));
+    std::vector<VoxelIndex> cells = reachable_cells(world.host, start, kOwnGrid);
+    ASSERT_EQ(cells, reachable_cells(world.follower.map(), start, kOwnGrid));
+    if (world.host.at(start) != Occupancy::Free) {
+      ASSERT_TRUE(cells.empty());
+      continue;
+    }
+    LaplaceDomain domain = known_free_domain(world.host, kOwnGrid);
+    beyond += domain.keep_component(start).cells;
+    ASSERT_EQ(cells.size(), domain.cell_count());
+    ASSERT_TRUE(std::all_of(cells.begin(), cells.end(), [&](const auto& cell) { return domain.contains(cell); }));
+    std::vector<VoxelIndex> space =
+        ReachableSpace(world.follower.map(), point, pose_looking(kOwnFrame.centre_of(start), 0.0)).cells();
+    std::sort(cells.begin(), cells.end());
+    std::sort(space.begin(), space.end());
+    ASSERT_EQ(cells, space);
+    reached += cells.size();
+  }
+  EXPECT_GT(reached, 200'000U);
+  EXPECT_GT(beyond, 10U);
+}
+
 }  // namespace
 }  // namespace vantage

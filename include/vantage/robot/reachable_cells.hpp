@@ -6,6 +6,7 @@
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/brick_set.hpp>
+#include <vantage/map/occupancy.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
@@ -13,9 +14,6 @@ namespace VANTAGE_EXPORT vantage {
 /// The cells of a box that are joined to `start` through faces of admitted cells, in the order in which the flood
 /// meets them; none if `start` is not admitted or not in the box. `admits(cell)` is the rule of the host: what its
 /// map says about the cells of its body. It is asked once or more for a cell, and for cells of the box only.
-///
-///     reachable_cells(start, box, [&](const VoxelIndex& cell) { return host_map.at(cell) == Occupancy::Free; });
-///
 /// ReachableSpace holds the same for a Platform, kept from scan to scan.
 template <std::predicate<const VoxelIndex&> Admits>
 [[nodiscard]] std::vector<VoxelIndex> reachable_cells(const VoxelIndex& start, const VoxelBox& box,
@@ -36,6 +34,13 @@ template <std::predicate<const VoxelIndex&> Admits>
     }
   }
   return cells;
+}
+
+/// The cells of `region` that a sensor without a body reaches in the map of a host: free cells joined to `start`.
+template <OccupancyLookup Lookup>
+[[nodiscard]] std::vector<VoxelIndex> reachable_cells(const Lookup& lookup, const VoxelIndex& start,
+                                                      const VoxelBox& region) {
+  return reachable_cells(start, region, [&](const VoxelIndex& cell) { return lookup.at(cell) == Occupancy::Free; });
 }
 
 }  // namespace vantage
