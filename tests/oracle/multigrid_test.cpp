@@ -340,24 +340,26 @@ TEST(MultigridOracle, EveryInstructionSetComputesTheSameBits) {
   const RandomRooms rooms({.seed = 5});
   LaplaceDomain domain = rooms.domain();
   domain.keep_component(rooms.source);
-  const detail::FineLevel fine = detail::make_fine_level(domain);
-  std::mt19937 engine(23);
-  std::normal_distribution<float> normal;
-  detail::HalfField<float> black(fine.brick_count * detail::kHalfBrick, 0.0F);
-  for (std::size_t i = 0; i < black.size(); ++i) {
-    black[i] =
-        fine.degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0 ? normal(engine) : 0.0F;
+  const auto solution_with = [&](detail::InstructionSet set) {
+    detail::FineLevel fine = detail::make_fine_level(domain);
+    fine.set = set;
+    detail::BrickSolver solver(std::move(fine));
+    std::mt19937 engine(23);
+    std::normal_distribution<float> normal;
+    for (std::size_t i = 0; i < solver.right().size(); ++i) {
+      const bool is_unknown =
+          solver.fine().degree(detail::kBlack, i / detail::kHalfBrick, i % detail::kHalfBrick) > 0;
+      solver.right()[i] = is_unknown ? normal(engine) : 0.0F;
+    }
+    EXPECT_GE(solver.fine().brick_count, 51U);
+    EXPECT_GT(solver.solve(1e-4, 30), 3U);
+    return solver.solution();
+  };
+  const detail::HalfField<float> baseline = solution_with(detail::InstructionSet::Baseline);
+  for (const detail::InstructionSet set : detail::instruction_sets()) {
+    const detail::HalfField<float> solution = solution_with(set);
+    ASSERT_EQ(std::memcmp(solution.data(), baseline.data(), baseline.size() * sizeof(float)), 0);
   }
-  std::size_t bricks = 0;
-  for (std::size_t b = 1; b < fine.brick_count; ++b, ++bricks) {
-    detail::HalfField<float> best(detail::kHalfBrick);
-    detail::HalfField<float> baseline(detail::kHalfBrick);
-    const std::uint32_t* faces = fine.faces[detail::kRed].data() + b * detail::kBrickRows;
-    detail::run(detail::RedSolve{faces, detail::Around<float>(fine, black, b), best.data()});
-    detail::RedSolve{faces, detail::Around<float>(fine, black, b), baseline.data()}();
-    ASSERT_EQ(std::memcmp(best.data(), baseline.data(), detail::kHalfBrick * sizeof(float)), 0);
-  }
-  EXPECT_GE(bricks, 50U);
   const auto solved = [&] {
     return values_of(LaplaceMultigrid(rooms.domain(), rooms.source).potential(), rooms.problem());
   };

@@ -133,9 +133,9 @@ inline bool is_flipped(const FineLevel& fine, std::size_t brick) { return (fine.
 VANTAGE_INLINE void BlockLevel::begin(const FineLevel& fine, std::size_t brick) {
   const std::size_t at = brick * kBrickBlocks;
   if (is_flipped(fine, brick)) {
-    run(SmoothFromZero<1>{fine.blocks.data() + at, right.data() + at, x.data() + at});
+    compiled_for(fine.set, SmoothFromZero<1>{fine.blocks.data() + at, right.data() + at, x.data() + at});
   } else {
-    run(SmoothFromZero<0>{fine.blocks.data() + at, right.data() + at, x.data() + at});
+    compiled_for(fine.set, SmoothFromZero<0>{fine.blocks.data() + at, right.data() + at, x.data() + at});
   }
 }
 
@@ -143,16 +143,17 @@ VANTAGE_INLINE void BlockLevel::relax(const FineLevel& fine, std::size_t brick, 
   const BlocksAround around(fine, x, brick);
   const std::size_t at = brick * kBrickBlocks;
   if (even == is_flipped(fine, brick)) {
-    run(Smooth<1>{around, right.data() + at, x.data() + at});
+    compiled_for(fine.set, Smooth<1>{around, right.data() + at, x.data() + at});
   } else {
-    run(Smooth<0>{around, right.data() + at, x.data() + at});
+    compiled_for(fine.set, Smooth<0>{around, right.data() + at, x.data() + at});
   }
 }
 
 VANTAGE_INLINE void BlockLevel::restrict_brick(const FineLevel& fine, std::size_t brick,
                                                AlignedVector<float>& sums) const {
   std::array<float, kBrickBlocks> residual{};
-  run(Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
+  compiled_for(fine.set,
+               Residual{BlocksAround(fine, x, brick), right.data() + brick * kBrickBlocks, residual.data()});
   const std::size_t nodes = sums.size() - 1;
   for (std::size_t i = 0; i < kBrickBlocks; ++i) {
     if (const std::uint32_t to = node[brick * kBrickBlocks + i]; to < nodes) {

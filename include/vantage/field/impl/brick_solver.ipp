@@ -36,11 +36,12 @@ double BrickSolver::way_down(const First& first) {
   in_waves(
       fine_, first,
       [&](std::size_t b) {
-        run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
+        compiled_for(fine_.set,
+                     RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
       },
       [&](std::size_t b) {
-        run(BlackRestrict{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(z_, b),
-                          Around<float>(fine_, red_, b), coarse_.right(b)});
+        compiled_for(fine_.set, BlackRestrict{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(z_, b),
+                                              Around<float>(fine_, red_, b), coarse_.right(b)});
       });
   return total();
 }
@@ -48,15 +49,16 @@ double BrickSolver::way_down(const First& first) {
 // x = 0, then the downward part.
 VANTAGE_INLINE double BrickSolver::begin() {
   return way_down([&](std::size_t b) {
-    run(Begin{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(x_, b), at(z_, b), kBlackWeight, &sums_[b]});
+    compiled_for(fine_.set, Begin{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), at(x_, b), at(z_, b),
+                                  kBlackWeight, &sums_[b]});
   });
 }
 
 // x += step p, r -= step q, then the downward part.
 VANTAGE_INLINE double BrickSolver::advance(float step) {
   return way_down([&](std::size_t b) {
-    run(Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b), at(r_, b), at(z_, b),
-                step, kBlackWeight, &sums_[b]});
+    compiled_for(fine_.set, Advance{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), at(q_, b), at(x_, b),
+                                    at(r_, b), at(z_, b), step, kBlackWeight, &sums_[b]});
   });
 }
 
@@ -66,14 +68,16 @@ VANTAGE_INLINE double BrickSolver::correct() {
   in_waves(
       fine_,
       [&](std::size_t b) {
-        run(BlackProlong{fine_.faces[kBlack].data() + b * kBrickRows, coarse_.correction(b), at(z_, b)});
+        compiled_for(fine_.set,
+                     BlackProlong{fine_.faces[kBlack].data() + b * kBrickRows, coarse_.correction(b), at(z_, b)});
       },
       [&](std::size_t b) {
-        run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
+        compiled_for(fine_.set,
+                     RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, z_, b), at(red_, b)});
       },
       [&](std::size_t b) {
-        run(BlackSmooth{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b), Around<float>(fine_, red_, b),
-                        at(z_, b), kBlackWeight, &sums_[b]});
+        compiled_for(fine_.set, BlackSmooth{fine_.faces[kBlack].data() + b * kBrickRows, at(r_, b),
+                                            Around<float>(fine_, red_, b), at(z_, b), kBlackWeight, &sums_[b]});
       });
   return total();
 }
@@ -83,14 +87,15 @@ VANTAGE_INLINE double BrickSolver::turn(float share) {
   in_waves(
       fine_,
       [&](std::size_t b) {
-        run(Turn{at(z_, b), at(p_, b), share});
+        compiled_for(fine_.set, Turn{at(z_, b), at(p_, b), share});
       },
       [&](std::size_t b) {
-        run(RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, p_, b), at(red_, b)});
+        compiled_for(fine_.set,
+                     RedSolve{fine_.faces[kRed].data() + b * kBrickRows, Around<float>(fine_, p_, b), at(red_, b)});
       },
       [&](std::size_t b) {
-        run(BlackApply{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b), Around<float>(fine_, red_, b),
-                       at(q_, b), &sums_[b]});
+        compiled_for(fine_.set, BlackApply{fine_.faces[kBlack].data() + b * kBrickRows, at(p_, b),
+                                           Around<float>(fine_, red_, b), at(q_, b), &sums_[b]});
       });
   return total();
 }

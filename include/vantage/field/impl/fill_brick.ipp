@@ -163,10 +163,11 @@ struct FillBrick {
 VANTAGE_INLINE void fill_brick(FineLevel& level, const std::vector<LaplaceDomain::Brick>& bricks, std::size_t b,
                                const std::array<std::uint32_t, 6>& links) {
   const std::size_t to = b + 1;
-  run(FillBrick{PlaneAround(bricks, b, links, &LaplaceDomain::Brick::cells),
-                PlaneAround(bricks, b, links, &LaplaceDomain::Brick::sinks),
-                {level.faces[kRed].data() + to * kBrickRows, level.faces[kBlack].data() + to * kBrickRows},
-                level.blocks.data() + to * kBrickBlocks});
+  compiled_for(level.set,
+               FillBrick{PlaneAround(bricks, b, links, &LaplaceDomain::Brick::cells),
+                         PlaneAround(bricks, b, links, &LaplaceDomain::Brick::sinks),
+                         {level.faces[kRed].data() + to * kBrickRows, level.faces[kBlack].data() + to * kBrickRows},
+                         level.blocks.data() + to * kBrickBlocks});
 }
 
 }  // namespace vantage::detail

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <vantage/field/laplace_domain.hpp>
+#include <vantage/map/impl/instruction_set.hpp>
 #include <vector>
 
 #include <vantage/field/impl/aligned_vector.hpp>
@@ -38,6 +39,7 @@ struct BrickShare {
 /// Cells of a brick are stored by colour, then by z, y and x. Bricks are numbered from 1. Brick 0 is empty and stands
 /// for missing neighbours.
 struct FineLevel {
+  InstructionSet set = best_instruction_set();      ///< for which the kernels are compiled
   std::size_t brick_count = 0;                      ///< includes the empty brick 0
   std::vector<VoxelIndex> address;                  ///< address of each brick, in units of bricks
   std::vector<std::array<std::uint32_t, 6>> links;  ///< numbers of the neighbour bricks

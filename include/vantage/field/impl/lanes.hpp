@@ -6,7 +6,6 @@
 #include <cstring>
 #include <type_traits>
 #include <utility>
-#include <vantage/map/impl/instruction_set.hpp>
 
 // Vectors wider than the registers of the baseline have no stable calling convention. Here they are only passed to
 // functions that are inlined.
@@ -70,41 +69,5 @@ template <class Visit, std::size_t... i>
 VANTAGE_ALWAYS_INLINE void unrolled(Visit&& visit, std::index_sequence<i...> /*count*/) {
   (visit(std::integral_constant<std::size_t, i>{}), ...);
 }
-
-/// Calls `kernel()` compiled for best_instruction_set(). The kernel's call operator must be VANTAGE_ALWAYS_INLINE. No
-/// instruction set fuses multiplication and addition, so every processor computes the same bits.
-#if defined(__x86_64__)
-template <class Kernel>
-[[gnu::target("avx2"), gnu::noinline]] void run_kernel_avx2(const Kernel& kernel) {
-  const Kernel local = kernel;  // a local copy: no store can alias its members
-  local();
-}
-template <class Kernel>
-[[gnu::target("avx512f,avx512vl,avx512dq,avx512bw"), gnu::noinline]] void run_kernel_avx512(const Kernel& kernel) {
-  const Kernel local = kernel;  // a local copy: no store can alias its members
-  local();
-}
-template <class Kernel>
-[[gnu::noinline]] void run_kernel_baseline(const Kernel& kernel) {
-  const Kernel local = kernel;  // a local copy: no store can alias its members
-  local();
-}
-template <class Kernel>
-inline void run(const Kernel& kernel) {
-  switch (best_instruction_set()) {
-    case InstructionSet::Avx512:
-      return run_kernel_avx512(kernel);
-    case InstructionSet::Avx2:
-      return run_kernel_avx2(kernel);
-    case InstructionSet::Baseline:
-      return run_kernel_baseline(kernel);
-  }
-}
-#else
-template <class Kernel>
-inline void run(const Kernel& kernel) {
-  kernel();
-}
-#endif
 
 }  // namespace vantage::detail

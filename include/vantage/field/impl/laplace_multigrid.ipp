@@ -147,7 +147,6 @@ VANTAGE_INLINE void MultigridOptions::validate() const {
 VANTAGE_INLINE LaplaceMultigrid::LaplaceMultigrid(LaplaceDomain domain, const VoxelIndex& source,
                                                   const MultigridOptions& options) {
   options.validate();
-  (void)detail::best_instruction_set();  // may throw, which must not happen later in a worker thread
   potential_ = detail::MultigridRun(options, report_).solve(std::move(domain), source);
 }
 

@@ -180,9 +180,10 @@ struct CountStuckOf {
 template <std::size_t colour>
 double stuck_in(const FineLevel& fine, const CellValues& values, std::size_t brick) {
   double stuck = 0.0;
-  run(CountStuckOf<colour>{{fine.faces[colour].data() + brick * kBrickRows,
-                            values.u[colour].data() + brick * kHalfBrick, values.at_source, &stuck},
-                           Around<double>(fine, values.u[1 - colour], brick)});
+  compiled_for(fine.set,
+               CountStuckOf<colour>{{fine.faces[colour].data() + brick * kBrickRows,
+                                     values.u[colour].data() + brick * kHalfBrick, values.at_source, &stuck},
+                                    Around<double>(fine, values.u[1 - colour], brick)});
   return stuck;
 }
 
@@ -228,22 +229,26 @@ void Refinement::pass(const FineLevel& fine, const Step& step, const Remainder& 
   in_waves(
       fine,
       [&](std::size_t b) {
-        run(Add{step.correction.data() + b * kHalfBrick, step.unit, values_.u[kBlack].data() + b * kHalfBrick});
+        compiled_for(fine.set, Add{step.correction.data() + b * kHalfBrick, step.unit,
+                                   values_.u[kBlack].data() + b * kHalfBrick});
       },
       [&](std::size_t b) {
         double doubtful = -1.0;
-        run(RedUpdate<checked>{fine.faces[kRed].data() + b * kBrickRows, Around<double>(fine, values_.u[kBlack], b),
+        compiled_for(
+            fine.set,
+            RedUpdate<checked>{fine.faces[kRed].data() + b * kBrickRows, Around<double>(fine, values_.u[kBlack], b),
                                values_.u[kRed].data() + b * kHalfBrick, Load(source_, b, kRed, uniform_),
                                Doubt(values_.at_source), &doubtful});
         partial_[b].stuck = doubtful >= 0.0 ? stuck_in<kRed>(fine, values_, b) : 0.0;
       },
       [&](std::size_t b) {
         double doubtful = -1.0;
-        run(BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows,
-                                 values_.u[kBlack].data() + b * kHalfBrick, Around<double>(fine, values_.u[kRed], b),
-                                 Load(source_, b, kBlack, uniform_), Doubt(values_.at_source), 1.0 / remainder.unit,
-                                 remainder.residual.data() + b * kHalfBrick, &partial_[b].square,
-                                 &partial_[b].largest, &doubtful});
+        compiled_for(fine.set, BlackDefect<checked>{fine.faces[kBlack].data() + b * kBrickRows,
+                                                    values_.u[kBlack].data() + b * kHalfBrick,
+                                                    Around<double>(fine, values_.u[kRed], b),
+                                                    Load(source_, b, kBlack, uniform_), Doubt(values_.at_source),
+                                                    1.0 / remainder.unit, remainder.residual.data() + b * kHalfBrick,
+                                                    &partial_[b].square, &partial_[b].largest, &doubtful});
         partial_[b].stuck += doubtful >= 0.0 ? stuck_in<kBlack>(fine, values_, b) : 0.0;
       });
 }

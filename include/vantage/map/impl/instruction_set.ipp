@@ -15,8 +15,8 @@ VANTAGE_INLINE std::vector<InstructionSet> instruction_sets() {
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx2") != 0) {
     sets.push_back(InstructionSet::Avx2);
-    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-        __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0) {
+    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+        __builtin_cpu_supports("avx512vl") != 0) {
       sets.push_back(InstructionSet::Avx512);
     }
   }
