@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 #include <vantage/field/laplace_domain.hpp>
+#include <vantage/field/laplace_problem.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vector>
 

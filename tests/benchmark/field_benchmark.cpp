@@ -131,7 +131,7 @@ void directions(benchmark::State& state, const std::string& name) {
 // The paper's method with its own stopping rule, which leaves an error of some percent.
 void gauss_seidel(benchmark::State& state, const std::string& name) {
   const Scene& scene = scene_of(name);
-  const LaplaceProblem problem = problem_of(scene.domain, scene.source);
+  const LaplaceProblem problem(scene.domain, scene.source);
   LaplaceReport report;
   for (auto _ : state) {
     report = relax_laplace(problem).report;

@@ -4,20 +4,8 @@
 
 namespace vantage {
 
-LaplaceProblem problem_of(const LaplaceDomain& domain, const VoxelIndex& source) {
-  std::vector<VoxelIndex> cells;
-  std::vector<VoxelIndex> sinks;
-  domain.for_each_cell([&](const VoxelIndex& cell) {
-    cells.push_back(cell);
-    if (domain.is_sink(cell)) {
-      sinks.push_back(cell);
-    }
-  });
-  return {std::move(cells), sinks, source};
-}
-
 LaplaceMatrix matrix_of(const LaplaceDomain& domain, const VoxelIndex& source) {
-  const LaplaceProblem problem = problem_of(domain, source);
+  const LaplaceProblem problem(domain, source);
   std::vector<int> number(problem.size(), -1);
   int size = 0;
   for (std::size_t i = 0; i < problem.size(); ++i) {

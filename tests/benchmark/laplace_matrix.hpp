@@ -15,7 +15,5 @@ struct LaplaceMatrix {
 };
 
 [[nodiscard]] LaplaceMatrix matrix_of(const LaplaceDomain& domain, const VoxelIndex& source);
-/// The domain as a LaplaceProblem.
-[[nodiscard]] LaplaceProblem problem_of(const LaplaceDomain& domain, const VoxelIndex& source);
 
 }  // namespace vantage

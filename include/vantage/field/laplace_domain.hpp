@@ -8,7 +8,6 @@
 #include <unordered_map>
 #include <utility>
 #include <vantage/compiler.hpp>
-#include <vantage/field/laplace_problem.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/voxel.hpp>
 #include <vantage/map/brick_set.hpp>
@@ -16,6 +15,8 @@
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
+
+class LaplaceProblem;
 
 /// The cells of a Laplace problem (see LaplaceProblem), stored as bit planes in sparse bricks of 16 x 8 x 8 cells.
 ///
@@ -72,14 +73,12 @@ class LaplaceDomain {
   /// Calls `visit(cell)` for each cell, sinks included, brick by brick; ordered by z, then y, then x within a brick.
   template <class Visit>
   void for_each_cell(Visit&& visit) const {
-    for (const Brick& brick : bricks_) {
-      const VoxelIndex first{brick.address.x * 16, brick.address.y * 8, brick.address.z * 8};
-      for (std::int32_t row = 0; row < static_cast<std::int32_t>(kRows); ++row) {
-        for (std::uint32_t left = brick.cells[static_cast<std::size_t>(row)]; left != 0; left &= left - 1) {
-          visit(first + VoxelIndex{std::countr_zero(left), row % 8, row / 8});
-        }
-      }
-    }
+    for_each(&Brick::cells, visit);
+  }
+  /// Calls `visit(cell)` for each sink in the same order.
+  template <class Visit>
+  void for_each_sink(Visit&& visit) const {
+    for_each(&Brick::sinks, visit);
   }
   /// Number of cells, sinks included. Linear in the number of bricks.
   [[nodiscard]] std::size_t cell_count() const;
@@ -107,6 +106,17 @@ class LaplaceDomain {
   }
 
  private:
+  template <class Visit>
+  void for_each(std::array<std::uint16_t, kRows> Brick::*plane, Visit& visit) const {
+    for (const Brick& brick : bricks_) {
+      const VoxelIndex first{brick.address.x * 16, brick.address.y * 8, brick.address.z * 8};
+      for (std::int32_t row = 0; row < static_cast<std::int32_t>(kRows); ++row) {
+        for (std::uint32_t left = (brick.*plane)[static_cast<std::size_t>(row)]; left != 0; left &= left - 1) {
+          visit(first + VoxelIndex{std::countr_zero(left), row % 8, row / 8});
+        }
+      }
+    }
+  }
   void sort_bricks(bool have_gone);
 
   std::vector<Brick> bricks_;

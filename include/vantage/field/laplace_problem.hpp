@@ -12,6 +12,8 @@
 
 namespace VANTAGE_EXPORT vantage {
 
+class LaplaceDomain;
+
 /// The condition that a cell of a LaplaceProblem must satisfy.
 enum class LaplaceCell : std::uint8_t {
   Interior,  ///< Laplace's equation
@@ -22,7 +24,7 @@ enum class LaplaceCell : std::uint8_t {
 /// A Laplace boundary value problem: find phi with zero Laplacian on a set of cells, phi = 0 at the sinks, phi = 1 at
 /// the source, and zero flow through every closed face, that is a face without a cell of the set behind it.
 ///
-///     const LaplaceProblem problem(std::move(reachable_cells), frontier_cells, sensor_cell);
+///     const LaplaceProblem problem(reachable_cells, frontier_cells, sensor_cell);
 ///     const LaplaceSolution solution = relax_laplace(problem);
 ///
 /// The domain is a list of cells, so memory grows with the number of cells and not with the bounding box. Each cell
@@ -39,7 +41,9 @@ class LaplaceProblem {
   /// `cells` in any order, without duplicates. `sinks` and `source` must be among them, and `source` must not be a
   /// sink. Without sinks, phi is 1 everywhere. Throws std::invalid_argument, which names the cell at fault,
   /// otherwise.
-  LaplaceProblem(std::vector<VoxelIndex> cells, std::span<const VoxelIndex> sinks, const VoxelIndex& source);
+  LaplaceProblem(const std::vector<VoxelIndex>& cells, std::span<const VoxelIndex> sinks, const VoxelIndex& source);
+  /// The cells and sinks of `domain`. Throws std::invalid_argument if `source` is not in the domain or is a sink.
+  LaplaceProblem(LaplaceDomain domain, const VoxelIndex& source);
 
   /// The number of cells.
   [[nodiscard]] std::size_t size() const { return cells_.size(); }
@@ -63,7 +67,6 @@ class LaplaceProblem {
   [[nodiscard]] std::size_t dropped_cells() const { return dropped_; }
 
  private:
-  void keep_component(std::vector<VoxelIndex> cells, const VoxelIndex& source);
   void link();
 
   std::vector<VoxelIndex> cells_;

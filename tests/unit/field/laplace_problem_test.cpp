@@ -3,6 +3,7 @@
 
 #include <random>
 #include <stdexcept>
+#include <vantage/field/laplace_domain.hpp>
 #include <vantage/field/laplace_problem.hpp>
 
 #include "random_laplace.hpp"
@@ -48,6 +49,12 @@ TEST(LaplaceProblem, RefusesWhatDoesNotFit) {
   EXPECT_THROW(LaplaceProblem(cells, elsewhere, {0, 0, 0}), std::invalid_argument);
   EXPECT_THROW(LaplaceProblem(cells, at_source, {0, 0, 0}), std::invalid_argument);
   EXPECT_NO_THROW(LaplaceProblem(cells, {}, {0, 0, 0}));
+  LaplaceDomain domain;
+  domain.insert({0, 0, 0});
+  domain.insert_sink({1, 0, 0});
+  EXPECT_THROW(LaplaceProblem(domain, {1, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(LaplaceProblem(domain, {2, 0, 0}), std::invalid_argument);
+  EXPECT_EQ(LaplaceProblem(domain, {0, 0, 0}).sink_count(), 1U);
 }
 
 }  // namespace

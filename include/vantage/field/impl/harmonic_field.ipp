@@ -47,17 +47,9 @@ inline HarmonicField field_by_multigrid(LaplaceDomain domain, const VoxelIndex& 
 
 // The stopping rule of the paper does not guarantee that descent reaches a sink, so the relaxation continues until it
 // does or max_sweeps is reached.
-inline HarmonicField field_by_relaxation(const LaplaceDomain& domain, const VoxelIndex& source,
+inline HarmonicField field_by_relaxation(LaplaceDomain domain, const VoxelIndex& source,
                                          const HarmonicFieldOptions& options) {
-  std::vector<VoxelIndex> cells;
-  std::vector<VoxelIndex> sinks;
-  domain.for_each_cell([&](const VoxelIndex& cell) {
-    cells.push_back(cell);
-    if (domain.is_sink(cell)) {
-      sinks.push_back(cell);
-    }
-  });
-  const LaplaceProblem problem(std::move(cells), sinks, source);
+  const LaplaceProblem problem(std::move(domain), source);
   LaplaceRelaxation relaxation(problem, {.neumann = options.neumann,
                                          .tolerance = options.tolerance,
                                          .max_sweeps = options.max_sweeps,
@@ -82,7 +74,7 @@ VANTAGE_INLINE HarmonicField HarmonicField::solve(LaplaceDomain domain, const Vo
                                                   const HarmonicFieldOptions& options, std::size_t threads) {
   return options.solver == FieldSolver::Multigrid
              ? detail::field_by_multigrid(std::move(domain), source, options, threads)
-             : detail::field_by_relaxation(domain, source, options);
+             : detail::field_by_relaxation(std::move(domain), source, options);
 }
 
 VANTAGE_INLINE std::vector<VoxelIndex> HarmonicField::follow(const VoxelFrame& frame,

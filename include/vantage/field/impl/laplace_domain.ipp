@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 #include <vantage/field/laplace_domain.hpp>
+#include <vantage/field/laplace_problem.hpp>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/geometry/disjoint_sets.hpp>
 #include <vantage/geometry/raster_order.hpp>

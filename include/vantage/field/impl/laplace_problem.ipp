@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vantage/field/laplace_domain.hpp>
 #include <vantage/field/laplace_problem.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 
@@ -25,10 +26,6 @@ inline void sort(std::vector<VoxelIndex>& cells) {
   }
   VoxelGrid<std::uint8_t> marked(box);
   for (const VoxelIndex& cell : cells) {
-    if (marked[cell] != 0) {  // a duplicate, which the caller will report
-      std::sort(cells.begin(), cells.end(), RasterOrder{});
-      return;
-    }
     marked[cell] = 1;
   }
   auto next = cells.begin();
@@ -49,39 +46,51 @@ inline std::string cell_text(const VoxelIndex& cell) {
          ")";
 }
 
-}  // namespace detail
-
-VANTAGE_INLINE LaplaceProblem::LaplaceProblem(std::vector<VoxelIndex> cells, std::span<const VoxelIndex> sinks,
-                                              const VoxelIndex& source) {
-  if (cells.size() >= static_cast<std::size_t>(std::numeric_limits<Position>::max())) {
-    throw std::invalid_argument("LaplaceProblem: " + std::to_string(cells.size()) + " cells are too many");
-  }
-  detail::sort(cells);
-  if (const auto twice = std::adjacent_find(cells.begin(), cells.end()); twice != cells.end()) {
-    throw std::invalid_argument("LaplaceProblem: cell " + detail::cell_text(*twice) + " is given twice");
-  }
-  if (!std::binary_search(cells.begin(), cells.end(), source, RasterOrder{})) {
-    throw std::invalid_argument("LaplaceProblem: the source " + detail::cell_text(source) +
-                                " is not among the cells");
+inline LaplaceDomain domain_of(const std::vector<VoxelIndex>& cells, std::span<const VoxelIndex> sinks,
+                               const VoxelIndex& source) {
+  LaplaceDomain domain;
+  for (const VoxelIndex& cell : cells) {
+    if (domain.contains(cell)) {
+      throw std::invalid_argument("LaplaceProblem: cell " + cell_text(cell) + " is given twice");
+    }
+    domain.insert(cell);
   }
   for (const VoxelIndex& sink : sinks) {
-    if (sink == source || !std::binary_search(cells.begin(), cells.end(), sink, RasterOrder{})) {
-      throw std::invalid_argument("LaplaceProblem: the sink " + detail::cell_text(sink) +
+    if (sink == source || !domain.contains(sink)) {
+      throw std::invalid_argument("LaplaceProblem: the sink " + cell_text(sink) +
                                   (sink == source ? " is the source" : " is not among the cells"));
     }
+    domain.insert_sink(sink);
   }
+  return domain;
+}
 
-  keep_component(std::move(cells), source);
-  kinds_.assign(cells_.size(), LaplaceCell::Interior);
+}  // namespace detail
+
+VANTAGE_INLINE LaplaceProblem::LaplaceProblem(const std::vector<VoxelIndex>& cells, std::span<const VoxelIndex> sinks,
+                                              const VoxelIndex& source)
+    : LaplaceProblem(detail::domain_of(cells, sinks, source), source) {}
+
+VANTAGE_INLINE LaplaceProblem::LaplaceProblem(LaplaceDomain domain, const VoxelIndex& source)
+    : dropped_(domain.keep_component(source).cells) {
+  if (domain.is_sink(source)) {
+    throw std::invalid_argument("LaplaceProblem: the source " + detail::cell_text(source) + " is a sink");
+  }
+  const std::size_t size = domain.cell_count();
+  if (size >= static_cast<std::size_t>(std::numeric_limits<Position>::max())) {
+    throw std::invalid_argument("LaplaceProblem: " + std::to_string(size) + " cells are too many");
+  }
+  cells_.reserve(size);
+  domain.for_each_cell([&](const VoxelIndex& cell) { cells_.push_back(cell); });
+  detail::sort(cells_);
+  link();
+  kinds_.assign(size, LaplaceCell::Interior);
   source_ = *position_of(source);
   kinds_[static_cast<std::size_t>(source_)] = LaplaceCell::Source;
-  for (const VoxelIndex& sink : sinks) {
-    const std::optional<Position> position = position_of(sink);
-    if (position && kind(*position) == LaplaceCell::Interior) {
-      kinds_[static_cast<std::size_t>(*position)] = LaplaceCell::Sink;
-      ++sink_count_;
-    }
-  }
+  domain.for_each_sink([&](const VoxelIndex& sink) {
+    kinds_[static_cast<std::size_t>(*position_of(sink))] = LaplaceCell::Sink;
+    ++sink_count_;
+  });
 }
 
 VANTAGE_INLINE std::optional<LaplaceProblem::Position> LaplaceProblem::position_of(const VoxelIndex& cell) const {
@@ -90,37 +99,6 @@ VANTAGE_INLINE std::optional<LaplaceProblem::Position> LaplaceProblem::position_
     return std::nullopt;
   }
   return static_cast<Position>(found - cells_.begin());
-}
-
-// Keeps the component of the source, in sorted order.
-VANTAGE_INLINE void LaplaceProblem::keep_component(std::vector<VoxelIndex> cells, const VoxelIndex& source) {
-  cells_ = std::move(cells);
-  link();
-  // bytes instead of bits, because they are read six times per cell
-  std::vector<std::uint8_t> joined(cells_.size(), 0);
-  std::vector<Position> queue;
-  queue.reserve(cells_.size());
-  queue.push_back(*position_of(source));
-  joined[static_cast<std::size_t>(queue.front())] = 1;
-  for (std::size_t next = 0; next < queue.size(); ++next) {
-    for (const Position neighbour : neighbours(queue[next])) {
-      if (neighbour != kClosed && joined[static_cast<std::size_t>(neighbour)] == 0) {
-        joined[static_cast<std::size_t>(neighbour)] = 1;
-        queue.push_back(neighbour);
-      }
-    }
-  }
-  dropped_ = cells_.size() - queue.size();
-  if (dropped_ > 0) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (joined[i] != 0) {
-        cells_[kept++] = cells_[i];
-      }
-    }
-    cells_.resize(kept);
-    link();
-  }
 }
 
 // Shifting all cells by the same step keeps their order. So one merge finds all neighbours in one direction and, at
