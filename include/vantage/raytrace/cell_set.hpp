@@ -110,6 +110,7 @@ class CellSet {
   }
 
  private:
+  // Words are stored by z, then y, then x.
   [[nodiscard]] std::size_t place_of(const VoxelIndex& cell) const {
     const VoxelIndex at = word_of(cell) - lo_;
     return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(extent_.y) + static_cast<std::size_t>(at.y)) *
@@ -121,6 +122,7 @@ class CellSet {
     constexpr std::uint64_t kX = 0x1111111111111111U;  // cells with x % 4 = 0
     constexpr std::uint64_t kY = 0x000F000F000F000FU;
     constexpr std::uint64_t kZ = 0x000000000000FFFFU;
+    // kBelowX[n]: the cells with x % 4 < n. In the same way for y and z.
     constexpr std::array<std::uint64_t, 5> kBelowX{0, kX, kX * 3, kX * 7, ~std::uint64_t{0}};
     constexpr std::array<std::uint64_t, 5> kBelowY{0, kY, kY * 0x11, kY * 0x111, ~std::uint64_t{0}};
     constexpr std::array<std::uint64_t, 5> kBelowZ{0, kZ, kZ * 0x10001, kZ * 0x100010001, ~std::uint64_t{0}};

@@ -73,6 +73,7 @@ inline std::uint64_t BeamPassages::to_pass(const SliceBeam& beam, InstructionSet
     for (std::size_t i = 0; i < kMost; ++i) {
       const double enters = enters_[i];
       const double leaves = leaves_[i];
+      // An edge that runs outwards is furthest out where rays leave the windows, otherwise where they enter.
       const double left = least_u * (least_u < 0.0 ? leaves : enters);
       const double right = most_u * (most_u > 0.0 ? leaves : enters);
       const double top = least_v * (least_v < 0.0 ? leaves : enters);
@@ -91,6 +92,7 @@ inline std::uint64_t BeamPassages::to_pass(const SliceBeam& beam, InstructionSet
     blocking |= std::uint64_t{slices_with(patch, passages_[i].windows.rows, set) & there} << 4 * i;
     wanted |= std::uint64_t{slices_with(patch, passages_[i].wanted, set)} << 4 * i;
   }
+  // Slices behind the last wanted cell are left out.
   return wanted == 0 ? 0 : blocking & ~std::uint64_t{0} >> std::countl_zero(wanted);
 }
 

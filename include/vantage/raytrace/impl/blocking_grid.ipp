@@ -155,6 +155,7 @@ VANTAGE_INLINE void BlockingGrid::suppose(const CellSet& stopping) {
     within.insert_word(word, ~std::uint64_t{0});
     Page& page = writable_page(page_address(word));
     Block& block = writable_block(page, word);
+    // Inside the box, exactly the occupied cells and those of `stopping` stop rays. Outside, nothing changes.
     std::uint64_t& blocking = block.blocking[offset_in_block(word)];
     blocking = (blocking & ~within.word(word)) | block.occupied[offset_in_block(word)] | stopping.word(word);
     set_free(page, word, blocking == 0);
@@ -165,6 +166,7 @@ VANTAGE_INLINE void BlockingGrid::suppose(const CellSet& stopping) {
 VANTAGE_INLINE VoxelBox BlockingGrid::words_of_brick(const VoxelIndex& address) const {
   const VoxelIndex cell = Brick::first_cell(address);
   const VoxelIndex lo = CellSet::word_of({cell.x >> level_, cell.y >> level_, cell.z >> level_});
+  // The cells of a coarser grid are so large that a brick lies in one word.
   const std::int32_t words = level_ == 0 ? 2 : 1;
   return {lo, lo + VoxelIndex{words, words, words}};
 }
@@ -188,6 +190,8 @@ VANTAGE_INLINE void BlockingGrid::reach(const VoxelBox& pages) {
   }
 }
 
+// Before the first write, an unseen page gets its own storage. All others go on sharing the unseen one. `page` must
+// be in the table. Likewise for blocks, below.
 VANTAGE_INLINE BlockingGrid::Page& BlockingGrid::writable_page(const VoxelIndex& page) {
   Page*& place = table_[place_in_table(page)];
   if (place == &unseen_) {
@@ -239,6 +243,8 @@ VANTAGE_INLINE void BlockingGrid::take_brick(const VoxelIndex& address, const Br
   }
 }
 
+// Up to level 3, a brick consists of whole coarse cells. At higher levels a coarse cell covers several bricks, so the
+// map is asked for its state.
 VANTAGE_INLINE void BlockingGrid::take_coarse(const OccupancyMap& map, const VoxelIndex& address,
                                               const Brick& brick) {
   const auto take = [&](const VoxelIndex& coarse, Occupancy state) {

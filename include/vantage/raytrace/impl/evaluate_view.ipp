@@ -44,6 +44,7 @@ VANTAGE_INLINE std::vector<ViewEvaluation> evaluate_views(const RayCaster& caste
   return evaluations;
 }
 
+// Cell by cell along every ray. A cell counts once, however many rays end in it.
 VANTAGE_INLINE ViewEvaluation UniformRayTracer::evaluate(const Pose& world_from_sensor, const ViewRays& rays,
                                                          const VoxelBox& object, CellSet* seen) const {
   const detail::RayPlacer placer = detail::view_placer(world_from_sensor, rays, map_->frame());

@@ -40,6 +40,8 @@ VANTAGE_INLINE HierarchicalCounts HierarchicalRayTracer::evaluate(const Pose& wo
     const auto l = static_cast<std::size_t>(level);
     const Eigen::Vector3d along = world_from_sensor.linear() * direction.cast<double>();
     const RayEnd end = casters_[l].cast(origin, origin + max_range_m_ * along);
+    // Free: neither counted nor refined. An occupied cell outside the box is passed on only to be refined, and at the
+    // finest level there is nothing to refine.
     const bool refined = options_.refine_outside && end.occupancy == Occupancy::Occupied && l + 1 < casters_.size();
     return refined || boxes[l].contains(end.cell) ? end.occupancy : Occupancy::Free;
   });

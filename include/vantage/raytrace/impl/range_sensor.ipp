@@ -90,6 +90,7 @@ inline void validate_spherical(const RangeSensor& sensor) {
                          "RangeSensor::vertical_fov_rad", sensor.vertical_fov_rad, "in [1e-4, pi]");
 }
 
+// At least one ray, and no more than the sensor has.
 inline std::size_t rays_needed(double needed, std::size_t has) {
   return needed >= static_cast<double>(has) ? has
                                             : std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(needed)));
@@ -106,6 +107,8 @@ VANTAGE_INLINE RangeSensor RangeSensor::pinhole(std::size_t width, std::size_t h
   RangeSensor sensor;
   sensor.width = width;
   sensor.height = height;
+  // Pixel centres have whole coordinates. The field of view reaches from the outer edge of the first pixel, -0.5, to
+  // that of the last.
   sensor.fx = 0.5 * static_cast<double>(width) / std::tan(0.5 * horizontal_fov_rad);
   sensor.fy = 0.5 * static_cast<double>(height) / std::tan(0.5 * vertical_fov_rad);
   sensor.cx = 0.5 * (static_cast<double>(width) - 1.0);
@@ -158,6 +161,7 @@ VANTAGE_INLINE const std::vector<std::string_view>& RangeSensor::preset_names() 
 VANTAGE_INLINE void RangeSensor::validate() const {
   detail::require_option(width > 0, "RangeSensor::width", width, "> 0");
   detail::require_option(height > 0, "RangeSensor::height", height, "> 0");
+  // divided, because the product might overflow
   detail::require_option(width <= kMostRays && height <= kMostRays / width, "RangeSensor::width", width,
                          "at most 16777216 / height: no more rays than that");
   detail::require_option(std::isfinite(min_range_m) && min_range_m >= 0.0, "RangeSensor::min_range_m", min_range_m,
@@ -171,6 +175,8 @@ VANTAGE_INLINE void RangeSensor::validate() const {
   }
 }
 
+// In the sensor frame: x to the right, y down, z forwards. The rays of a spherical sensor are spaced by equal angles
+// and start half a step inside the field of view.
 VANTAGE_INLINE Eigen::Vector3d RangeSensor::direction(std::size_t column, std::size_t row) const {
   if (projection == Projection::Pinhole) {
     return Eigen::Vector3d((static_cast<double>(column) - cx) / fx, (static_cast<double>(row) - cy) / fy, 1.0)
@@ -211,6 +217,7 @@ VANTAGE_INLINE bool RangeSensor::in_view(const Eigen::Vector3d& direction) const
          std::abs(std::atan2(direction.x(), direction.z())) <= 0.5 * horizontal_fov_rad + kRounding;
 }
 
+// The optical axis of a pinhole need not be in the middle, so both sides are added up.
 VANTAGE_INLINE double RangeSensor::horizontal_angle_rad() const {
   return projection == Projection::Spherical
              ? horizontal_fov_rad
@@ -250,6 +257,7 @@ VANTAGE_INLINE RangeSensor RangeSensor::rays_for(double cell_m) const {
     const double down = static_cast<double>(reduced.height) / rows;
     reduced.fx = fx * across;
     reduced.fy = fy * down;
+    // The edges of the image stay where they are.
     reduced.cx = (cx + 0.5) * across - 0.5;
     reduced.cy = (cy + 0.5) * down - 0.5;
   }

@@ -93,6 +93,7 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
     if (left != 0) {
       placer.place_cells(block);
     }
+    // Unknown cells stop rays, too. So a ray that nothing stops ends in a free cell.
     for (; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
       RayEnd& end = ends[tile.ray[i]];
@@ -131,6 +132,7 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
   detail::ViewWalk::Outlook outlook;
   detail::RayBlock block;
   constexpr double kLooseness = 1e-5;  // tolerance for rotations that are not exactly orthonormal
+  // If all rays end behind the box, their lengths do not matter, and ViewWalk follows whole groups of tiles.
   const bool end_behind = culling.furthest_m() < (1.0 - kLooseness) * rays.max_range_m();
   for (std::size_t g = 0; g < rays.groups().size(); ++g) {
     const TileGroup& group = rays.groups()[g];
@@ -165,6 +167,7 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
       }
     }
   }
+  // A sensor does not see what is nearer than its minimum range, but such a cell hides what lies behind it.
   if (frame_.box_of(box).distance_to(world_from_sensor.translation()) < rays.min_range_m()) {
     const Eigen::Vector3d around = Eigen::Vector3d::Constant(rays.min_range_m() + frame_.size_m);
     const VoxelBox near{frame_.cell_of(world_from_sensor.translation() - around),

@@ -28,6 +28,7 @@ struct Angles {
     return {std::cos(beta) * std::sin(alpha), std::sin(beta), std::cos(beta) * std::cos(alpha)};
   }
 
+  // Radians. Rays that are `step` apart are about a cell apart at the maximum range.
   double half_across;
   double half_down;
   double step;
@@ -122,6 +123,7 @@ VANTAGE_INLINE RayTree::RayTree(const RangeSensor& sensor, double finest_cell_m,
       made.parents[i] = detail::nearest_ray(coarse, angles, i % angles.width, i / angles.width);
       ++above.first_child[made.parents[i] + 1];
     }
+    // Counting sort: the children of a ray lie side by side, in the order of their numbers.
     for (std::size_t i = 1; i < above.first_child.size(); ++i) {
       above.first_child[i] += above.first_child[i - 1];
     }
@@ -131,6 +133,7 @@ VANTAGE_INLINE RayTree::RayTree(const RangeSensor& sensor, double finest_cell_m,
       above.children[place[made.parents[i]]++] = static_cast<std::uint32_t>(i);
     }
   }
+  // From the finest level up: a ray has the leaves of its children.
   for (std::size_t level = levels_.size() - 1; level > 0; --level) {
     for (std::size_t i = 0; i < levels_[level].leaves.size(); ++i) {
       levels_[level - 1].leaves[levels_[level].parents[i]] += levels_[level].leaves[i];

@@ -30,6 +30,7 @@ void share_work(std::size_t count, std::size_t threads, const Work& work) {
     }
   };
   {
+    // The calling thread takes turns, too. The end of the block waits for the others.
     std::vector<std::jthread> others;
     for (std::size_t i = 1; i < std::min(threads, count); ++i) {
       others.emplace_back(take_turns);

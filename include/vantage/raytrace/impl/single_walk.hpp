@@ -44,6 +44,7 @@ inline bool SingleWalk::advance(const BlockingGrid& grid) {
   while (true) {
     const VoxelIndex word = CellSet::word_of(cell());
     const std::int32_t free = grid.distance(word) - 1;
+    // The word is the middle of a cube of free words, which the ray leaves in one leap.
     if (free >= 0) {
       const VoxelBox cube = VoxelBox{word, word + VoxelIndex{1, 1, 1}}.grown(free);
       if (!leave({cube.lo.x * 4, cube.lo.y * 4, cube.lo.z * 4},

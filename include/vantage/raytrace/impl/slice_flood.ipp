@@ -28,6 +28,8 @@ struct Drift {
   std::uint32_t up_v;
   std::uint32_t down_v;
 
+  // The cells that one step along u leads to; below, those of a row that one step along v leads to, from the rows on
+  // both sides.
   [[nodiscard]] std::uint32_t along_u(std::uint32_t cells) const {
     return (cells << 1U & up_u) | (cells >> 1U & down_u);
   }
@@ -40,10 +42,12 @@ struct Course {
   template <class T>
   using PerSlice = std::array<T, 8>;
 
+  // Where rays may enter a slice; below, where they may be until they leave it.
   [[nodiscard]] WindowPatch entered(std::size_t slice) const { return {entered_columns[slice], entered_rows[slice]}; }
   [[nodiscard]] WindowPatch passed(std::size_t slice) const { return {passed_columns[slice], passed_rows[slice]}; }
 
   Drift drift{};
+  // The box of interest in the windows: its columns and rows, and a bit for each slice that it overlaps.
   WindowPatch of_box;
   std::uint32_t slices_of_box = 0;
   alignas(32) PerSlice<std::uint32_t> entered_columns{};
@@ -76,6 +80,7 @@ inline void place_beam(const SliceBeam& beam, const SliceWindows& windows, Instr
       top[static_cast<std::size_t>(k)] = row_at(from_v + beam.least[1] * enters - SliceBeam::kRounding);
       bottom[static_cast<std::size_t>(k)] = row_at(from_v + beam.most[1] * enters + SliceBeam::kRounding);
     }
+    // The eighth slice only fills the vectors, so it does not matter where it ends.
     left[kSlices] = left[kSlices - 1];
     right[kSlices] = right[kSlices - 1];
     top[kSlices] = top[kSlices - 1];
@@ -129,6 +134,7 @@ inline bool flood(const SliceWindows& windows, const Course& course, WindowRows&
     const std::uint32_t* const stops = windows.rows[k].data();
     alignas(64) WindowRows hit;
     left = 0;
+    // no step, or one along u
     VANTAGE_INDEPENDENT
     for (std::size_t row = 0; row < kRows; ++row) {
       const std::uint32_t here = cells[row] & entered.in_row(row);
@@ -138,6 +144,7 @@ inline bool flood(const SliceWindows& windows, const Course& course, WindowRows&
       beside[row] = goes_on | (along_u & ~stops[row]);
       hit[row] = (here | along_u) & stops[row];
     }
+    // one step along v, alone or after one along u; and one along u after one along v
     VANTAGE_INDEPENDENT
     for (std::size_t row = 0; row < kRows; ++row) {
       const std::uint32_t along_v = drift.along_v(beside + row) & passed.in_row(row);
@@ -238,6 +245,7 @@ VANTAGE_INLINE void SliceFlood::move(const SliceWindows& windows) {
       most[i] += SliceBeam::cell_at(beam_.most[i] * gap + SliceBeam::kRounding) + 1;
     }
   }
+  // The set of all cells is a bound, too, and cheaper than one that spreads far.
   constexpr std::int32_t kWidest = 8;
   if (most[0] - least[0] >= kWidest || most[1] - least[1] >= kWidest) {
     cells_.fill(~std::uint32_t{0});

@@ -37,6 +37,7 @@ inline First first_crossed(const Place& from, const Place& to, std::int32_t u, s
                            std::int32_t step_v) {
   const std::int32_t until_u = std::abs((std::max(from.column, to.column) << kBits) - u);
   const std::int32_t until_v = std::abs((std::max(from.row, to.row) << kBits) - v);
+  // The time to a face is a distance divided by a step. Multiplied by both steps, the times compare without division.
   const float v_later = static_cast<float>(until_v) * static_cast<float>(std::abs(step_u)) -
                         static_cast<float>(until_u) * static_cast<float>(std::abs(step_v));
   return v_later >= kDoubtOfOrder ? First::U : v_later <= -kDoubtOfOrder ? First::V : First::Unsure;
@@ -78,6 +79,7 @@ inline void walk_baseline(const SliceLanes& lanes, const SliceWindows& windows, 
             break;
           }
         } else {
+          // The order matters only if one of the two cells stops the ray.
           const std::uint32_t either = windows.rows[slice][static_cast<std::size_t>(from.row)] >> to.column |
                                        windows.rows[slice][static_cast<std::size_t>(to.row)] >> from.column;
           doubtful = (either & 1U) != 0;
@@ -137,6 +139,7 @@ VANTAGE_TARGET_AVX512 inline Order16 order_of(__m512 until_u, __m512 until_v, __
           _mm512_cmp_ps_mask(v_later, _mm512_set1_ps(-kDoubtOfOrder), _CMP_LE_OQ)};
 }
 
+// Replaces `where` of the stopped lanes by this cell, as SliceHits stores it.
 VANTAGE_TARGET_AVX512 inline __m512i stopped_at(__m512i where, __mmask16 stopped, __m512i row, __m512i column,
                                                 std::size_t slice) {
   const __m512i first = _mm512_set1_epi32(static_cast<std::int32_t>(slice) * 512);
@@ -154,6 +157,8 @@ VANTAGE_TARGET_AVX512 inline __mmask16 any_is_set(__m512i row, __m512i other_row
   return _mm512_test_epi32_mask(_mm512_maskz_or_epi32(kAll, in_row, in_other), _mm512_set1_epi32(1));
 }
 
+// As walk_baseline, for 16 rays. The 16 rows of a window fill one register, and a permutation selects the row of each
+// ray.
 VANTAGE_TARGET_AVX512 inline void walk_avx512(const SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
                                               __mmask16 active, SliceHits& hits) {
   const __m512i step_u = _mm512_load_si512(&lanes.step_u[first]);
@@ -243,11 +248,13 @@ VANTAGE_TARGET_AVX2 inline unsigned near_edge(__m256i u, __m256i v) {
 VANTAGE_TARGET_AVX2 inline __m256i gathered_rows(const std::uint32_t* window, __m256i row) {
   const __m256i low = _mm256_permutevar8x32_epi32(load_eight(window), row);
   const __m256i high = _mm256_permutevar8x32_epi32(load_eight(window + 8), row);
+  // bit 3 of the row, moved to the sign, by which the blend selects
   const __m256i is_high = _mm256_slli_epi32(row, 28);
   return _mm256_castps_si256(
       _mm256_blendv_ps(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), _mm256_castsi256_ps(is_high)));
 }
 
+// Moves the bit of the column to the sign of its lane, which `bits` collects.
 VANTAGE_TARGET_AVX2 inline unsigned is_set(__m256i rows, __m256i columns) {
   return bits(_mm256_slli_epi32(_mm256_srlv_epi32(rows, columns), 31));
 }
@@ -270,6 +277,7 @@ VANTAGE_TARGET_AVX2 inline Order8 order_of(__m256 until_u, __m256 until_v, __m25
   return {bits(_mm256_castps_si256(certain)), bits(_mm256_castps_si256(against))};
 }
 
+// As stopped_at, in memory.
 VANTAGE_TARGET_AVX2 inline void stop_at(__m256i row, __m256i column, std::size_t slice, unsigned stopped,
                                         std::int32_t* where) {
   const __m256i first = _mm256_set1_epi32(static_cast<std::int32_t>(slice) * 512);
@@ -277,6 +285,7 @@ VANTAGE_TARGET_AVX2 inline void stop_at(__m256i row, __m256i column, std::size_t
   _mm256_maskstore_epi32(where, lanes_of(stopped), cell);
 }
 
+// As walk_avx512, for eight rays.
 VANTAGE_TARGET_AVX2 inline void walk_avx2(const SliceLanes& lanes, const SliceWindows& windows, std::size_t first,
                                           unsigned active, SliceHits& hits) {
   const __m256i step_u = load_eight(&lanes.step_u[first]);

@@ -79,10 +79,13 @@ std::uint64_t SliceWalk::follow(Slices& slices, SliceBeam beam, std::uint64_t ac
   std::uint64_t others = 0;
   start();
   for (; active != 0 && stop.slice <= slices.last(); stop = slices.next_stop(beam, stop.next)) {
+    // The slices do not know all cells on the way.
     if (!stop.held) {
       return others | active;
     }
     if (!stop.fits_windows()) {
+      // The beam is wider than a window. Each quarter of the tile, 4 x 4 neighbouring rays, goes on with a narrower
+      // beam of its own.
       for (unsigned quarter = 0; quarter < 4; ++quarter) {
         const std::uint64_t some = active & std::uint64_t{0xFFFF} << 16U * quarter;
         if (some == active) {
@@ -101,6 +104,8 @@ std::uint64_t SliceWalk::follow(Slices& slices, SliceBeam beam, std::uint64_t ac
     }
     const std::uint64_t before = active;
     std::uint64_t ending = 0;
+    // Rays that end before the windows meet no more cells. Those that may end inside are walked as the others;
+    // end_rays then checks their hits.
     const double leaves = beam.entered_at(windows_.first + static_cast<std::int64_t>(windows_.count));
     if (shortest <= leaves + SliceBeam::kRounding) {
       active &= ~ending_by(beam.entered_at(windows_.first) - SliceBeam::kRounding);
@@ -115,6 +120,7 @@ std::uint64_t SliceWalk::follow(Slices& slices, SliceBeam beam, std::uint64_t ac
     }
     others |= met.doubtful;
     active &= ~(met.stopped | met.doubtful | ending);
+    // A beam around fewer rays may be narrower, and then has fewer stops.
     if (active != before && active != 0) {
       beam.tighten(lines, active, set_);
     }

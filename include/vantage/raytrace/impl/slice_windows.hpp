@@ -136,6 +136,8 @@ inline std::uint64_t swap_index_bits(std::uint64_t word) {
 using WordRows = std::array<std::uint32_t, 16>;
 
 #if defined(__x86_64__)
+// A word holds 16 rows of four cells, one for each lane: lanes 0 to 7 take them from its lower half, lanes 8 to 15
+// from its upper half.
 VANTAGE_TARGET_AVX512 inline WordRows rows_avx512(std::span<const std::uint64_t> words) {
   const __m512i from = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 0, 4, 8, 12, 16, 20, 24, 28);
   __m512i rows = _mm512_setzero_si512();

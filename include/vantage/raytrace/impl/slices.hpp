@@ -20,18 +20,21 @@ namespace vantage::detail {
 //                    |
 //      BoxCulling    |  cones that miss the box of interest          BlockingGrid
 //      FreeCone      |  cones without a cell that stops a ray          word: 4 x 4 x 4 cells as 64 bits
-//                    v                                                 page: 8 x 8 x 8 words
-//     visible_cells: ViewWalk                cast: TileWalk            distance: free words around a word
-//       group by group                         tile by tile                  |
-//       SliceFlood: a beam as a set of cells   class by class                v
-//       BeamPassages: what it found             |                    slices: sheets of cells across the major axis
-//       Outlook: what that tells of a tile      |                    layer: the four slices of a sheet of words
+//                    v                                                 block: 2 x 2 x 2 words
+//     visible_cells: ViewWalk                cast: TileWalk            page: 4 x 4 x 4 blocks
+//       group by group                         tile by tile            distance: free words around a word
+//       SliceFlood: a beam as a set of cells   class by class                |
+//       BeamPassages: what it found             |                            |  Reader: keeps the last page
+//       Outlook: what that tells of a tile      |                            v
+//                    |                          |                    slices: sheets of cells across the major axis
+//                    |                          |                    layer: the four slices of a sheet of words
 //                    |                          |                      GridSlices: words for one tile
 //                    +----------+---------------+                      ViewSlices: rows of cells for a view
 //                               v                                            |
 //                           SliceWalk  <--- Stop, SliceWindows --------------+
 //                             SliceBeam through free layers
 //                             SliceLanes in windows, 64 rays at a time
+//                             SliceHits: the rays that these stopped, with their cells, and the doubtful rays
 //                             |            |
 //                             |            +--- doubtful rays ---> SingleWalk: one ray, exactly
 //                             v                                            |
@@ -40,7 +43,8 @@ namespace vantage::detail {
 // class    rays with the same major axis, along which they advance fastest, and the same direction on it (SliceAxes);
 //          the other two axes are the lateral axes u and v
 // slope    lateral cells per cell along the major axis; RayLines holds the slopes and lengths of 64 rays
-// beam     a range of slopes that bounds rays of a class, drawn in map/impl/slice_beam.hpp
+// beam     a range of slopes that bounds rays of a class, drawn in map/impl/slice_beam.hpp; LateralCells: the
+//          rectangle of cells, along both lateral axes, in which its rays may be in some slices
 // stop     the next slices in which a cell may stop a ray of a beam
 // window   32 x 16 cells of a slice as a bit mask; SlicePlace tells where it lies; patch: a rectangle in it
 // passage  the windows of a stop, and the cells in them that are still wanted

@@ -19,6 +19,7 @@ inline std::uint64_t reversed(std::uint64_t slices) {
   return (slices & 0x0000FFFF0000FFFFU) << 16U | (slices >> 16U & 0x0000FFFF0000FFFFU);
 }
 
+// The part of the windows at `place` that these cells fill. They must lie inside (Stop::fits_windows).
 inline WindowPatch patch_of(const LateralCells& cells, const SlicePlace& place) {
   return {bits_between(cells.lo[0] - place.first_u, cells.hi[0] - place.first_u),
           bits_between(cells.lo[1] - place.first_v, cells.hi[1] - place.first_v)};
@@ -88,6 +89,8 @@ VANTAGE_INLINE bool ViewSlices::begin(const SliceBeam& beam, std::int64_t last) 
   return true;
 }
 
+// Reads all cells that the beam reaches in the layer of a slice, also before that slice. A free layer gives its rows
+// back and keeps the number of free layers instead.
 VANTAGE_INLINE void ViewSlices::read(std::size_t number, std::int64_t slice) {
   layers_.resize(std::max(layers_.size(), number + 1));
   Layer& layer = layers_[number];
@@ -110,6 +113,8 @@ VANTAGE_INLINE void ViewSlices::read(std::size_t number, std::int64_t slice) {
   }
 }
 
+// For a free layer: the number of layers, itself included, in which no cell stops a ray of the beam. (As
+// GridSlices::free_layers.)
 VANTAGE_INLINE std::int32_t ViewSlices::free_from(const Layer& layer, std::int32_t along) {
   std::int32_t free = BlockingGrid::kFurthest;
   for (std::int32_t v = layer.first_v; v < layer.end_v; v += 4) {
@@ -151,6 +156,7 @@ VANTAGE_INLINE bool ViewSlices::read_rows(const Layer& layer, std::int32_t along
         const std::size_t of_any = at + (kAny - i / 4) * layer.rows;
         rows[at] |= of_words[i];
         rows[of_any] |= of_words[i];
+        // Columns overlap: the first 32 cells of this one are the last 32 of the one before.
         if (column > 0) {
           std::uint64_t* const before = rows - kPlanes * layer.rows;
           before[at] |= std::uint64_t{of_words[i]} << 32U;
@@ -180,6 +186,8 @@ VANTAGE_INLINE bool ViewSlices::any_stops(std::int64_t slice, const LateralCells
   return any_in_rows(rows, cells.extent(1), columns);
 }
 
+// Skips free layers, then asks layer by layer. A layer that does not cover the cells of the beam cannot answer: it is
+// a stop that is not held.
 VANTAGE_INLINE Stop ViewSlices::next_stop(const SliceBeam& beam, std::int64_t slice) {
   const auto stops = [this](const Stop& stop) { return !stop.held || any_stops(stop.slice, stop.cells); };
   while (slice <= last_) {
@@ -284,6 +292,8 @@ VANTAGE_INLINE void GridSlices::cut(const SliceBeam& beam, const Stop& stop, Sli
   const VoxelIndex lo = place.at(place.along >> 2, place.first_u >> 2, place.first_v >> 2);
   const std::int32_t u_words = (cells.hi[0] >> 2) - (cells.lo[0] >> 2);
   const std::int32_t v_words = (cells.hi[1] >> 2) - (cells.lo[1] >> 2);
+  // The slices of a word are brought into the order of the walk. Then those before the stop are shifted out, and
+  // those behind it masked.
   const std::uint64_t taken = ~std::uint64_t{0} >> (64U - 16U * count);
   const auto skipped = static_cast<unsigned>(place.up ? place.along & 3 : 3 - (place.along & 3)) * 16U;
   std::array<std::uint64_t, SliceWindows::kWidth / 4> words;

@@ -73,6 +73,7 @@ inline void TileHits::take(const SliceHits& hits, const SlicePlace& place) {
     std::int32_t* const cell_m = cell[place.major].data();
     std::int32_t* const cell_u = cell[place.u].data();
     std::int32_t* const cell_v = cell[place.v].data();
+    // Without branches: a ^ ((a ^ b) & mask) is b where the mask is set, and a elsewhere.
     VANTAGE_INDEPENDENT
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       const std::int32_t at = where[i];
@@ -98,6 +99,7 @@ inline void CellStamps::take(const SliceHits& hits, const SlicePlace& place) {
     const std::int32_t where = hits.where[static_cast<std::size_t>(std::countr_zero(left))];
     const VoxelIndex cell{SliceHits::column(where), SliceHits::row(where),
                           place.along + (place.up ? SliceHits::slice(where) : -SliceHits::slice(where))};
+    // `cell` is (u, v, major axis), so its bit follows the order of slices until from_slices.
     const std::int32_t word = cell.x >> 2 | cell.y >> 2 << 3;
     words_[static_cast<std::size_t>(word)] |= CellSet::bit_of(cell);
     touched |= std::uint32_t{1} << word;

@@ -84,6 +84,7 @@ inline std::uint64_t TileWalk::walk_class(SliceBeam beam, const RayExtents& exte
                                           const VoxelBox& within, double free_share, HitSink& hits) {
   walk_.lines.place(extents, beam.axes, set_);
   const auto [shortest, longest] = range_of(walk_.lines.length, rays, set_);
+  // A ray without a length has no slopes.
   if (!(shortest > SliceBeam::kRounding)) {
     return rays;
   }

@@ -138,6 +138,7 @@ inline void BoxCulling::find_outline(const Eigen::Matrix3d& world_from_sensor) {
   const auto side = [&](Eigen::Index axis, bool upper) {
     return (upper ? box_.max : box_.min)[axis] - origin_[axis];
   };
+  // Whether the origin is on the outer side of a face, so that the face is visible.
   const auto looks = [&](Eigen::Index axis, bool upper) { return side(axis, upper) * (upper ? 1.0 : -1.0) < 0.0; };
   const Eigen::Vector3d to_centre = box_.centre() - origin_;
   for (Eigen::Index along = 0; along < 3; ++along) {
@@ -150,6 +151,7 @@ inline void BoxCulling::find_outline(const Eigen::Matrix3d& world_from_sensor) {
         Eigen::Vector3d normal = Eigen::Vector3d::Zero();
         normal[a] = side(b, upper_b);
         normal[b] = -side(a, upper_a);
+        // away from the box
         normal *= (normal.dot(to_centre) > 0.0 ? -1.0 : 1.0) / normal.norm();
         outwards_[edges_++] = world_from_sensor.transpose() * normal;
       }
@@ -192,6 +194,8 @@ inline double FreeCone::free_m(const RayCone& cone, double enough_m) {
       break;
     }
     const std::array<std::int32_t, 3> first{word.x * 4, word.y * 4, word.z * 4};
+    // The cube of free words reaches `free` cells beyond this word. Step until the cone, which widens, may touch a
+    // face.
     const double around = reached * chord + kSlack;
     double step = enough;
     for (std::size_t i = 0; i < 3; ++i) {

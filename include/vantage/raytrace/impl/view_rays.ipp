@@ -117,6 +117,7 @@ VANTAGE_INLINE ViewRays::ViewRays(const std::vector<Eigen::Vector3f>& directions
   }
 }
 
+// The corners of a tile that has none remain zero. No beam contains them.
 VANTAGE_INLINE void ViewRays::add_hulls(const TileGroup& group) {
   TileHulls& hulls = hulls_.emplace_back();
   for (std::size_t i = group.first; i < group.last; ++i) {

@@ -51,6 +51,8 @@ VANTAGE_INLINE void ViewWalk::enter(const TileGroup& group, const TileHulls& hul
     return;
   }
   of_class_ = measure(hulls.corners, of_group_->all);
+  // Corner k of a tile is lane kTiles * k + the number of the tile. All four corners must belong to the class. Then
+  // all rays of the tile do.
   of_class_ &= of_class_ >> 2 * TileHulls::kTiles;
   of_class_ &= of_class_ >> TileHulls::kTiles;
   of_class_ &= (std::uint64_t{1} << (group.last - group.first)) - 1;
@@ -92,6 +94,7 @@ VANTAGE_INLINE ViewWalk::Known ViewWalk::record(const SliceBeam& beam, Stop stop
   bool tells = flood_.begin(beam);
   std::uint32_t any_of_box = 0;
   for (; stop.slice <= slices.last(); stop = slices.next_stop(beam, stop.next)) {
+    // A list that is not complete tells nothing.
     tells = tells && stop.held && stop.fits_windows() && passages_.size() < BeamPassages::kMost;
     if (!tells) {
       fits_by_parts_ =
@@ -220,6 +223,8 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk_recorded(const Outlook& outlook, std
       continue;
     }
     std::uint64_t found = 0;
+    // A cell is passed on once: the first ray that meets it removes it from the wanted cells. Hits of other rays
+    // there are dropped.
     for (std::uint64_t stopped = met.stopped & changes_of(met.where, set_); stopped != 0; stopped &= stopped - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(stopped));
       const std::int32_t where = met.where[lane];
