@@ -485,33 +485,32 @@ bool expect_contract(const std::string& planner, Host host, const Scene& scene) 
   return ended;
 }
 
-class ExplorationContract : public ::testing::TestWithParam<std::tuple<std::string, Host>> {};
+using Pair = std::tuple<std::string, Host>;
 
-TEST_P(ExplorationContract, Holds) {
-  const auto& [planner, host] = GetParam();
+// Runs the scenes numbered `first`, `first + step`, ..., as many as the environment asks for.
+template <class SceneOf>
+void expect_contract_in_each(const Pair& pair, std::uint32_t step, SceneOf&& scene_of) {
+  const auto& [planner, host] = pair;
   const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
-  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
+  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1) + static_cast<std::uint32_t>(host);
   std::size_t ended = 0;
   for (std::uint32_t i = 0; i < seeds; ++i) {
-    // The step has no factor in common with the kinds of scenes, so that every host meets all of them.
-    const Scene scene = Scene::numbered(first + i * (kHosts + 2) + static_cast<std::uint32_t>(host)).met_by(host);
-    ended += expect_contract(planner, host, scene) ? 1U : 0U;
+    ended += expect_contract(planner, host, scene_of(first + i * step).met_by(host)) ? 1U : 0U;
   }
   EXPECT_EQ(ended, seeds);
 }
 
+// The step has no factor in common with the kinds of scenes, so that every host meets all of them.
+constexpr std::uint32_t kStep = kHosts + 2;
+
+class ExplorationContract : public ::testing::TestWithParam<Pair> {};
+
+TEST_P(ExplorationContract, Holds) { expect_contract_in_each(GetParam(), kStep, Scene::numbered); }
+
 class ExplorationContractOfUsualSensors : public ExplorationContract {};
 
 TEST_P(ExplorationContractOfUsualSensors, Holds) {
-  const auto& [planner, host] = GetParam();
-  const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
-  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
-  std::size_t ended = 0;
-  for (std::uint32_t i = 0; i < seeds; ++i) {
-    const std::uint32_t number = first + i * (kHosts + 2) + static_cast<std::uint32_t>(host);
-    ended += expect_contract(planner, host, Scene::with_a_usual_sensor(number).met_by(host)) ? 1U : 0U;
-  }
-  EXPECT_EQ(ended, seeds);
+  expect_contract_in_each(GetParam(), kStep, Scene::with_a_usual_sensor);
 }
 
 /// Buildings below VANTAGE_DATA: floor plans, worlds of aerial exploration, houses and offices with furniture.
@@ -534,16 +533,9 @@ class ExplorationContractInRealBuildings : public ExplorationContract {};
 
 TEST_P(ExplorationContractInRealBuildings, Holds) {
   VANTAGE_REAL_DATA(data, "floorplans");
-  const auto& [planner, host] = GetParam();
-  const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
-  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1);
-  std::size_t ended = 0;
-  for (std::uint32_t i = 0; i < seeds; ++i) {
-    const std::uint32_t number = first + i * kHosts + static_cast<std::uint32_t>(host);
-    const World& real = real_buildings()[number / kHosts % real_buildings().size()];
-    ended += expect_contract(planner, host, Scene::in_real_building(real, number).met_by(host)) ? 1U : 0U;
-  }
-  EXPECT_EQ(ended, seeds);
+  expect_contract_in_each(GetParam(), kHosts, [](std::uint32_t number) {
+    return Scene::in_real_building(real_buildings()[number / kHosts % real_buildings().size()], number);
+  });
 }
 
 // The peers only choose; what they share with the planners keeps the contract. A sample of it.
@@ -637,7 +629,7 @@ std::vector<Host> hosts_in_real_buildings() {
   return all;
 }
 
-std::string name_of_pair(const ::testing::TestParamInfo<std::tuple<std::string, Host>>& pair) {
+std::string name_of_pair(const ::testing::TestParamInfo<Pair>& pair) {
   return test::test_name(std::get<0>(pair.param) + "_" + name_of(std::get<1>(pair.param)));
 }
 

@@ -29,12 +29,12 @@ enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 // They run a local copy of the body, so no store in it can alias what it holds.
 template <class Body>
 [[gnu::flatten]] VANTAGE_TARGET_AVX2 void run_avx2(const Body& body) {
-  const Body local = body;
+  const Body local = body;  // NOLINT(performance-unnecessary-copy-initialization)
   local();
 }
 template <class Body>
 [[gnu::flatten]] VANTAGE_TARGET_AVX512 void run_avx512(const Body& body) {
-  const Body local = body;
+  const Body local = body;  // NOLINT(performance-unnecessary-copy-initialization)
   local();
 }
 #endif

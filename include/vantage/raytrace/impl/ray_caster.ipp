@@ -39,6 +39,21 @@ inline RayCasterOptions validated(const RayCasterOptions& options) {
   return options;
 }
 
+// Erases the cells that are nearer to `origin` than the minimum range of a sensor. It does not see them, but they
+// hide what lies behind them.
+inline void erase_nearer(CellSet& seen, const VoxelFrame& frame, const Eigen::Vector3d& origin, double min_range_m) {
+  if (frame.box_of(seen.box()).distance_to(origin) >= min_range_m) {
+    return;
+  }
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(min_range_m + frame.size_m);
+  const VoxelBox near{frame.cell_of(origin - around), frame.cell_of(origin + around)};
+  for_each_cell(box_overlap(seen.box(), near), [&](const VoxelIndex& cell) {
+    if ((frame.centre_of(cell) - origin).norm() < min_range_m) {
+      seen.erase(cell);
+    }
+  });
+}
+
 }  // namespace detail
 
 VANTAGE_INLINE RayCaster::RayCaster(const OccupancyMap& map, const RayCasterOptions& options)
@@ -167,17 +182,7 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
       }
     }
   }
-  // A sensor does not see what is nearer than its minimum range, but such a cell hides what lies behind it.
-  if (frame_.box_of(box).distance_to(world_from_sensor.translation()) < rays.min_range_m()) {
-    const Eigen::Vector3d around = Eigen::Vector3d::Constant(rays.min_range_m() + frame_.size_m);
-    const VoxelBox near{frame_.cell_of(world_from_sensor.translation() - around),
-                        frame_.cell_of(world_from_sensor.translation() + around)};
-    for_each_cell(detail::box_overlap(box, near), [&](const VoxelIndex& cell) {
-      if ((frame_.centre_of(cell) - world_from_sensor.translation()).norm() < rays.min_range_m()) {
-        seen.erase(cell);
-      }
-    });
-  }
+  detail::erase_nearer(seen, frame_, world_from_sensor.translation(), rays.min_range_m());
   return seen;
 }
 
