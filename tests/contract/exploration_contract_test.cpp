@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Properties that every planner must have with its default settings, over buildings with moving objects and windows
-// of real ones, imperfect hosts, ideal and real sensors, cell sizes, 3D and 2D. VANTAGE_CONTRACT_SEEDS: number of
+// of real ones, imperfect hosts, ideal and usual sensors, cell sizes, 3D and 2D. VANTAGE_CONTRACT_SEEDS: number of
 // worlds per planner and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
 #include <gtest/gtest.h>
 
@@ -113,8 +113,8 @@ struct Scene {
     scene.inset = host == Host::Inexact ? 0.25 : 0.0;
     return scene;
   }
-  /// Ideal sensors look all around, ahead, or all around near the horizon; 1 and 2 also as they usually are: a depth
-  /// camera and a lidar that see nothing near them and do not report rays without return.
+  /// Kind 0 looks all around, 1 ahead, 2 all around near the horizon. Without `reports_no_return`, 1 and 2 are a
+  /// usual depth camera and a usual lidar, which see nothing nearer than two cells.
   [[nodiscard]] RangeSensor sensor() const {
     constexpr double kPi = std::numbers::pi;
     const double tall = flat ? 0.001 : 1.0;

@@ -42,7 +42,8 @@ class LaplaceProblem {
   /// sink. Without sinks, phi is 1 everywhere. Throws std::invalid_argument, which names the cell at fault,
   /// otherwise.
   LaplaceProblem(const std::vector<VoxelIndex>& cells, std::span<const VoxelIndex> sinks, const VoxelIndex& source);
-  /// The cells and sinks of `domain`. Throws std::invalid_argument if `source` is not in the domain or is a sink.
+  /// The cells and sinks of `domain` that are connected to `source`; the others are counted (`dropped_cells`). Throws
+  /// std::invalid_argument if `source` is not in the domain or is a sink.
   LaplaceProblem(LaplaceDomain domain, const VoxelIndex& source);
 
   /// The number of cells.

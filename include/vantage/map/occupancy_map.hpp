@@ -51,9 +51,9 @@ class OccupancyMap {
   explicit OccupancyMap(const OccupancyMapOptions& options);
   /// The same map, of which about `resident_bytes` (at least 65536) of bricks stay in memory. Bricks that were not
   /// written to for longest go to a file in `folder` and come back when they are used; those that are only read stay
-  /// until a later scan. If the disk is full, updates are refused as beyond `max_bytes`, which counts all bricks. The
-  /// file has no name and ends with the process. If the disk fails, the kernel may end the process by SIGBUS. Throws
-  /// as the other constructor, and std::runtime_error if no file can be made in the folder.
+  /// until a later scan. If the disk is full, updates that need a new brick are refused and counted, as beyond
+  /// `max_bytes`, which counts all bricks. The file has no name and ends with the process; a copy has its own. If the
+  /// disk fails, the kernel may end the process by SIGBUS. Throws std::runtime_error if the folder takes no file.
   OccupancyMap(const OccupancyMapOptions& options, const std::string& folder, std::size_t resident_bytes);
   ~OccupancyMap() = default;
   /// Copies the cells and the change log. The copy gets its own identity. Throws std::runtime_error if the bricks are

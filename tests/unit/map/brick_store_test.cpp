@@ -221,7 +221,7 @@ TEST(ResidentBricks, NeedAFolder) {
   const std::filesystem::path missing = folder.path() / "missing";
   EXPECT_EQ(message_of(missing, 65536),
             missing.string() + ": no file can be made here for the bricks of a map: No such file or directory");
-  EXPECT_EQ(message_of("", 65536), ": no file can be made here for the bricks of a map: No such file or directory");
+  EXPECT_EQ(message_of("", 65536), "OccupancyMap: folder must not be empty");
   EXPECT_EQ(message_of(folder.path(), 1000), "OccupancyMap: resident_bytes is 1000, must be at least 65536");
   EXPECT_THROW(on_disk(missing, 1), std::runtime_error);
   EXPECT_THROW(OccupancyMap({}, folder.path(), 1000), std::invalid_argument);

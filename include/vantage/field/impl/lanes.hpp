@@ -23,6 +23,8 @@ struct LanesOf {
 template <class T>
 using Lanes = typename LanesOf<T>::type;
 
+// The call operator of a kernel for compiled_for must be VANTAGE_ALWAYS_INLINE: wide vectors are passed to functions
+// that are inlined only.
 #define VANTAGE_ALWAYS_INLINE [[gnu::always_inline]] inline
 #define VANTAGE_ALWAYS_INLINE_LAMBDA __attribute__((always_inline))
 

@@ -26,7 +26,7 @@ enum class InstructionSet : std::uint8_t { Baseline, Avx2, Avx512 };
 #define VANTAGE_TARGET_AVX2 [[gnu::target("avx2")]]
 #define VANTAGE_TARGET_AVX512 [[gnu::target("avx512f,avx512dq,avx512vl")]]
 
-// They run a local copy of the body, so no store in it can alias what it holds.
+// A local copy of the body: no store in it can alias what it holds, which matters for wide vectors.
 template <class Body>
 [[gnu::flatten]] VANTAGE_TARGET_AVX2 void run_avx2(const Body& body) {
   const Body local = body;  // NOLINT(performance-unnecessary-copy-initialization)

@@ -90,6 +90,9 @@ VANTAGE_INLINE OccupancyMap::OccupancyMap(const OccupancyMapOptions& options, co
     : OccupancyMap(options) {
   detail::require_option(resident_bytes >= detail::BrickFile::kBlockBytes, "OccupancyMap: resident_bytes",
                          resident_bytes, "at least 65536");
+  if (folder.empty()) {
+    throw std::invalid_argument("OccupancyMap: folder must not be empty");
+  }
   BrickStore on_disk(folder, resident_bytes);
   bricks_.swap(on_disk);
 }
