@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Maps the inside of a cube from one scan and plans: Explored if the cube is closed, a Move if it is open. Then the
-// host of the README explores a room with a pillar.
+// host of the README explores a room with a pillar, in large cells, because this may be compiled without
+// optimisation.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -75,7 +76,7 @@ class Robot {
 
 std::string explore(Robot& robot, const vantage::RangeSensor& sensor) {
   const auto body = std::make_shared<vantage::FreeFlyer>(vantage::FreeFlyerOptions{.radius_m = 0.3});
-  vantage::OccupancyMap map({.resolution_m = 0.1});
+  vantage::OccupancyMap map({.resolution_m = 0.2});
   const auto planner = vantage::make_planner("harmonic", {.sensor = sensor, .platform = body});
   assume_free(map, *body, robot.pose(), start_clearance_m(*body, sensor));
   map.insert(robot.scan());
@@ -103,7 +104,7 @@ int main() {
             << closed.reason << "), open cube: " << to_string(open.outcome) << " (" << open.reason << ")\n";
   const bool as_expected = closed.outcome == vantage::Outcome::Explored && open.outcome == vantage::Outcome::Move &&
                            open.path.size() >= 2 && open.goal.pose.translation().y() < -0.5;
-  const vantage::RangeSensor sensor = vantage::RangeSensor::preset("panoramic");
+  const vantage::RangeSensor sensor = vantage::RangeSensor::spherical(90, 45, 6.28, 3.14, 0.0, 6.0);
   Robot robot(sensor);
   const std::string reason = explore(robot, sensor);
   std::cout << "room with a pillar: " << robot.scans << " scans, " << reason << "\n";
