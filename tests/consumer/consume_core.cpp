@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vantage/vantage.hpp>
 
 #if VANTAGE_VERSION < VANTAGE_VERSION_NUMBER(0, 1, 0) || VANTAGE_VERSION >= VANTAGE_VERSION_NUMBER(1, 0, 0)
@@ -59,15 +60,14 @@ class Robot {
 
  private:
   [[nodiscard]] double range_m(const Eigen::Vector3d& ray) const {
-    const auto far_m = [&](const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, bool entry) {
+    const auto in_and_out_m = [&](const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
       const Eigen::Array3d a = (lo - pose_.translation()).array() / ray.array();
       const Eigen::Array3d b = (hi - pose_.translation()).array() / ray.array();
-      const double in = a.min(b).maxCoeff();
-      const double out = a.max(b).minCoeff();
-      return entry ? (in > 0.0 && in < out ? in : 1e9) : out;
+      return std::pair(a.min(b).maxCoeff(), a.max(b).minCoeff());
     };
-    const double wall_m = far_m(Eigen::Vector3d::Zero(), {4.0, 3.0, 2.4}, false);
-    return std::min(wall_m, far_m({1.7, 1.2, -1.0}, {2.3, 1.8, 3.4}, true)) + 0.01;  // a little inside the surface
+    const double wall_m = in_and_out_m(Eigen::Vector3d::Zero(), {4.0, 3.0, 2.4}).second;
+    const auto [in_m, out_m] = in_and_out_m({1.7, 1.2, -1.0}, {2.3, 1.8, 3.4});
+    return (in_m > 0.0 && in_m < out_m ? in_m : wall_m) + 0.01;  // a little inside the surface
   }
 
   vantage::RangeSensor sensor_;

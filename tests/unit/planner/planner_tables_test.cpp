@@ -90,9 +90,7 @@ std::map<std::string, std::string> documented_settings(const std::string& planne
       const std::vector<std::string> defaults = parts_of(columns[2], ',');
       EXPECT_EQ(names.size(), defaults.size()) << line;
       for (std::size_t i = 0; i < std::min(names.size(), defaults.size()); ++i) {
-        std::string name = names[i];
-        std::erase(name, '`');
-        settings[name] = defaults[i];
+        settings[names[i]] = defaults[i];
       }
     }
   }
