@@ -68,7 +68,6 @@ TEST(LaplaceOracle, RelaxationEqualsDenseLuForEveryScheme) {
       RelaxationOptions options;
       options.neumann = scheme;
       options.tolerance = 1e-15;
-      options.over_relaxation = world % 3 == 0 ? 1.0 : 1.3;
       options.uniform_source = world % 5 == 0 ? 0.01 : 0.0;
       const LaplaceSolution solution = relax_laplace(problem, options);
       const Eigen::VectorXd expected = dense_solution(problem, options);

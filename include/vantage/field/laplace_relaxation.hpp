@@ -24,7 +24,6 @@ struct RelaxationOptions {
   NeumannScheme neumann = NeumannScheme::FiniteVolume;  ///< boundary condition at closed faces
   double tolerance = 1e-4;          ///< stop when the largest relative change in a sweep is below this (eq. 10), > 0
   std::size_t max_sweeps = 100000;  ///< limit on the number of sweeps, > 0
-  double over_relaxation = 1.0;     ///< relaxation factor, in (0, 2); 1 is Gauss-Seidel, larger values are SOR
   /// Total of an extra source, distributed evenly over the interior cells, >= 0; the paper's Laplace equation has 0.
   /// With an extra source, every cell that nearly solves its equation has a strictly lower neighbour, even where phi
   /// would otherwise be constant.

@@ -55,16 +55,6 @@ TEST(LaplaceRelaxation, ChangeIsInfiniteWhilePhiLeavesZero) {
   EXPECT_TRUE(std::isinf(relaxation.sweep()));
 }
 
-TEST(LaplaceRelaxation, OverRelaxationNeedsFewerSweepsForTheSameField) {
-  const LaplaceProblem problem = corridor(60);
-  const LaplaceSolution plain = relax_laplace(problem, {.tolerance = 1e-9});
-  const LaplaceSolution fast = relax_laplace(problem, {.tolerance = 1e-9, .over_relaxation = 1.9});
-  EXPECT_LT(10 * fast.report.sweeps, plain.report.sweeps);
-  for (std::size_t i = 0; i < problem.size(); ++i) {
-    EXPECT_NEAR(plain.phi[i], fast.phi[i], 1e-4);
-  }
-}
-
 TEST(LaplaceRelaxation, RefusesOptionsByName) {
   const LaplaceProblem problem = corridor(4);
   const auto message = [&](const RelaxationOptions& options) {
@@ -77,7 +67,6 @@ TEST(LaplaceRelaxation, RefusesOptionsByName) {
   };
   EXPECT_NE(message({.tolerance = 0.0}).find("RelaxationOptions::tolerance"), std::string::npos);
   EXPECT_NE(message({.max_sweeps = 0}).find("RelaxationOptions::max_sweeps"), std::string::npos);
-  EXPECT_NE(message({.over_relaxation = 2.0}).find("RelaxationOptions::over_relaxation"), std::string::npos);
   EXPECT_NE(message({.uniform_source = -1.0}).find("RelaxationOptions::uniform_source"), std::string::npos);
 }
 

@@ -71,7 +71,7 @@ TEST(Streamline, InAnEmptyBoxItGoesNearlyStraightToTheSink) {
   for_each_cell({{0, 0, 0}, {20, 20, 20}}, [&](const VoxelIndex& cell) { cells.push_back(cell); });
   const VoxelIndex sink{16, 15, 14};
   const LaplaceProblem problem(cells, std::span(&sink, 1), {3, 4, 5});
-  const LaplaceSolution solution = relax_laplace(problem, {.tolerance = 1e-8, .over_relaxation = 1.8});
+  const LaplaceSolution solution = relax_laplace(problem, {.tolerance = 1e-8});
   const VoxelFrame frame{0.1};
   const auto curve = streamline(Potential(problem, solution.phi), frame, frame.centre_of({3, 4, 5}));
   ASSERT_TRUE(curve);

@@ -11,8 +11,6 @@ namespace vantage {
 VANTAGE_INLINE void RelaxationOptions::validate() const {
   detail::require_option(tolerance > 0.0, "RelaxationOptions::tolerance", tolerance, "> 0");
   detail::require_option(max_sweeps > 0, "RelaxationOptions::max_sweeps", max_sweeps, "> 0");
-  detail::require_option(over_relaxation > 0.0 && over_relaxation < 2.0, "RelaxationOptions::over_relaxation",
-                         over_relaxation, "in (0, 2)");
   detail::require_option(uniform_source >= 0.0 && std::isfinite(uniform_source), "RelaxationOptions::uniform_source",
                          uniform_source, ">= 0 and finite");
 }
@@ -67,7 +65,7 @@ VANTAGE_INLINE double LaplaceRelaxation::sweep() {
   for (const Row& row : rows_) {
     double& value = values_[static_cast<std::size_t>(row.self)];
     const double previous = std::abs(value);
-    const double step = options_.over_relaxation * (mean_of(row) - value);
+    const double step = mean_of(row) - value;
     value += step;
     if (std::abs(step) > largest * previous) {
       largest = std::abs(step) / previous;  // eq. 10; infinite for the first change of a zero value
