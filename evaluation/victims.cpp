@@ -247,7 +247,7 @@ int main(int argc, char** argv) {
                       .most_views = argc > 2 ? std::stoul(argv[2]) : 120};
     std::vector<std::string> planners(argv + std::min(argc, 4), argv + argc);
     if (planners.empty()) {
-      planners = {"frontier-void,cost_per_m=3", "frontier-void", "frontier-gain,cost_per_m=100", "nearest-frontier",
+      planners = {"frontier-void,cost_per_m=3", "frontier-void", "frontier-gain,cost_per_m=3", "nearest-frontier",
                   "harmonic"};
     }
     compare(setup, planners, seeds_of(argc > 3 ? argv[3] : "1,2,3"));

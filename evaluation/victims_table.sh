@@ -14,7 +14,7 @@ views=${VIEWS:-240}
 arenas=${ARENAS:-maze_many_victims exploration_eval_arena_2}
 planners=("$@")
 if [[ $# -eq 0 ]]; then
-  planners=(frontier-void,cost_per_m=3 frontier-void 'frontier-gain,cost_per_m=100' nearest-frontier harmonic)
+  planners=(frontier-void,cost_per_m=3 frontier-void 'frontier-gain,cost_per_m=3' nearest-frontier harmonic)
 fi
 mkdir -p "$results"
 

@@ -17,8 +17,8 @@ class LargestClusterPlanner final : public vantage::FrontierPlanner {
   [[nodiscard]] std::string_view name() const override { return "largest-cluster"; }
 
  protected:
-  [[nodiscard]] std::optional<vantage::ChosenView> choose(vantage::Plan& plan) override {
-    const std::vector<vantage::FrontierTarget>& targets = situation().survey().targets;
+  [[nodiscard]] vantage::Choice choose(const vantage::Situation& situation) override {
+    const std::vector<vantage::FrontierTarget>& targets = situation.survey().targets;
     std::vector<vantage::VoxelIndex> cells;
     for (const vantage::FrontierTarget& target : targets) {
       cells.push_back(target.frontier);
@@ -29,8 +29,9 @@ class LargestClusterPlanner final : public vantage::FrontierPlanner {
     const auto target = std::find_if(targets.begin(), targets.end(), [&](const vantage::FrontierTarget& one) {
       return one.frontier == largest[largest.size() / 2];
     });
-    return vantage::ChosenView{.view =
-                                   view_of_target(situation().surveyed(), *target, plan.statistics.ray_operations)};
+    vantage::Choice choice;
+    choice.view = view_of_target(situation.surveyed(), *target, choice.statistics.ray_operations);
+    return choice;
   }
 };
 

@@ -16,8 +16,8 @@ std::int32_t on_lattice(std::int32_t at, std::int32_t step) { return at - (at % 
 
 }  // namespace
 
-VoxelIndex AepLikePeer::node_cell(const VoxelIndex& cell) const {
-  const std::int32_t step = std::max(1, situation().map().frame().cells_up_to(kNodeLatticeM));
+VoxelIndex AepLikePeer::node_cell(const VoxelFrame& frame, const VoxelIndex& cell) const {
+  const std::int32_t step = std::max(1, frame.cells_up_to(kNodeLatticeM));
   return {on_lattice(cell.x, step), on_lattice(cell.y, step), cell.z};
 }
 
@@ -32,10 +32,10 @@ void KeptColumns::follow(const OccupancyMap& map, double range_m) {
   revision_ = map.revision();
 }
 
-TreeNode AepLikePeer::viewed(const VoxelIndex& place, const UnknownVolume& volume, Dice& /*dice*/, Plan& plan) {
-  const Eigen::Vector3d position = situation().reachable().position_in(place);
-  const std::vector<double>& columns =
-      kept_.at(place, [&] { return volume.columns(position, plan.statistics.ray_operations); });
+TreeNode AepLikePeer::viewed(const Situation& situation, const VoxelIndex& place, const UnknownVolume& volume,
+                             Dice& /*dice*/, std::uint64_t& operations) {
+  const Eigen::Vector3d position = situation.reachable().position_in(place);
+  const std::vector<double>& columns = kept_.at(place, [&] { return volume.columns(position, operations); });
   std::size_t best = 0;
   TreeNode node;
   for (std::size_t yaw = 0; yaw < UnknownVolume::kColumns; ++yaw) {
@@ -44,7 +44,7 @@ TreeNode AepLikePeer::viewed(const VoxelIndex& place, const UnknownVolume& volum
       best = yaw;
     }
   }
-  node.pose = situation().platform().facing(position, UnknownVolume::direction(best));
+  node.pose = situation.platform().facing(position, UnknownVolume::direction(best));
   return node;
 }
 

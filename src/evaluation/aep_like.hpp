@@ -40,11 +40,13 @@ class AepLikePeer final : public RhNbvPeer {
   using RhNbvPeer::RhNbvPeer;
 
  private:
-  [[nodiscard]] TreeNode viewed(const VoxelIndex& place, const UnknownVolume& volume, Dice& dice,
-                                Plan& plan) override;
+  [[nodiscard]] TreeNode viewed(const Situation& situation, const VoxelIndex& place, const UnknownVolume& volume,
+                                Dice& dice, std::uint64_t& operations) override;
   [[nodiscard]] double least_share() const override { return 0.05; }
-  [[nodiscard]] VoxelIndex node_cell(const VoxelIndex& cell) const override;
-  void begin_tree(const UnknownVolume& volume) override { kept_.follow(situation().map(), volume.range_m()); }
+  [[nodiscard]] VoxelIndex node_cell(const VoxelFrame& frame, const VoxelIndex& cell) const override;
+  void begin_tree(const OccupancyMap& map, const UnknownVolume& volume) override {
+    kept_.follow(map, volume.range_m());
+  }
 
   KeptColumns kept_;
 };

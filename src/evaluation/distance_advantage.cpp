@@ -29,25 +29,25 @@ std::vector<double> distance_advantages(const BlockWays& ways, const VoxelIndex&
   return advantages;
 }
 
-std::optional<ChosenView> DistanceAdvantagePeer::choose(Plan& plan) {
-  const BlockWays& through = situation().ways();
-  const VoxelIndex start = *situation().reachable().start();
-  const std::vector<ViewedSite> parts = sites(through.lengths_from(start));
+Choice DistanceAdvantagePeer::choose(const Situation& situation) {
+  const BlockWays& through = situation.ways();
+  const VoxelIndex start = *situation.reachable().start();
+  const std::vector<ViewedSite> parts = sites(situation, through.lengths_from(start));
   std::vector<VoxelIndex> places;
   places.reserve(parts.size());
   for (const ViewedSite& part : parts) {
     places.push_back(part.site.middle.viewpoint);
   }
   const std::vector<double> advantages = distance_advantages(through, start, places);
-  plan.statistics.views_scored += places.size();
   const auto best = std::max_element(advantages.begin(), advantages.end()) - advantages.begin();
   const FrontierTarget& wanted = parts[static_cast<std::size_t>(best)].site.middle;
-  ChosenView chosen{.view = view_of_target(situation().surveyed(), wanted, plan.statistics.ray_operations),
-                    .way = situation().way_to(wanted.viewpoint)};
+  Choice choice{.way = situation.way_to(wanted.viewpoint), .statistics = {.views_scored = places.size()}};
+  TargetView view = view_of_target(situation.surveyed(), wanted, choice.statistics.ray_operations);
   // Once the wanted cell is known, the planner chooses again.
-  std::erase(chosen.view.unknown, wanted.unknown);
-  chosen.view.hoped = std::exchange(chosen.view.unknown, {wanted.unknown});
-  return chosen;
+  std::erase(view.unknown, wanted.unknown);
+  view.hoped = std::exchange(view.unknown, {wanted.unknown});
+  choice.view = std::move(view);
+  return choice;
 }
 
 }  // namespace vantage::detail

@@ -17,7 +17,7 @@ class DistanceAdvantagePeer final : public ExplorationPeer {
   using ExplorationPeer::ExplorationPeer;
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 };
 
 }  // namespace vantage::detail

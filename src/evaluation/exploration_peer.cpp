@@ -13,7 +13,7 @@ constexpr std::size_t kMostCells = 64;
 // A view is kept if it shows this share of what the best one of the part shows.
 constexpr double kKept = 0.8;
 
-// The part with some of its targets, evenly chosen.
+// The part with some of its targets, evenly choice.
 FrontierSite thinned(const FrontierSite& site) {
   FrontierSite thin{site.middle, {}};
   const std::size_t stride = (site.targets.size() + kMostCells - 1) / kMostCells;
@@ -25,12 +25,13 @@ FrontierSite thinned(const FrontierSite& site) {
 
 }  // namespace
 
-std::vector<ViewedSite> ExplorationPeer::sites(const std::vector<double>& from_start) const {
-  const VoxelIndex start = *situation().reachable().start();
+std::vector<ViewedSite> ExplorationPeer::sites(const Situation& situation,
+                                               const std::vector<double>& from_start) const {
+  const VoxelIndex start = *situation.reachable().start();
   std::vector<ViewedSite> all;
   for (FrontierSite& site :
-       frontier_sites(situation().survey().targets, std::max(1, situation().map().frame().cells_up_to(kSiteM)))) {
-    const double way_m = situation().ways().length_to(site.middle.viewpoint, start, from_start);
+       frontier_sites(situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(kSiteM)))) {
+    const double way_m = situation.ways().length_to(site.middle.viewpoint, start, from_start);
     all.push_back({.site = std::move(site), .way_m = way_m, .unknown = {}, .views = {}});
   }
   std::stable_sort(all.begin(), all.end(),
@@ -38,15 +39,16 @@ std::vector<ViewedSite> ExplorationPeer::sites(const std::vector<double>& from_s
   return all;
 }
 
-void ExplorationPeer::sample_views(ViewedSite& site, std::size_t most, Plan& plan) const {
-  TourViews sampled(situation(), {thinned(site.site)}, plan.statistics.ray_operations);
-  plan.statistics.views_scored += sampled.views.size();
+void ExplorationPeer::sample_views(const Situation& situation, ViewedSite& site, std::size_t most,
+                                   PlanStatistics& statistics) const {
+  TourViews sampled(situation, {thinned(site.site)}, statistics.ray_operations);
+  statistics.views_scored += sampled.views.size();
   site.unknown = std::move(sampled.unknown);
   site.views = std::move(sampled.views);
   std::stable_sort(site.views.begin(), site.views.end(),
                    [](const TourView& a, const TourView& b) { return a.sees.size() > b.sees.size(); });
   if (site.views.empty()) {  // what is left is beyond the resolving range, or seen in part
-    const TargetView view = view_of_target(situation().surveyed(), site.site.middle, plan.statistics.ray_operations);
+    const TargetView view = view_of_target(situation.surveyed(), site.site.middle, statistics.ray_operations);
     site.unknown = view.unknown;
     site.views.push_back({site.site.middle.viewpoint, view.view.pose, {}});
     site.views.front().sees.resize(view.unknown.size());
@@ -59,25 +61,26 @@ void ExplorationPeer::sample_views(ViewedSite& site, std::size_t most, Plan& pla
   }
 }
 
-ChosenView ExplorationPeer::taking(const TourView& view, const std::vector<VoxelIndex>& unknown) {
+Choice ExplorationPeer::taking(const Situation& situation, const TourView& view,
+                               const std::vector<VoxelIndex>& unknown, const PlanStatistics& so_far) {
   std::vector<std::pair<double, VoxelIndex>> ranked;
   for (const std::uint32_t number : view.sees) {
-    const Eigen::Vector3d line = situation().map().frame().centre_of(unknown[number]) - view.pose.translation();
+    const Eigen::Vector3d line = situation.map().frame().centre_of(unknown[number]) - view.pose.translation();
     ranked.emplace_back(-line.stableNormalized().dot(optical_axis(view.pose)), unknown[number]);
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ChosenView chosen{.view = {.view = {.pose = view.pose, .utility = static_cast<double>(ranked.size())}},
-                    .way = situation().way_to(view.place)};
+  TargetView taken{.view = {.pose = view.pose, .utility = static_cast<double>(ranked.size())}};
   for (std::size_t i = 0; i < ranked.size(); ++i) {
-    (2 * i < ranked.size() ? chosen.view.unknown : chosen.view.hoped).push_back(ranked[i].second);
+    (2 * i < ranked.size() ? taken.unknown : taken.hoped).push_back(ranked[i].second);
   }
-  if (const std::optional<MotionModel>& motion = situation().setup().motion) {
-    if (std::optional<std::vector<Pose>> path = situation().path_to(view.pose, chosen.way)) {
+  Choice choice{.view = std::move(taken), .way = situation.way_to(view.place), .statistics = so_far};
+  if (const std::optional<MotionModel>& motion = situation.setup().motion) {
+    if (std::optional<std::vector<Pose>> path = situation.path_to(view.pose, choice.way)) {
       motion_.follow(*path, *motion);
-      chosen.path = std::move(*path);
+      choice.path = std::move(*path);
     }
   }
-  return chosen;
+  return choice;
 }
 
 }  // namespace vantage::detail

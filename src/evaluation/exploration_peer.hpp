@@ -37,16 +37,19 @@ class ExplorationPeer : public FrontierPlanner {
   static constexpr double kSiteM = 2.0;
 
   /// The parts of the frontier, the nearest by way first, without views.
-  [[nodiscard]] std::vector<ViewedSite> sites(const std::vector<double>& from_start) const;
+  [[nodiscard]] std::vector<ViewedSite> sites(const Situation& situation,
+                                              const std::vector<double>& from_start) const;
   /// Samples views of a part and keeps those that show nearly as much as the best, at most `most`.
-  void sample_views(ViewedSite& site, std::size_t most, Plan& plan) const;
+  void sample_views(const Situation& situation, ViewedSite& site, std::size_t most, PlanStatistics& statistics) const;
   /// Costs of tours over views, in seconds; the references must outlive it.
-  [[nodiscard]] TourLegs legs(const std::vector<double>& from_start, const std::vector<TourView>& views) const {
-    const Eigen::Vector3d velocity_m_s = motion_.velocity_at(situation().current().translation());
-    return {situation(), TourCost::Time, velocity_m_s, situation().ways(), from_start, views};
+  [[nodiscard]] TourLegs legs(const Situation& situation, const std::vector<double>& from_start,
+                              const std::vector<TourView>& views) const {
+    const Eigen::Vector3d velocity_m_s = motion_.velocity_at(situation.current().translation());
+    return {situation, TourCost::Time, velocity_m_s, situation.ways(), from_start, views};
   }
   /// Takes this view, until half of the cells that it sees are known, those in the middle of the image first.
-  [[nodiscard]] ChosenView taking(const TourView& view, const std::vector<VoxelIndex>& unknown);
+  [[nodiscard]] Choice taking(const Situation& situation, const TourView& view,
+                              const std::vector<VoxelIndex>& unknown, const PlanStatistics& so_far);
 
  private:
   std::string_view name_;

@@ -49,11 +49,11 @@ std::vector<std::size_t> coverage_path(const Zones& zones, const std::map<std::s
   });
 }
 
-std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
-  const VoxelIndex start = *situation().reachable().start();
-  const std::vector<double> from_start = situation().ways().lengths_from(start);
-  std::vector<ViewedSite> parts = sites(from_start);
-  const Zones zones = zones_of(situation());
+Choice FalconLikePeer::choose(const Situation& situation) {
+  const VoxelIndex start = *situation.reachable().start();
+  const std::vector<double> from_start = situation.ways().lengths_from(start);
+  std::vector<ViewedSite> parts = sites(situation, from_start);
+  const Zones zones = zones_of(situation);
   // A part belongs to the zone of its unknown cells, because it may be seen from afar.
   std::map<std::size_t, std::vector<std::size_t>> parts_in;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -85,13 +85,14 @@ std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
       ahead.push_back(parts[i]);
     }
   }
-  look_at(ahead, plan);
+  PlanStatistics statistics;
+  look_at(situation, ahead, statistics);
   std::vector<TourView> best;
   best.reserve(ahead.size());
   for (const ViewedSite& part : ahead) {
     best.push_back(part.views.front());
   }
-  TourLegs costs = legs(from_start, best);
+  TourLegs costs = legs(situation, from_start, best);
   const LegCost leg = [&](std::size_t from, std::size_t to) { return costs.between(from, to); };
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -100,7 +101,7 @@ std::optional<ChosenView> FalconLikePeer::choose(Plan& plan) {
         cheapest_order(numbers[i], order.empty() ? best.size() : order.back(), leg, end);
     order.insert(order.end(), within.begin(), within.end());
   }
-  return refined(ahead, order, from_start);
+  return refined(situation, ahead, order, from_start, statistics);
 }
 
 }  // namespace vantage::detail

@@ -16,7 +16,7 @@ class FalconLikePeer final : public RefiningPeer {
   using RefiningPeer::RefiningPeer;
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 };
 
 /// The order in which a path covers zones. `to_cover`: zones, and the way from here to each, metres; those with an

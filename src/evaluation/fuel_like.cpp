@@ -45,31 +45,33 @@ std::vector<std::size_t> cheapest_order(const std::vector<std::size_t>& views, s
   return order;
 }
 
-void RefiningPeer::look_at(std::vector<ViewedSite>& parts, Plan& plan) const {
+void RefiningPeer::look_at(const Situation& situation, std::vector<ViewedSite>& parts,
+                           PlanStatistics& statistics) const {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     ViewedSite& part = parts[i];
     if (i < kSampled) {
-      sample_views(part, kViews, plan);
+      sample_views(situation, part, kViews, statistics);
     } else {
       const FrontierTarget& middle = part.site.middle;
-      const Eigen::Vector3d from = situation().reachable().position_in(middle.viewpoint);
+      const Eigen::Vector3d from = situation.reachable().position_in(middle.viewpoint);
       part.unknown = {middle.unknown};
       part.views = {{middle.viewpoint,
-                     situation().platform().facing(from, situation().map().frame().centre_of(middle.unknown) - from),
+                     situation.platform().facing(from, situation.map().frame().centre_of(middle.unknown) - from),
                      {0}}};
     }
   }
 }
 
-ChosenView RefiningPeer::refined(const std::vector<ViewedSite>& parts, const std::vector<std::size_t>& order,
-                                 const std::vector<double>& from_start) {
+Choice RefiningPeer::refined(const Situation& situation, const std::vector<ViewedSite>& parts,
+                             const std::vector<std::size_t>& order, const std::vector<double>& from_start,
+                             const PlanStatistics& so_far) {
   std::vector<TourView> views;
   std::vector<std::vector<std::size_t>> layers;
   std::optional<std::size_t> end;
   for (std::size_t i = 0; i < order.size() && !end; ++i) {
     const ViewedSite& part = parts[order[i]];
     const bool is_near =
-        (part.views.front().pose.translation() - situation().current().translation()).norm() <= kRefinedM;
+        (part.views.front().pose.translation() - situation.current().translation()).norm() <= kRefinedM;
     if (i == 0 || (i < kRefined && is_near)) {
       layers.emplace_back(part.views.size());
       std::iota(layers.back().begin(), layers.back().end(), views.size());
@@ -79,19 +81,20 @@ ChosenView RefiningPeer::refined(const std::vector<ViewedSite>& parts, const std
       views.push_back(part.views.front());
     }
   }
-  TourLegs costs = legs(from_start, views);
+  TourLegs costs = legs(situation, from_start, views);
   const std::size_t first = cheapest_through(
       layers, views.size(), [&](std::size_t from, std::size_t to) { return costs.between(from, to); }, end)[0];
-  ChosenView chosen = taking(views[first], parts[order.front()].unknown);
-  chosen.reason = "the first of " + std::to_string(order.size()) + " parts of a tour, a view of " +
+  Choice choice = taking(situation, views[first], parts[order.front()].unknown, so_far);
+  choice.reason = "the first of " + std::to_string(order.size()) + " parts of a tour, a view of " +
                   std::to_string(views[first].sees.size()) + " unknown cells";
-  return chosen;
+  return choice;
 }
 
-std::optional<ChosenView> FuelLikePeer::choose(Plan& plan) {
-  const std::vector<double> from_start = situation().ways().lengths_from(*situation().reachable().start());
-  std::vector<ViewedSite> parts = sites(from_start);
-  look_at(parts, plan);
+Choice FuelLikePeer::choose(const Situation& situation) {
+  const std::vector<double> from_start = situation.ways().lengths_from(*situation.reachable().start());
+  std::vector<ViewedSite> parts = sites(situation, from_start);
+  PlanStatistics statistics;
+  look_at(situation, parts, statistics);
   std::vector<TourView> best;
   best.reserve(parts.size());
   for (const ViewedSite& part : parts) {
@@ -99,10 +102,10 @@ std::optional<ChosenView> FuelLikePeer::choose(Plan& plan) {
   }
   std::vector<std::size_t> all(parts.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  TourLegs costs = legs(from_start, best);
+  TourLegs costs = legs(situation, from_start, best);
   const std::vector<std::size_t> order =
       cheapest_order(all, best.size(), [&](std::size_t from, std::size_t to) { return costs.between(from, to); });
-  return refined(parts, order, from_start);
+  return refined(situation, parts, order, from_start, statistics);
 }
 
 }  // namespace vantage::detail

@@ -23,10 +23,11 @@ class RefiningPeer : public ExplorationPeer {
 
  protected:
   /// Samples views of the nearest parts; the others get one.
-  void look_at(std::vector<ViewedSite>& parts, Plan& plan) const;
+  void look_at(const Situation& situation, std::vector<ViewedSite>& parts, PlanStatistics& statistics) const;
   /// Takes the best view of the first of `order`, given what comes after it.
-  [[nodiscard]] ChosenView refined(const std::vector<ViewedSite>& parts, const std::vector<std::size_t>& order,
-                                   const std::vector<double>& from_start);
+  [[nodiscard]] Choice refined(const Situation& situation, const std::vector<ViewedSite>& parts,
+                               const std::vector<std::size_t>& order, const std::vector<double>& from_start,
+                               const PlanStatistics& so_far);
 };
 
 /// `fuel-like`, see make_exploration_peer.
@@ -35,7 +36,7 @@ class FuelLikePeer final : public RefiningPeer {
   using RefiningPeer::RefiningPeer;
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 };
 
 }  // namespace vantage::detail

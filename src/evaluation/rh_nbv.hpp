@@ -30,19 +30,25 @@ class RhNbvPeer : public ExplorationPeer {
 
  protected:
   /// The view at a place, its gain included: a random yaw.
-  [[nodiscard]] virtual TreeNode viewed(const VoxelIndex& place, const UnknownVolume& volume, Dice& dice, Plan& plan);
+  [[nodiscard]] virtual TreeNode viewed(const Situation& situation, const VoxelIndex& place,
+                                        const UnknownVolume& volume, Dice& dice, std::uint64_t& operations);
   /// Branches whose best view shows less than this share of UnknownVolume::most are not followed.
   [[nodiscard]] virtual double least_share() const { return 0.0; }
   /// The cell of the lattice on which nodes stand that is near to this one.
-  [[nodiscard]] virtual VoxelIndex node_cell(const VoxelIndex& cell) const { return cell; }
+  [[nodiscard]] virtual VoxelIndex node_cell(const VoxelFrame& /*frame*/, const VoxelIndex& cell) const {
+    return cell;
+  }
   /// Called before a tree grows.
-  virtual void begin_tree(const UnknownVolume& /*volume*/) {}
+  virtual void begin_tree(const OccupancyMap& /*map*/, const UnknownVolume& /*volume*/) {}
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) final;
-  [[nodiscard]] std::vector<TreeNode> tree(const UnknownVolume& volume, Plan& plan);
-  void seed(std::vector<TreeNode>& tree, const UnknownVolume& volume, Plan& plan) const;
-  [[nodiscard]] ChosenView first_edge(const std::vector<TreeNode>& tree, std::size_t end, Plan& plan);
+  [[nodiscard]] Choice choose(const Situation& situation) final;
+  [[nodiscard]] std::vector<TreeNode> tree(const Situation& situation, const UnknownVolume& volume,
+                                           PlanStatistics& statistics);
+  void seed(const Situation& situation, std::vector<TreeNode>& tree, const UnknownVolume& volume,
+            std::uint64_t& operations) const;
+  [[nodiscard]] Choice first_edge(const Situation& situation, const std::vector<TreeNode>& tree, std::size_t end,
+                                  const PlanStatistics& so_far);
 
   std::vector<Pose> branch_;         // the best one of the last plan
   std::vector<Pose> branch_before_;  // that of the plan before

@@ -36,22 +36,23 @@ std::vector<std::size_t> coarse_places(const std::vector<ViewedSite>& parts, dou
   return places;
 }
 
-std::optional<ChosenView> TareLikePeer::choose(Plan& plan) {
-  const std::vector<double> from_start = situation().ways().lengths_from(*situation().reachable().start());
-  const std::vector<ViewedSite> parts = sites(from_start);
+Choice TareLikePeer::choose(const Situation& situation) {
+  const std::vector<double> from_start = situation.ways().lengths_from(*situation.reachable().start());
+  const std::vector<ViewedSite> parts = sites(situation, from_start);
   std::vector<FrontierSite> near;
   for (std::size_t i = 0; i < parts.size() && parts[i].way_m <= kHorizonM && near.size() < kMostNear; ++i) {
     near.push_back(parts[i].site);
   }
-  const TourViews choice(situation(), near, plan.statistics.ray_operations);
-  plan.statistics.views_scored += choice.views.size();
-  std::vector<TourView> views = choice.views;
+  PlanStatistics statistics;
+  const TourViews close(situation, near, statistics.ray_operations);
+  statistics.views_scored += close.views.size();
+  std::vector<TourView> views = close.views;
   std::vector<std::size_t> coarse;
-  for (const std::size_t i : coarse_places(parts, kHorizonM, kCubeM, situation().map().frame())) {
+  for (const std::size_t i : coarse_places(parts, kHorizonM, kCubeM, situation.map().frame())) {
     coarse.push_back(views.size());
-    views.push_back({parts[i].site.middle.viewpoint, situation().current(), {}});
+    views.push_back({parts[i].site.middle.viewpoint, situation.current(), {}});
   }
-  TourLegs costs = legs(from_start, views);
+  TourLegs costs = legs(situation, from_start, views);
   const LegCost leg = [&](std::size_t from, std::size_t to) { return costs.between(from, to); };
   // Beyond, turning does not count.
   const std::vector<std::size_t> beyond =
@@ -59,27 +60,27 @@ std::optional<ChosenView> TareLikePeer::choose(Plan& plan) {
   const std::size_t here = views.size();
   CoverTourProblem problem;
   problem.per_view = costs.of_stop();
-  problem.leg = [&](std::size_t from, std::size_t to) { return leg(from == choice.views.size() ? here : from, to); };
-  for (const TourView& view : choice.views) {
+  problem.leg = [&](std::size_t from, std::size_t to) { return leg(from == close.views.size() ? here : from, to); };
+  for (const TourView& view : close.views) {
     problem.sees.push_back(view.sees);
   }
   const std::vector<std::size_t> cover = cover_tour(problem, kMostNear);
   const auto end = beyond.empty() ? std::nullopt : std::optional(beyond.front());
   const std::vector<std::size_t> tour = cheapest_order(cover, here, leg, end);
   if (!tour.empty()) {
-    ChosenView chosen = taking(views[tour.front()], choice.unknown);
-    chosen.reason = "the first of " + std::to_string(tour.size()) + " views near here, before " +
+    Choice choice = taking(situation, views[tour.front()], close.unknown, statistics);
+    choice.reason = "the first of " + std::to_string(tour.size()) + " views near here, before " +
                     std::to_string(beyond.size()) + " places beyond";
-    return chosen;
+    return choice;
   }
   for (const ViewedSite& part : parts) {
     if (!beyond.empty() && part.site.middle.viewpoint == views[beyond.front()].place) {
       ViewedSite seen = part;
-      sample_views(seen, 1, plan);
-      return taking(seen.views.front(), seen.unknown);
+      sample_views(situation, seen, 1, statistics);
+      return taking(situation, seen.views.front(), seen.unknown, statistics);
     }
   }
-  return nearest_view(situation(), plan.statistics.ray_operations);
+  return nearest_view(situation, statistics);
 }
 
 }  // namespace vantage::detail

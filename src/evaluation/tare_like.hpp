@@ -18,7 +18,7 @@ class TareLikePeer final : public ExplorationPeer {
   using ExplorationPeer::ExplorationPeer;
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 };
 
 }  // namespace vantage::detail

@@ -51,6 +51,22 @@ struct PlanStatistics {
   double evaluate_ms = 0.0;          ///< milliseconds: visibility of candidate views, if timed separately
   double choose_ms = 0.0;            ///< milliseconds: choice of the view
   double path_ms = 0.0;              ///< milliseconds: path to the view
+
+  /// Adds the counts and times of another part of the same plan.
+  constexpr PlanStatistics& operator+=(const PlanStatistics& part) {
+    frontier_cells += part.frontier_cells;
+    observable_cells += part.observable_cells;
+    reachable_cells += part.reachable_cells;
+    void_cells += part.void_cells;
+    views_scored += part.views_scored;
+    ray_operations += part.ray_operations;
+    solver_sweeps += part.solver_sweeps;
+    survey_ms += part.survey_ms;
+    evaluate_ms += part.evaluate_ms;
+    choose_ms += part.choose_ms;
+    path_ms += part.path_ms;
+    return *this;
+  }
 };
 
 /// The result of a call of `plan`: where the sensor should look next.

@@ -14,8 +14,8 @@ struct FrontierGainOptions {
   /// drawn anywhere in the reachable space. With the paper's 0, aimed poses are tried only if no random pose sees a
   /// frontier.
   double aimed_share = 0.0;
-  /// Cost of one metre of straight-line distance, in frontier cells, >= 0. With the paper's 0, the gain alone
-  /// decides.
+  /// Views are ranked by frontier cells / (1 + cost_per_m * straight distance in metres), >= 0. With the paper's 0,
+  /// the gain alone decides.
   double cost_per_m = 0.0;
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
@@ -32,7 +32,7 @@ class FrontierGainPlanner final : public FrontierPlanner {
   [[nodiscard]] std::string_view name() const override { return "frontier-gain"; }
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 
   FrontierGainOptions options_;
 };

@@ -14,27 +14,29 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The choice of a strategy: a view and the path to it.
-struct ChosenView {
-  TargetView view;  ///< the view and the cells that it is to resolve
+/// What a strategy chooses: a view and the path to it; or none, and why.
+struct Choice {
+  std::optional<TargetView> view = {};  ///< the view and the cells that it is to resolve; none: no view serves
   /// The path as poses joined by admitted motions, from the current pose to the pose of the view. Empty: `way` is
   /// used.
   std::vector<Pose> path = {};
   /// The path as reachable cells, from the start of the reachable space to the cell of the view. Empty: the shortest.
   std::vector<VoxelIndex> way = {};
-  /// One sentence for a person; empty: a default one with the number of unknown cells to resolve.
+  /// One sentence for a person. Empty: a default one with the number of unknown cells to resolve.
   std::string reason = {};
+  std::vector<View> candidates = {};  ///< the views that were compared, with their utilities, for display
+  PlanStatistics statistics = {};     ///< counts of the choice; the planner adds them to those of the plan
 };
 
-/// A view of the target with the shortest route, and that route. Adds the number of visited cells to `operations`.
-/// Requires a target.
-[[nodiscard]] ChosenView nearest_view(const Situation& situation, std::uint64_t& operations);
+/// A view of the target with the shortest route, and that route. Its statistics are `so_far` and its own. Requires a
+/// target.
+[[nodiscard]] Choice nearest_view(const Situation& situation, const PlanStatistics& so_far = {});
 
 /// Base class of planners that look at frontiers. It contains everything but the choice: it updates the Situation,
 /// ends the run if no target is left, and makes a plan of the chosen view. A new strategy overrides `choose`.
 ///
 ///     class MyPlanner final : public FrontierPlanner {
-///       std::optional<ChosenView> choose(Plan& plan) override { ... situation().survey().targets ... }
+///       Choice choose(const Situation& situation) override { ... situation.survey().targets ... }
 ///     };
 class FrontierPlanner : public ExplorationPlanner {
  public:
@@ -50,17 +52,16 @@ class FrontierPlanner : public ExplorationPlanner {
   void recall(const OccupancyMap& map, std::string_view memory) final { situation_.recall(map, memory); }
 
  protected:
-  /// The input of the plan. Up to date in `prepare` and `choose`.
-  [[nodiscard]] const Situation& situation() const { return situation_; }
-  /// Called after the situation is up to date and before `choose`: discards results of the last plan.
-  virtual void prepare(Plan& /*plan*/) {}
-  /// Chooses a view. At least one target exists. May fill in candidates, statistics and reason of `plan`. Returns
-  /// nothing if no view serves: the plan is then Blocked, and `plan.reason` should say why. If no path leads to the
-  /// chosen view, the targets that it sees are removed for this plan and `choose` is called again.
-  [[nodiscard]] virtual std::optional<ChosenView> choose(Plan& plan) = 0;
+  /// Called once the situation is up to date, before `choose` or the end of the run: discards results of the last
+  /// plan. Returns counts that every plan has.
+  virtual PlanStatistics prepare(const Situation& /*situation*/) { return {}; }
+  /// Chooses a view. At least one target exists. If no view serves, the plan is Blocked for the reason of the choice.
+  /// If no path leads to the chosen view, the targets that it sees are removed for this plan and `choose` is called
+  /// again.
+  [[nodiscard]] virtual Choice choose(const Situation& situation) = 0;
 
  private:
-  std::vector<VoxelIndex> take_a_view(Plan& plan);
+  [[nodiscard]] Plan plan_of_choice(std::vector<VoxelIndex>& hoped);
 
   Situation situation_;
 };

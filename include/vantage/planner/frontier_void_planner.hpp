@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/frontier/frontier_voids.hpp>
@@ -12,34 +11,27 @@
 #include <vantage/map/following.hpp>
 #include <vantage/planner/frontier_planner.hpp>
 #include <vantage/view/unknown_sight.hpp>
-#include <vantage/view/utility_vectors.hpp>
-#include <vantage/view/void_views.hpp>
 #include <vector>
 
 namespace VANTAGE_EXPORT vantage {
 
-/// The points in which FrontierVoidPlanner extends the paper or differs from it.
+/// What FrontierVoidPlanner makes of voids. Each mode fixes how voids are clustered, views are drawn and rays are
+/// counted (docs/frontier_void.md).
+enum class VoidMode : std::uint8_t {
+  Exploring,  ///< for a robot that moves: a view counts the void cells that it probably sees, behind the first ones
+              ///< too
+  /// the plain method of the paper: all voids are clustered together, and only the first void cell of a ray counts
+  Faithful,
+  Searching,  ///< for a camera on an arm, whose views are expensive: compares many views with all their rays
+};
+
+/// How FrontierVoidPlanner ranks views and when it ends.
 struct FrontierVoidStrategy {
-  /// The frontier cells through which a void is observed.
-  FrontierShare share = FrontierShare::TouchingCells;
-  /// True: voids are clustered tile by tile, see VoidClusterTracker, at a cost that follows what has changed. False:
-  /// all together, at a cost that follows the volume of the voids.
-  bool in_tiles = true;
-  VoidSampling sampling = {};  ///< how views are drawn
-  std::size_t views = 50;      ///< valid views evaluated per plan, `N` in IV-C, in [1, 1e6]
+  VoidMode mode = VoidMode::Exploring;  ///< what to make of voids
+  std::size_t views = 50;               ///< valid views evaluated per plan, `N` in IV-C, in [1, 1e6]
   /// Places and views are ranked by void cells / (1 + cost_per_m * straight distance in metres), >= 0. 0: void cells
   /// alone count (eq. 3).
   double cost_per_m = 0.3;
-  /// If there are more views than this, all are first ranked with a sixteenth of the rays, this many of the best
-  /// again with a quarter, and `best` of these with all. >= 1.
-  std::size_t finalists = 5;
-  std::size_t best = 2;  ///< finalists that are ranked with all rays, >= 1
-  /// UnknownSightOptions::opaque_share for void cells, in (0, 1]. With 1, only the first void cell of a ray counts.
-  double opaque_share = 0.05;
-  double opaque_beside_surface = 0.5;  ///< UnknownSightOptions::opaque_beside_surface, in (0, 1]
-  /// Void cells that a view should observe with at least this probability, in [0, 1], and that stay unknown, count as
-  /// looked at in vain. With 1, only cells in which its rays certainly end.
-  double sought_chance = 1.0;
   /// Minimum expected volume of voids that a view must observe, m^3, >= 0.
   double least_view_m3 = 0.0;
   /// True: when no view sees a void any more, frontiers that border no void are explored, the nearest first.
@@ -48,27 +40,13 @@ struct FrontierVoidStrategy {
   /// The plain method of the paper. It ends when the best utility is 0: Explored if nothing observable is left, else
   /// Blocked.
   [[nodiscard]] static FrontierVoidStrategy faithful() {
-    return {.share = FrontierShare::WholeClusters,
-            .in_tiles = false,
-            .sampling = {.place_spacing_m = 0.0, .aimed = false},
-            .cost_per_m = 0.0,
-            .finalists = std::numeric_limits<std::size_t>::max(),
-            .opaque_share = 1.0,
-            .opaque_beside_surface = 1.0,
-            .beyond_voids = false};
+    return {.mode = VoidMode::Faithful, .cost_per_m = 0.0, .beyond_voids = false};
   }
   /// For a camera on an arm, with a short reach and expensive views: compares many views, ignores distance, and ends
   /// when no view sees a void of more than 1.6 dm^3, just below the smallest utility in the paper's tables.
   [[nodiscard]] static FrontierVoidStrategy searching() {
-    return {.in_tiles = false,
-            .sampling = {.orientations_per_place = 8, .place_spacing_m = 0.1},
-            .views = 400,
-            .cost_per_m = 0.0,
-            .finalists = 30,
-            .best = 30,
-            .sought_chance = 0.0,
-            .least_view_m3 = 0.0016,
-            .beyond_voids = false};
+    return {
+        .mode = VoidMode::Searching, .views = 400, .cost_per_m = 0.0, .least_view_m3 = 0.0016, .beyond_voids = false};
   }
 };
 
@@ -122,14 +100,15 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   };
 
   void clear_search();
-  void prepare(Plan& plan) override;
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
-  [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Pose& view, const ViewRays& rays,
-                                                         std::uint64_t& operations) const;
-  [[nodiscard]] std::optional<ChosenView> view_of_voids(std::size_t most_targets, Plan& plan);
-  [[nodiscard]] std::vector<double> search_places(std::size_t most_targets, PlanStatistics& statistics);
-  [[nodiscard]] double discounted(double utility, const Eigen::Vector3d& place) const;
-  [[nodiscard]] std::optional<ChosenView> best_of(const std::vector<Pose>& views, Plan& plan) const;
+  PlanStatistics prepare(const Situation& situation) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
+  [[nodiscard]] std::vector<SightedCell> void_cells_seen(const Situation& situation, const Pose& view,
+                                                         const ViewRays& rays, std::uint64_t& operations) const;
+  void choose_view_of_voids(const Situation& situation, std::size_t most_targets, Choice& choice);
+  [[nodiscard]] std::vector<double> search_places(const Situation& situation, std::size_t most_targets,
+                                                  PlanStatistics& statistics);
+  [[nodiscard]] double discounted(double utility, double distance_m) const;
+  void choose_best(const Situation& situation, const std::vector<Pose>& views, Choice& choice) const;
 
   FrontierVoidOptions options_;
   VoidSearch search_;

@@ -72,10 +72,11 @@ class HarmonicPlanner final : public FrontierPlanner {
   [[nodiscard]] const std::optional<HarmonicField>& field() const { return field_; }
 
  private:
-  void prepare(Plan& plan) override;
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
-  [[nodiscard]] std::vector<VoxelIndex> way_down(const NearGoals& near, PlanStatistics& statistics);
-  [[nodiscard]] NearGoals sinks() const;
+  PlanStatistics prepare(const Situation& situation) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
+  [[nodiscard]] std::vector<VoxelIndex> way_down(const Situation& situation, const NearGoals& near,
+                                                 PlanStatistics& statistics);
+  [[nodiscard]] NearGoals sinks(const Situation& situation) const;
 
   HarmonicOptions options_;
   std::optional<HarmonicField> field_;

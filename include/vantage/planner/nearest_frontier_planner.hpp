@@ -15,9 +15,7 @@ class NearestFrontierPlanner final : public FrontierPlanner {
   [[nodiscard]] std::string_view name() const override { return "nearest-frontier"; }
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override {
-    return nearest_view(situation(), plan.statistics.ray_operations);
-  }
+  [[nodiscard]] Choice choose(const Situation& situation) override { return nearest_view(situation); }
 };
 
 }  // namespace vantage

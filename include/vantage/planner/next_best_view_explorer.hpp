@@ -25,7 +25,7 @@ class NextBestViewExplorer final : public FrontierPlanner {
   [[nodiscard]] std::string_view name() const override { return "next-best-view"; }
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 
   NextBestViewExplorerOptions options_;
 };

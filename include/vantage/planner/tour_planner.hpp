@@ -76,7 +76,7 @@ class TourPlanner final : public FrontierPlanner {
   [[nodiscard]] static MotionModel default_motion();
 
  private:
-  [[nodiscard]] std::optional<ChosenView> choose(Plan& plan) override;
+  [[nodiscard]] Choice choose(const Situation& situation) override;
 
   TourOptions options_;
   std::shared_ptr<detail::EstimatedMotion> motion_;  // shared, because the type is incomplete here

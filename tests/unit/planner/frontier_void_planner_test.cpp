@@ -87,7 +87,7 @@ TEST(FrontierVoidPlanner, LooksIntoTheChest) {
 
 TEST(FrontierVoidPlanner, SaysWhatAViewSeesExactly) {
   Robot robot;
-  const FrontierVoidOptions first_cells{.strategy = {.opaque_share = 1.0, .opaque_beside_surface = 1.0}};
+  const FrontierVoidOptions first_cells{.strategy = {.mode = VoidMode::Faithful}};
   const auto fresh_plan = [&] { return FrontierVoidPlanner(robot.setup(), first_cells).plan(robot.map, robot.pose); };
   std::size_t compared = 0;
   for (Plan plan = fresh_plan(); plan.outcome == Outcome::Move && compared < 12; plan = fresh_plan()) {
@@ -110,7 +110,7 @@ TEST(FrontierVoidPlanner, SaysWhatAViewSeesExactly) {
 
 TEST(FrontierVoidPlanner, ExpectsMoreThanTheFirstCells) {
   const Robot robot;
-  const FrontierVoidOptions first_cells{.strategy = {.opaque_share = 1.0, .opaque_beside_surface = 1.0}};
+  const FrontierVoidOptions first_cells{.strategy = {.mode = VoidMode::Faithful}};
   const Plan first = FrontierVoidPlanner(robot.setup(), first_cells).plan(robot.map, robot.pose);
   const Plan through = FrontierVoidPlanner(robot.setup()).plan(robot.map, robot.pose);
   EXPECT_GT(through.goal.utility, 1.5 * first.goal.utility);
@@ -121,7 +121,7 @@ TEST(FrontierVoidPlanner, ExpectsMoreThanTheFirstCells) {
 TEST(FrontierVoidPlanner, TakesTheBestForItsDistance) {
   constexpr double kCostPerM = 20.0;
   Robot robot;
-  const FrontierVoidOptions options{.strategy = {.cost_per_m = kCostPerM, .finalists = 20, .best = 20}};
+  const FrontierVoidOptions options{.strategy = {.mode = VoidMode::Searching, .cost_per_m = kCostPerM}};
   const auto value = [&](const View& view) {
     return view.utility / (1.0 + kCostPerM * (view.pose.translation() - robot.pose.translation()).norm());
   };
@@ -277,19 +277,8 @@ TEST(FrontierVoidPlanner, RefusesWhatItCannotUse) {
   EXPECT_EQ(message({}), "");
   EXPECT_EQ(message({.clusters = {.min_score = -1.0}}), "FrontierVoidOptions::min_score is -1, must be > 0");
   EXPECT_EQ(message({.strategy = {.views = 0}}), "FrontierVoidOptions::views is 0, must be in [1, 1e+06]");
-  EXPECT_EQ(message({.strategy = {.sampling = {.orientations_per_place = 0}}}),
-            "VoidSampling::orientations_per_place is 0, must be >= 1");
-  EXPECT_EQ(message({.strategy = {.sampling = {.place_spacing_m = -1.0}}}),
-            "VoidSampling::place_spacing_m is -1, must be in [0, 1e+06]");
   EXPECT_EQ(message({.strategy = {.cost_per_m = -1.0}}), "FrontierVoidOptions::cost_per_m is -1, must be >= 0");
-  EXPECT_EQ(message({.strategy = {.opaque_share = 0.0}}),
-            "FrontierVoidStrategy::opaque_share is 0, must be in (0, 1]");
-  EXPECT_EQ(message({.strategy = {.opaque_beside_surface = 2.0}}),
-            "FrontierVoidStrategy::opaque_beside_surface is 2, must be in (0, 1]");
-  EXPECT_EQ(message({.strategy = {.sought_chance = 2.0}}),
-            "FrontierVoidStrategy::sought_chance is 2, must be in [0, 1]");
   EXPECT_EQ(message({.strategy = {.least_view_m3 = -1.0}}), "FrontierVoidOptions::least_view_m3 is -1, must be >= 0");
-  EXPECT_EQ(message({.strategy = {.finalists = 0}}), "FrontierVoidStrategy::finalists is 0, must be >= 1");
 }
 
 }  // namespace

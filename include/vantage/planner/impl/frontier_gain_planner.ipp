@@ -14,36 +14,37 @@ VANTAGE_INLINE FrontierGainPlanner::FrontierGainPlanner(const PlannerSetup& setu
   detail::frontier_gain_settings().validate(options);
 }
 
-VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan) {
-  const FrontierSurvey& survey = situation().survey();
-  const ReachableSpace& reachable = situation().reachable();
-  const Platform& platform = situation().platform();
-  detail::Dice dice(situation().setup().seed, situation().map().revision());
-  std::optional<TargetView> best;
+VANTAGE_INLINE Choice FrontierGainPlanner::choose(const Situation& situation) {
+  const FrontierSurvey& survey = situation.survey();
+  const ReachableSpace& reachable = situation.reachable();
+  const Platform& platform = situation.platform();
+  detail::Dice dice(situation.setup().seed, situation.map().revision());
+  Choice choice;
+  std::optional<TargetView>& best = choice.view;
   double best_value = 0.0;
   const auto consider = [&](TargetView candidate) {
-    ++plan.statistics.views_scored;
-    const double value = candidate.view.utility -
-                         options_.cost_per_m * platform.distance_m(situation().current(), candidate.view.pose);
+    ++choice.statistics.views_scored;
+    const double value = candidate.view.utility /
+                         (1.0 + options_.cost_per_m * platform.distance_m(situation.current(), candidate.view.pose));
     if (candidate.view.utility > 0.0) {
-      plan.candidates.push_back(candidate.view);
+      choice.candidates.push_back(candidate.view);
     }
-    if (candidate.view.utility > 0.0 && (!best || value > best_value)) {
+    if (value > best_value) {
       best_value = value;
       best = std::move(candidate);
     }
   };
-  if (const std::optional<Pose> goal = situation().goal_ahead()) {
-    consider(targets_seen_from(situation().surveyed(), *goal, plan.statistics.ray_operations));
+  if (const std::optional<Pose> goal = situation.goal_ahead()) {
+    consider(targets_seen_from(situation.surveyed(), *goal, choice.statistics.ray_operations));
   }
   const auto aimed = [&] {
     const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
-    consider(view_of_target(situation().surveyed(), target, plan.statistics.ray_operations));
+    consider(view_of_target(situation.surveyed(), target, choice.statistics.ray_operations));
   };
   const auto anywhere = [&] {
     const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
     const Pose pose = platform.facing(reachable.position_in(cell), dice.direction());
-    consider(targets_seen_from(situation().surveyed(), pose, plan.statistics.ray_operations));
+    consider(targets_seen_from(situation.surveyed(), pose, choice.statistics.ray_operations));
   };
 
   const auto aimed_count = static_cast<std::size_t>(options_.aimed_share * static_cast<double>(options_.hypotheses));
@@ -54,9 +55,9 @@ VANTAGE_INLINE std::optional<ChosenView> FrontierGainPlanner::choose(Plan& plan)
     aimed();
   }
   if (!best) {  // no random pose sees a target, and the aimed ones are beyond the resolving range
-    best = view_of_target(situation().surveyed(), survey.targets.front(), plan.statistics.ray_operations);
+    best = view_of_target(situation.surveyed(), survey.targets.front(), choice.statistics.ray_operations);
   }
-  return ChosenView{std::move(*best)};
+  return choice;
 }
 
 }  // namespace vantage

@@ -9,11 +9,12 @@
 #include <vantage/planner/impl/stopwatch.hpp>
 
 namespace vantage {
-VANTAGE_INLINE ChosenView nearest_view(const Situation& situation, std::uint64_t& operations) {
+VANTAGE_INLINE Choice nearest_view(const Situation& situation, const PlanStatistics& so_far) {
   const FrontierSurvey& survey = situation.survey();
-  std::vector<VoxelIndex> way = GridPaths(situation.reachable()).to_nearest(survey.viewpoints());
-  const std::optional<FrontierTarget> nearest = survey.target_seen_from(way.back());
-  return {.view = view_of_target(situation.surveyed(), *nearest, operations), .way = std::move(way)};
+  Choice choice{.way = GridPaths(situation.reachable()).to_nearest(survey.viewpoints()), .statistics = so_far};
+  const std::optional<FrontierTarget> nearest = survey.target_seen_from(choice.way.back());
+  choice.view = view_of_target(situation.surveyed(), *nearest, choice.statistics.ray_operations);
+  return choice;
 }
 
 VANTAGE_INLINE void ExplorationPlanner::report(const OccupancyMap& /*map*/, const Pose& /*current*/,
@@ -24,51 +25,53 @@ VANTAGE_INLINE void ExplorationPlanner::recall(const OccupancyMap& /*map*/, std:
 VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
   situation_.sync(map, current);
   for (;;) {  // ends, because another place rests each time
-    Plan plan = situation_.open_plan();
-    prepare(plan);
+    const PlanStatistics prepared = prepare(situation_);
     std::vector<VoxelIndex> hoped;
-    if (std::optional<Plan> end = situation_.end()) {
-      end->statistics.void_cells = plan.statistics.void_cells;
-      plan = std::move(*end);
-    } else {
-      hoped = take_a_view(plan);
+    std::optional<Plan> plan = situation_.end();
+    if (!plan) {
+      plan = plan_of_choice(hoped);
     }
-    if (plan.outcome != Outcome::Move || situation_.remember(plan, std::move(hoped))) {
-      return plan;
+    plan->statistics += prepared;
+    if (plan->outcome != Outcome::Move || situation_.remember(*plan, std::move(hoped))) {
+      return *std::move(plan);
     }
   }
 }
 
-// Makes the plan a Move to a chosen view, if a path leads to one. Returns what the view hopes for.
-VANTAGE_INLINE std::vector<VoxelIndex> FrontierPlanner::take_a_view(Plan& plan) {
+// Chooses views until a path leads to one. What it hopes for is put into `hoped`.
+VANTAGE_INLINE Plan FrontierPlanner::plan_of_choice(std::vector<VoxelIndex>& hoped) {
+  Plan plan = situation_.open_plan();
   plan.reason = "the platform cannot follow the path to any view of a frontier";
   while (!situation_.survey().targets.empty()) {
     detail::Stopwatch watch;
-    std::optional<ChosenView> choice = choose(plan);
+    Choice choice = choose(situation_);
+    plan.statistics += choice.statistics;
     plan.statistics.choose_ms += watch.lap_ms();
-    if (!choice) {
-      return {};
+    plan.candidates = std::move(choice.candidates);
+    if (!choice.view) {
+      plan.reason = std::move(choice.reason);
+      break;
     }
-    TargetView& view = choice->view;
-    if (choice->path.empty()) {
-      choice->path = situation_.path_to(view.view.pose, choice->way).value_or(std::vector<Pose>());
+    TargetView& view = *choice.view;
+    if (choice.path.empty()) {
+      choice.path = situation_.path_to(view.view.pose, choice.way).value_or(std::vector<Pose>());
     }
     plan.statistics.path_ms += watch.lap_ms();
-    if (choice->path.empty()) {
-      if (!situation_.drop(view)) {
-        return {};
-      }
-      continue;
+    if (!choice.path.empty()) {
+      plan.outcome = Outcome::Move;
+      plan.reason = choice.reason.empty() ? "a view of " + std::to_string(view.unknown.size()) + " unknown cells"
+                                          : std::move(choice.reason);
+      plan.goal = view.view;
+      plan.path = std::move(choice.path);
+      plan.sought = std::move(view.unknown);
+      hoped = std::move(view.hoped);
+      break;
     }
-    plan.outcome = Outcome::Move;
-    plan.reason = choice->reason.empty() ? "a view of " + std::to_string(view.unknown.size()) + " unknown cells"
-                                         : std::move(choice->reason);
-    plan.goal = view.view;
-    plan.path = std::move(choice->path);
-    plan.sought = std::move(view.unknown);
-    return std::move(view.hoped);
+    if (!situation_.drop(view)) {
+      break;
+    }
   }
-  return {};
+  return plan;
 }
 
 }  // namespace vantage

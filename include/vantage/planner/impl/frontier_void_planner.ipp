@@ -4,16 +4,17 @@
 // Dornhege & Kleiner 2011, "A Frontier-Void-Based Approach for Autonomous Exploration in 3D", section IV.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <span>
 #include <string>
 #include <utility>
-#include <vantage/geometry/raster_order.hpp>
 #include <vantage/planner/frontier_void_planner.hpp>
+#include <vantage/view/utility_vectors.hpp>
+#include <vantage/view/void_views.hpp>
 
 #include <vantage/geometry/impl/box_around.hpp>
 #include <vantage/planner/impl/planner_tables.hpp>
+#include <vantage/planner/impl/void_method.hpp>
 #include <vantage/view/impl/ranked_views.hpp>
 
 namespace vantage {
@@ -38,23 +39,6 @@ inline std::string volume(double cells, double cell_m) {
 inline double expected(const std::vector<SightedCell>& seen) {
   const auto add = [](double cells, const SightedCell& one) { return cells + one.chance; };
   return std::round(std::accumulate(seen.begin(), seen.end(), 0.0, add));
-}
-
-// Boxes that hold all that lies within a range of a frontier cell: one for the cells of each cube of 32 cells.
-inline constexpr std::int32_t kCubeBits = 5;
-
-inline std::vector<VoxelBox> boxes_around(std::span<const VoxelIndex> frontier, std::int32_t range) {
-  std::map<VoxelIndex, VoxelBox, RasterOrder> boxes;
-  for (const VoxelIndex& cell : frontier) {
-    VoxelBox& box = boxes[{cell.x >> kCubeBits, cell.y >> kCubeBits, cell.z >> kCubeBits}];
-    box = box_around(box, {cell, cell + VoxelIndex{1, 1, 1}});
-  }
-  std::vector<VoxelBox> grown;
-  grown.reserve(boxes.size());
-  for (const auto& [cube, box] : boxes) {
-    grown.push_back(box.grown(range));
-  }
-  return grown;
 }
 
 // The frontier cells of the targets nearest to a position, in the same order.
@@ -92,13 +76,13 @@ VANTAGE_INLINE FrontierVoidPlanner::FrontierVoidPlanner(const PlannerSetup& setu
   clusters_ = VoidClusterTracker(options_.clusters);
 }
 
-VANTAGE_INLINE void FrontierVoidPlanner::prepare(Plan& plan) {
-  const OccupancyMap& map = situation().map();
+VANTAGE_INLINE PlanStatistics FrontierVoidPlanner::prepare(const Situation& situation) {
+  const OccupancyMap& map = situation.map();
   if (void_cells_.follow(map) || clustered_ != map.revision()) {
     sight_.reset();
   }
-  plan.statistics.void_cells = void_cells_->cell_count();
   clear_search();
+  return {.void_cells = void_cells_->cell_count()};
 }
 
 // Clears all but the clusters.
@@ -108,73 +92,76 @@ VANTAGE_INLINE void FrontierVoidPlanner::clear_search() {
   search_.voids = std::move(voids);
 }
 
-VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::choose(Plan& plan) {
-  const OccupancyMap& map = situation().map();
-  const std::size_t all = situation().survey().targets.size();
+VANTAGE_INLINE Choice FrontierVoidPlanner::choose(const Situation& situation) {
+  const double cell_m = situation.map().resolution_m();
+  const std::size_t all = situation.survey().targets.size();
   std::size_t most = options_.strategy.cost_per_m > 0.0 ? std::min(detail::kNearTargets, all) : all;
-  std::optional<ChosenView> choice = view_of_voids(most, plan);
-  while (!choice && most < all) {
+  Choice choice;
+  choose_view_of_voids(situation, most, choice);
+  while (!choice.view && most < all) {
     most = std::min(4 * most, all);
-    choice = view_of_voids(most, plan);
+    choose_view_of_voids(situation, most, choice);
   }
-  if (choice) {
-    search_.view = choice->view.view.pose;
-    choice->reason = "a view of " + detail::volume(choice->view.view.utility, map.resolution_m());
-    return choice;
+  if (choice.view) {
+    search_.view = choice.view->view.pose;
+    choice.reason = "a view of " + detail::volume(choice.view->view.utility, cell_m);
+  } else if (options_.strategy.beyond_voids) {
+    choice = nearest_view(situation, choice.statistics);
+    choice.reason =
+        "no view sees a void; a view of " + std::to_string(choice.view->unknown.size()) + " unknown cells";
+    choice.view->view.utility = 0.0;
+  } else {
+    const bool any_void = detail::least_cells(options_.strategy.least_view_m3, cell_m) == 1.0;
+    choice.reason = (any_void ? "no view sees a void (the best utility is 0; beyond_voids=true goes on); "
+                              : "the best utility is below least_view_m3 (a smaller one goes on); ") +
+                    std::to_string(all) + " observable frontier cells are left";
   }
-  if (!options_.strategy.beyond_voids) {
-    const bool any_void = detail::least_cells(options_.strategy.least_view_m3, map.resolution_m()) == 1.0;
-    plan.reason = (any_void ? "no view sees a void (the best utility is 0; beyond_voids=true goes on); "
-                            : "the best utility is below least_view_m3 (a smaller one goes on); ") +
-                  std::to_string(all) + " observable frontier cells are left";
-    return std::nullopt;
-  }
-  choice = nearest_view(situation(), plan.statistics.ray_operations);
-  choice->view.view.utility = 0.0;
-  choice->reason = "no view sees a void; a view of " + std::to_string(choice->view.unknown.size()) + " unknown cells";
   return choice;
 }
 
-// The best view of voids behind the nearest of the targets.
-VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::view_of_voids(std::size_t most_targets, Plan& plan) {
-  const std::vector<double> values = search_places(most_targets, plan.statistics);
-  const VoidViews of_voids(situation().surveyed(), search_.voids, plan.statistics.ray_operations);
-  std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids, options_.strategy.sampling,
-                                          options_.strategy.views, situation().setup().seed);
+// Takes the best view of voids behind the nearest of the targets, if there is one.
+VANTAGE_INLINE void FrontierVoidPlanner::choose_view_of_voids(const Situation& situation, std::size_t most_targets,
+                                                              Choice& choice) {
+  const std::vector<double> values = search_places(situation, most_targets, choice.statistics);
+  const VoidViews of_voids(situation.surveyed(), search_.voids, choice.statistics.ray_operations);
+  std::vector<Pose> views = of_voids.draw(search_.places, values, search_.frontier_voids,
+                                          detail::VoidMethod::of(options_.strategy.mode).sampling,
+                                          options_.strategy.views, situation.setup().seed);
   // Where far views count less, the goal ahead gains with every step. So a robot that plans on its way does not turn
   // to and fro.
-  if (const auto goal = situation().goal_ahead(); goal && options_.strategy.cost_per_m > 0.0) {
+  if (const auto goal = situation.goal_ahead(); goal && options_.strategy.cost_per_m > 0.0) {
     views.push_back(*goal);
   }
-  std::optional<ChosenView> choice = best_of(views, plan);
-  return choice ? std::move(choice)
-                : best_of(of_voids.of_targets(std::min(options_.strategy.views, detail::kProofViews)), plan);
+  choose_best(situation, views, choice);
+  if (!choice.view) {
+    choose_best(situation, of_voids.of_targets(std::min(options_.strategy.views, detail::kProofViews)), choice);
+  }
 }
 
 // IV-A and IV-B: void clusters, frontier clusters and their combination. Algorithm 1, over the reachable cells: the
 // places. Returns what each place counts.
-VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(std::size_t most_targets,
+VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(const Situation& situation,
+                                                                      std::size_t most_targets,
                                                                       PlanStatistics& statistics) {
-  const OccupancyMap& map = situation().map();
-  const RangeSensor& sensor = situation().sensor();
-  const FrontierVoidStrategy& strategy = options_.strategy;
-  const Eigen::Vector3d here = situation().current().translation();
+  const OccupancyMap& map = situation.map();
+  const RangeSensor& sensor = situation.sensor();
+  const detail::VoidMethod method = detail::VoidMethod::of(options_.strategy.mode);
+  const Eigen::Vector3d here = situation.current().translation();
   clear_search();
-  search_.frontier = detail::nearest_frontier(situation().survey().targets, map.frame(), here, most_targets);
+  search_.frontier = detail::nearest_frontier(situation.survey().targets, map.frame(), here, most_targets);
   std::vector<VoxelBox> near = detail::boxes_around(search_.frontier, map.frame().cells_up_to(sensor.max_range_m));
   if (!sight_ || near != near_) {  // else a view in this map was refused, and only the targets have changed
     near_ = std::move(near);
-    const BrickSet cells = void_cells_->cells_behind(situation().frontier_cells(), near_);
-    search_.voids = strategy.in_tiles ? clusters_.update(cells, map.frame())
-                                      : cluster_void_cells(cells.cells(), map.frame(), options_.clusters);
+    const BrickSet cells = void_cells_->cells_behind(situation.frontier_cells(), near_);
+    search_.voids = method.in_tiles ? clusters_.update(cells, map.frame())
+                                    : cluster_void_cells(cells.cells(), map.frame(), options_.clusters);
     clustered_ = map.revision();
-    sight_.emplace(
-        map, cells,
-        UnknownSightOptions{strategy.opaque_share, strategy.opaque_beside_surface, sensor.reports_no_return});
+    sight_.emplace(map, cells,
+                   UnknownSightOptions{method.opaque_share, method.opaque_beside_surface, sensor.reports_no_return});
   }
-  search_.frontier_voids = combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), strategy.share);
+  search_.frontier_voids = combine_frontier_voids(search_.voids, frontier_clusters(search_.frontier), method.share);
   const AccumulatedUtility utility =
-      accumulate_utility(map, situation().reachable(),
+      accumulate_utility(map, situation.reachable(),
                          utility_vectors(search_.voids, search_.frontier_voids, map.frame(), detail::kMostVectors),
                          sensor.min_range_m, sensor.max_range_m);
   statistics.ray_operations += utility.operations;
@@ -182,69 +169,72 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(std::size_
   for (const auto& [cell, value] : utility.cells) {
     search_.places.push_back(cell);
     search_.utility.push_back(value);
-    values.push_back(discounted(static_cast<double>(value), map.frame().centre_of(cell)));
+    values.push_back(discounted(static_cast<double>(value), (map.frame().centre_of(cell) - here).norm()));
   }
   return values;
 }
 
-VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, const Eigen::Vector3d& place) const {
-  return utility / (1.0 + options_.strategy.cost_per_m * (place - situation().current().translation()).norm());
+VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, double distance_m) const {
+  return utility / (1.0 + options_.strategy.cost_per_m * distance_m);
 }
 
 // The void cells that count for a view: not given up, and not looked at in vain from its place.
-VANTAGE_INLINE std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Pose& view, const ViewRays& rays,
+VANTAGE_INLINE std::vector<SightedCell> FrontierVoidPlanner::void_cells_seen(const Situation& situation,
+                                                                             const Pose& view, const ViewRays& rays,
                                                                              std::uint64_t& operations) const {
-  const VoxelIndex place = situation().map().frame().cell_of(view.translation());
-  std::vector<SightedCell> seen = sight_->look(situation().looking().caster(), view, rays, operations);
-  std::erase_if(seen, [&](const SightedCell& one) { return situation().tried().hoped_in_vain(one.cell, place); });
+  const VoxelIndex place = situation.map().frame().cell_of(view.translation());
+  std::vector<SightedCell> seen = sight_->look(situation.looking().caster(), view, rays, operations);
+  std::erase_if(seen, [&](const SightedCell& one) { return situation.tried().hoped_in_vain(one.cell, place); });
   return seen;
 }
 
 // Equation (3): the best view to which a path leads. A view must also see a target: cells that are given up
 // or rest are no targets.
-VANTAGE_INLINE std::optional<ChosenView> FrontierVoidPlanner::best_of(const std::vector<Pose>& views,
-                                                                      Plan& plan) const {
-  plan.statistics.views_scored += views.size();
+VANTAGE_INLINE void FrontierVoidPlanner::choose_best(const Situation& situation, const std::vector<Pose>& views,
+                                                     Choice& choice) const {
+  const detail::VoidMethod method = detail::VoidMethod::of(options_.strategy.mode);
+  const Eigen::Vector3d here = situation.current().translation();
+  choice.statistics.views_scored += views.size();
   std::vector<Candidate> candidates(views.size());
   std::transform(views.begin(), views.end(), candidates.begin(), [](const Pose& pose) { return Candidate{{pose}}; });
-  const FollowingCaster& looking = situation().looking();
+  const FollowingCaster& looking = situation.looking();
   detail::rank_views(
-      looking, situation().setup().threads, candidates, options_.strategy.finalists, options_.strategy.best,
-      plan.statistics.ray_operations,
+      looking, situation.setup().threads, candidates, method.finalists, method.best, choice.statistics.ray_operations,
       [&](Candidate& candidate, const ViewRays& rays) {
         View& view = candidate.view;
-        std::vector<SightedCell> seen = void_cells_seen(view.pose, rays, candidate.operations);
+        std::vector<SightedCell> seen = void_cells_seen(situation, view.pose, rays, candidate.operations);
         view.utility = detail::expected(seen);
-        candidate.value = discounted(view.utility, view.pose.translation());
+        candidate.value = discounted(view.utility, (view.pose.translation() - here).norm());
         if (&rays == &looking.rays() && candidates.size() <= detail::kRememberedViews) {
           candidate.seen = std::move(seen);
         }
       },
       [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-  const double least = detail::least_cells(options_.strategy.least_view_m3, situation().map().resolution_m());
+  const double least = detail::least_cells(options_.strategy.least_view_m3, situation.map().resolution_m());
   for (const Candidate& candidate : candidates) {
     if (candidate.view.utility < least) {
       continue;
     }
-    TargetView view = targets_seen_from(situation().surveyed(), candidate.view.pose, plan.statistics.ray_operations);
-    auto path = view.unknown.empty() ? std::nullopt : situation().path_to(candidate.view.pose);
+    TargetView view = targets_seen_from(situation.surveyed(), candidate.view.pose, choice.statistics.ray_operations);
+    auto path = view.unknown.empty() ? std::nullopt : situation.path_to(candidate.view.pose);
     if (!path) {
       continue;
     }
     const std::vector<SightedCell> sees =
-        candidate.seen.empty() ? void_cells_seen(view.view.pose, looking.rays(), plan.statistics.ray_operations)
-                               : candidate.seen;
+        candidate.seen.empty()
+            ? void_cells_seen(situation, view.view.pose, looking.rays(), choice.statistics.ray_operations)
+            : candidate.seen;
     view.view.utility = detail::expected(sees);
     for (const SightedCell& one : sees) {
-      (one.chance >= options_.strategy.sought_chance ? view.unknown : view.hoped).push_back(one.cell);
+      (one.chance >= method.sought_chance ? view.unknown : view.hoped).push_back(one.cell);
     }
-    plan.candidates.clear();
     for (const Candidate& weighed : candidates) {
-      plan.candidates.push_back(weighed.view);
+      choice.candidates.push_back(weighed.view);
     }
-    return ChosenView{std::move(view), std::move(*path)};
+    choice.view = std::move(view);
+    choice.path = std::move(*path);
+    return;
   }
-  return std::nullopt;
 }
 
 }  // namespace vantage

@@ -61,54 +61,57 @@ VANTAGE_INLINE HarmonicPlanner::HarmonicPlanner(const PlannerSetup& setup, const
   }
 }
 
-VANTAGE_INLINE void HarmonicPlanner::prepare(Plan& /*plan*/) { field_.reset(); }
+VANTAGE_INLINE PlanStatistics HarmonicPlanner::prepare(const Situation& /*situation*/) {
+  field_.reset();
+  return {};
+}
 
-VANTAGE_INLINE std::optional<ChosenView> HarmonicPlanner::choose(Plan& plan) {
-  const FrontierSurvey& survey = situation().survey();
+VANTAGE_INLINE Choice HarmonicPlanner::choose(const Situation& situation) {
+  const FrontierSurvey& survey = situation.survey();
   const HarmonicStrategy& strategy = options_.strategy;
-  std::uint64_t& operations = plan.statistics.ray_operations;
-  std::vector<VoxelIndex> way{*situation().reachable().start()};
-  if (std::optional<TargetView> look = look_around(situation(), strategy.look_again_m3, operations)) {
-    return ChosenView{.view = std::move(*look), .way = std::move(way)};
+  Choice choice{.way = {*situation.reachable().start()}};
+  std::vector<VoxelIndex>& way = choice.way;
+  std::uint64_t& operations = choice.statistics.ray_operations;
+  if ((choice.view = look_around(situation, strategy.look_again_m3, operations))) {
+    return choice;
   }
   std::optional<FrontierTarget> wanted = survey.target_seen_from(way.back());
   if (!wanted) {  // otherwise the sensor looks from where it is
-    const NearGoals near = sinks();
+    const NearGoals near = sinks(situation);
     if (strategy.shortest_way && near.goals.size() == 1) {  // descent would end there from everywhere
-      way = situation().way_to(near.goals.front());
+      way = situation.way_to(near.goals.front());
     } else {
-      way = way_down(near, plan.statistics);
+      way = way_down(situation, near, choice.statistics);
       if (strategy.shortest_way) {
-        way = situation().way_to(way.back());
+        way = situation.way_to(way.back());
       }
     }
-    wanted = strategy.look_early ? look_early(situation(), way, strategy.look_spacing_m, operations)
+    wanted = strategy.look_early ? look_early(situation, way, strategy.look_spacing_m, operations)
                                  : survey.target_seen_from(way.back());
   }
   const bool looks_around = !std::isinf(strategy.look_again_m3);
-  ChosenView chosen{looks_around ? best_look_at(situation(), *wanted, operations)
-                                 : view_of_target(situation().surveyed(), *wanted, operations)};
+  choice.view = looks_around ? best_look_at(situation, *wanted, operations)
+                             : view_of_target(situation.surveyed(), *wanted, operations);
   if (field_ && field_->followed && !strategy.shortest_way) {
-    const OccupancyMap& map = situation().map();
+    const OccupancyMap& map = situation.map();
     detail::cut_at(field_->streamline, map.frame(), wanted->viewpoint);
-    if (auto path = detail::poses_of_curve(map, situation().platform(), situation().current(), field_->streamline,
-                                           chosen.view.view.pose)) {
-      chosen.path = std::move(*path);
-      return chosen;
+    if (auto path = detail::poses_of_curve(map, situation.platform(), situation.current(), field_->streamline,
+                                           choice.view->view.pose)) {
+      choice.path = std::move(*path);
+      return choice;
     }
   }
-  chosen.way = situation().way_to(wanted->viewpoint);
-  return chosen;
+  way = situation.way_to(wanted->viewpoint);
+  return choice;
 }
 
 // The sinks and the domain of the field: all viewpoints and the reachable space, or the viewpoints within detour_m of
 // the nearest, and the cells that are nearer than these.
-VANTAGE_INLINE NearGoals HarmonicPlanner::sinks() const {
-  const ReachableSpace& reachable = situation().reachable();
-  NearGoals all{detail::viewpoints(situation().survey()), {}};
+VANTAGE_INLINE NearGoals HarmonicPlanner::sinks(const Situation& situation) const {
+  const ReachableSpace& reachable = situation.reachable();
+  NearGoals all{detail::viewpoints(situation.survey()), {}};
   if (!std::isinf(options_.strategy.detour_m)) {
-    return GridPaths(reachable).nearest_within(all.goals, options_.strategy.detour_m,
-                                               situation().map().resolution_m());
+    return GridPaths(reachable).nearest_within(all.goals, options_.strategy.detour_m, situation.map().resolution_m());
   }
   reachable.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) { all.met.plane(brick) = cells; });
   return all;
@@ -116,16 +119,17 @@ VANTAGE_INLINE NearGoals HarmonicPlanner::sinks() const {
 
 // Solves the field. Returns the cells of its streamline from the start to a sink, or of the shortest path if the
 // field is not followed.
-VANTAGE_INLINE std::vector<VoxelIndex> HarmonicPlanner::way_down(const NearGoals& near, PlanStatistics& statistics) {
+VANTAGE_INLINE std::vector<VoxelIndex> HarmonicPlanner::way_down(const Situation& situation, const NearGoals& near,
+                                                                 PlanStatistics& statistics) {
   LaplaceDomain domain;
   near.met.for_each_brick([&](const VoxelIndex& brick, const BrickPlane& cells) { domain.insert(brick, cells); });
   std::for_each(near.goals.begin(), near.goals.end(), [&](const VoxelIndex& goal) { domain.insert_sink(goal); });
-  field_ = HarmonicField::solve(std::move(domain), *situation().reachable().start(), options_.field,
-                                static_cast<std::size_t>(situation().setup().threads));
+  field_ = HarmonicField::solve(std::move(domain), *situation.reachable().start(), options_.field,
+                                static_cast<std::size_t>(situation.setup().threads));
   statistics.solver_sweeps += field_->sweeps;
   statistics.ray_operations += field_->cell_updates;
-  return field_->followed ? field_->follow(situation().map().frame(), situation().current().translation())
-                          : GridPaths(situation().reachable()).to_nearest(detail::viewpoints(situation().survey()));
+  return field_->followed ? field_->follow(situation.map().frame(), situation.current().translation())
+                          : GridPaths(situation.reachable()).to_nearest(detail::viewpoints(situation.survey()));
 }
 
 }  // namespace vantage

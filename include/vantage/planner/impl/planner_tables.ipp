@@ -22,7 +22,7 @@ VANTAGE_INLINE const SettingTable<FrontierGainOptions>& frontier_gain_settings()
           .number("hypotheses", "poses", "tried per plan", within(1, 1e6), &O::hypotheses)
           .number("aimed_share", "", "share of the hypotheses that stand where a frontier is visible", within(0, 1),
                   &O::aimed_share)
-          .number("cost_per_m", "cells/m", "cost of a metre, in frontier cells", at_least(0), &O::cost_per_m);
+          .number("cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0), &O::cost_per_m);
   return table;
 }
 
@@ -40,16 +40,7 @@ VANTAGE_INLINE const SettingTable<FrontierVoidOptions>& frontier_void_settings()
                   &S::cost_per_m)
           .number("least_view_m3", "m^3", "a view that is expected to show less void does not count", at_least(0),
                   &O::strategy, &S::least_view_m3)
-          .flag("beyond_voids", "continues with frontiers that border no void", &O::strategy, &S::beyond_voids)
-          .limit("VoidSampling::orientations_per_place", at_least(1), &O::strategy, &S::sampling,
-                 &VoidSampling::orientations_per_place)
-          .limit("VoidSampling::place_spacing_m", within(0, 1e6), &O::strategy, &S::sampling,
-                 &VoidSampling::place_spacing_m)
-          .limit("FrontierVoidStrategy::finalists", at_least(1), &O::strategy, &S::finalists)
-          .limit("FrontierVoidStrategy::opaque_share", {0.0, 1.0, false}, &O::strategy, &S::opaque_share)
-          .limit("FrontierVoidStrategy::opaque_beside_surface", {0.0, 1.0, false}, &O::strategy,
-                 &S::opaque_beside_surface)
-          .limit("FrontierVoidStrategy::sought_chance", within(0, 1), &O::strategy, &S::sought_chance);
+          .flag("beyond_voids", "continues with frontiers that border no void", &O::strategy, &S::beyond_voids);
   return table;
 }
 

@@ -152,8 +152,8 @@ inline const FrontierTarget* target_ahead(const Situation& situation, const std:
 // For a sensor that sees all around: it need not be aimed, and sees the parts while it passes. So a tour over one
 // place for each part is enough: the nearest one that sees a cell of it. Others may lie on the far side, where the
 // robot was when they were found.
-inline ChosenView first_sight(const Situation& situation, const NearestSites& nearest, TourCost cost,
-                              const Eigen::Vector3d& velocity_m_s, Plan& plan) {
+inline Choice first_sight(const Situation& situation, const NearestSites& nearest, TourCost cost,
+                          const Eigen::Vector3d& velocity_m_s) {
   const std::vector<FrontierSite>& sites = nearest.sites;
   std::vector<const FrontierTarget*> targets;
   std::vector<TourView> views;
@@ -161,7 +161,6 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
     targets.push_back(&nearest.nearest_target(site));
     views.push_back({targets.back()->viewpoint, Pose::Identity(), {}});
   }
-  plan.statistics.views_scored += views.size();
   TourLegs legs(situation, cost, velocity_m_s, nearest.ways, nearest.lengths, views);
   std::vector<std::size_t> all(views.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -172,46 +171,47 @@ inline ChosenView first_sight(const Situation& situation, const NearestSites& ne
     first = ahead;
   }
   const FrontierTarget& wanted = *first;
-  ChosenView chosen{.view = view_of_target(situation.surveyed(), wanted, plan.statistics.ray_operations),
-                    .way = situation.way_to(wanted.viewpoint)};
-  // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
-  TargetView& view = chosen.view;
-  chosen.reason = "the first of " + std::to_string(sites.size()) + " places of a tour, a view of " +
+  Choice choice{.way = situation.way_to(wanted.viewpoint), .statistics = {.views_scored = views.size()}};
+  TargetView view = view_of_target(situation.surveyed(), wanted, choice.statistics.ray_operations);
+  choice.reason = "the first of " + std::to_string(sites.size()) + " places of a tour, a view of " +
                   std::to_string(view.unknown.size()) + " unknown cells";
+  // Once the wanted cell is known, the tour is planned again: waiting for all cells in view takes longer ways.
   std::erase(view.unknown, wanted.unknown);
   view.hoped = std::exchange(view.unknown, {wanted.unknown});
-  return chosen;
+  choice.view = std::move(view);
+  return choice;
 }
 
 // For a sensor that must be aimed: views are chosen for what they show.
-inline ChosenView first_view(const Situation& situation, const NearestSites& nearest, const TourViews& choice,
-                             const TourOptions& options, const Eigen::Vector3d& velocity_m_s, Plan& plan) {
-  plan.statistics.views_scored += choice.views.size();
-  if (choice.views.empty()) {  // what is left is beyond the resolving range, or seen in part
-    return nearest_view(situation, plan.statistics.ray_operations);
+inline Choice first_view(const Situation& situation, const NearestSites& nearest, const TourViews& sampled,
+                         const TourOptions& options, const Eigen::Vector3d& velocity_m_s,
+                         PlanStatistics& statistics) {
+  const std::vector<TourView>& views = sampled.views;
+  statistics.views_scored += views.size();
+  if (views.empty()) {  // what is left is beyond the resolving range, or seen in part
+    return nearest_view(situation, statistics);
   }
-  TourLegs legs(situation, options.cost, velocity_m_s, nearest.ways, nearest.lengths, choice.views);
+  TourLegs legs(situation, options.cost, velocity_m_s, nearest.ways, nearest.lengths, views);
   CoverTourProblem problem;
   problem.per_view = legs.of_stop();
   problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
-  for (const TourView& view : choice.views) {
+  for (const TourView& view : views) {
     problem.sees.push_back(view.sees);
   }
   const std::vector<std::size_t> chosen = cover_tour(problem, options.most_sites);
-  const std::vector<std::size_t> tour =
-      refined_tour(problem, ordered(chosen, situation, choice.views, legs), kRefined);
-  const TourView& first = choice.views[tour.front()];
+  const std::vector<std::size_t> tour = refined_tour(problem, ordered(chosen, situation, views, legs), kRefined);
+  const TourView& first = views[tour.front()];
   // Once half of the cells are known, the tour is planned again.
-  std::vector<VoxelIndex> cells = cells_of_first(tour, choice, situation.map().frame());
+  std::vector<VoxelIndex> cells = cells_of_first(tour, sampled, situation.map().frame());
   const auto half = cells.begin() + static_cast<std::ptrdiff_t>((cells.size() + 1) / 2);
-  ChosenView view{.view = {.view = {.pose = first.pose, .utility = static_cast<double>(cells.size())}},
-                  .way = situation.way_to(first.place)};
-  view.view.hoped.assign(half, cells.end());
+  TargetView view{.view = {.pose = first.pose, .utility = static_cast<double>(cells.size())}};
+  view.hoped.assign(half, cells.end());
   cells.erase(half, cells.end());
-  view.view.unknown = std::move(cells);
-  view.reason = "the first of " + std::to_string(tour.size()) + " views of a tour, a view of " +
-                std::to_string(first.sees.size()) + " unknown cells";
-  return view;
+  view.unknown = std::move(cells);
+  Choice choice{.view = std::move(view), .way = situation.way_to(first.place), .statistics = statistics};
+  choice.reason = "the first of " + std::to_string(tour.size()) + " views of a tour, a view of " +
+                  std::to_string(first.sees.size()) + " unknown cells";
+  return choice;
 }
 
 }  // namespace detail
@@ -227,23 +227,24 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
   return {.max_speed_m_s = 2.0, .max_acceleration_m_s2 = 3.0, .max_yaw_rate_rad_s = 0.5 * std::numbers::pi};
 }
 
-VANTAGE_INLINE std::optional<ChosenView> TourPlanner::choose(Plan& plan) {
-  const detail::NearestSites nearest(situation(), options_);
-  const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation().current().translation());
-  std::uint64_t& operations = plan.statistics.ray_operations;
+VANTAGE_INLINE Choice TourPlanner::choose(const Situation& situation) {
+  const detail::NearestSites nearest(situation, options_);
+  const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation.current().translation());
   std::optional<detail::TourViews> views;
-  if (!situation().sensor().looks_all_around()) {
-    views.emplace(situation(), nearest.sites, operations);
+  PlanStatistics statistics;
+  if (!situation.sensor().looks_all_around()) {
+    views.emplace(situation, nearest.sites, statistics.ray_operations);
   }
-  ChosenView chosen = views ? detail::first_view(situation(), nearest, *views, options_, velocity_m_s, plan)
-                            : detail::first_sight(situation(), nearest, options_.cost, velocity_m_s, plan);
-  if (const std::optional<MotionModel>& motion = situation().setup().motion) {
-    if (std::optional<std::vector<Pose>> path = situation().path_to(chosen.view.view.pose, chosen.way)) {
-      chosen.path = views ? detail::with_glances(*path, *views, situation(), velocity_m_s, operations) : *path;
-      motion_->follow(chosen.path, *motion);
+  Choice choice = views ? detail::first_view(situation, nearest, *views, options_, velocity_m_s, statistics)
+                        : detail::first_sight(situation, nearest, options_.cost, velocity_m_s);
+  if (const std::optional<MotionModel>& motion = situation.setup().motion) {
+    if (std::optional<std::vector<Pose>> path = situation.path_to(choice.view->view.pose, choice.way)) {
+      std::uint64_t& operations = choice.statistics.ray_operations;
+      choice.path = views ? detail::with_glances(*path, *views, situation, velocity_m_s, operations) : *path;
+      motion_->follow(choice.path, *motion);
     }
   }
-  return chosen;
+  return choice;
 }
 
 }  // namespace vantage
