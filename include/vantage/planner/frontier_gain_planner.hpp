@@ -7,13 +7,9 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// Number, placement and cost of the random poses of FrontierGainPlanner.
+/// Number and cost of the random poses of FrontierGainPlanner.
 struct FrontierGainOptions {
   std::size_t hypotheses = 100;  ///< random poses evaluated per plan, in [1, 1e6]
-  /// Share of the hypotheses that stand at the viewpoint of a random target and see it, in [0, 1]. The others are
-  /// drawn anywhere in the reachable space. With the paper's 0, aimed poses are tried only if no random pose sees a
-  /// frontier.
-  double aimed_share = 0.0;
   /// Views are ranked by frontier cells / (1 + cost_per_m * straight distance in metres), >= 0. With the paper's 0,
   /// the gain alone decides.
   double cost_per_m = 0.0;
@@ -21,7 +17,8 @@ struct FrontierGainOptions {
 };
 
 /// Baseline planner: draws poses in the reachable space at random, counts by ray casting the frontier cells that the
-/// sensor would see from each, and takes the best. The path is found by A*. Unlike in the paper, cells beyond the
+/// sensor would see from each, and takes the best. The path is found by A*. If none of
+/// them sees a frontier, poses at the viewpoints of random targets are tried. Unlike in the paper, cells beyond the
 /// resolving range of the sensor do not count, and the goal to which the robot is moving is a candidate,
 /// too: a robot that plans while it moves would turn around at every other draw. (Shade & Newman 2011, III-B.1.)
 class FrontierGainPlanner final : public FrontierPlanner {

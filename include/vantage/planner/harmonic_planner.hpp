@@ -20,10 +20,9 @@ struct HarmonicStrategy {
   /// 0. So nearby frontiers are finished first, and the field covers only the cells that are nearer than its sinks.
   /// Infinity: all frontiers are sinks, and the field covers the reachable space.
   double detour_m = 0.2;
-  /// True: looks from the first cell of the path that sees the target frontier, not from its end.
+  /// True: looks from the first cell of the path that sees the target frontier or, after half a metre, any other one
+  /// (see the function look_early). False: looks from its end.
   bool look_early = true;
-  /// With look_early: after this length of the path, metres, >= 0, any other frontier in sight is looked at, too.
-  double look_spacing_m = 0.5;
   /// For a sensor that does not see all around: before it moves on, it looks from its current place in the
   /// direction of highest expected gain, as long as that gain is at least this volume of unknown space, m^3, >= 0.
   /// At its goal it also takes the direction of highest gain. Infinity: one look per place, in the direction that

@@ -27,10 +27,10 @@ namespace VANTAGE_EXPORT vantage {
                                       std::uint64_t& operations);
 
 /// The target that is seen first along `way`, with that cell of the way as its viewpoint: either the target at the
-/// end of the way or, after `look_spacing_m` metres, any other one. `way` must be reachable cells, of which the last
+/// end of the way or, after half a metre, any other one. `way` must be reachable cells, of which the last
 /// is the viewpoint of a target.
 [[nodiscard]] FrontierTarget look_early(const Situation& situation, const std::vector<VoxelIndex>& way,
-                                        double look_spacing_m, std::uint64_t& operations);
+                                        std::uint64_t& operations);
 
 }  // namespace vantage
 

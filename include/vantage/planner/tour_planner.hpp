@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,13 +21,9 @@ enum class TourCost : std::uint8_t {
   Path,  ///< path length, metres
 };
 
-/// Cost and size of the tours of TourPlanner.
+/// What the tours of TourPlanner minimise.
 struct TourOptions {
-  TourCost cost = TourCost::Time;  ///< the cost that a tour minimises
-  /// Largest extent along an axis of a part of the frontier, metres, > 0. Larger clusters of frontier cells are
-  /// divided.
-  double site_m = 1.5;
-  std::size_t most_sites = 24;        ///< most parts of the frontier (the nearest) and most views, in [1, 200]
+  TourCost cost = TourCost::Time;     ///< the cost that a tour minimises
   FrontierSurveyOptions survey = {};  ///< how frontiers are surveyed
 };
 
@@ -41,7 +36,8 @@ struct TourOptions {
 ///     o   o     |
 ///          o    S
 ///
-/// 1. Views: from places around the nearest parts, at the others, and from the current place, towards the middles
+/// 1. Views: from places around the nearest 24 parts (of at most 1.5 m), at the others, and from the current place,
+/// towards the middles
 ///    of the parts. Rays find which unknown cells each view sees, for a sample of at most about 500 cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
 /// 3. Order: the order of the chosen views that minimises the average of the cost of the whole tour and the mean cost

@@ -262,7 +262,6 @@ TEST(HarmonicPlanner, RefusesOptionsByName) {
   EXPECT_EQ(message(setup, {}), "");
   EXPECT_NE(message(setup, {.survey = {.patience = 0}}).find("FrontierSurveyOptions::patience"), std::string::npos);
   EXPECT_NE(message(setup, {.strategy = {.detour_m = -1.0}}).find("HarmonicOptions::detour_m"), std::string::npos);
-  EXPECT_NE(message(setup, {.strategy = {.look_spacing_m = -1.0}}).find("look_spacing_m"), std::string::npos);
   EXPECT_NE(message(setup, {.field = {.tolerance = -1.0}}).find("tolerance"), std::string::npos);
   EXPECT_NE(message({.sensor = all_around(), .platform = nullptr}, {}).find("PlannerSetup::platform"),
             std::string::npos);

@@ -52,7 +52,7 @@ TEST(LookEarly, TakesTheFirstCellOfTheWayThatSeesATarget) {
   std::uint64_t operations = 0;
   for (const FrontierTarget& target : situation.survey().targets) {
     const std::vector<VoxelIndex> way = situation.way_to(target.viewpoint);
-    const FrontierTarget early = look_early(situation, way, 0.5, operations);
+    const FrontierTarget early = look_early(situation, way, operations);
     const auto taken = std::find(way.begin(), way.end(), early.viewpoint);
     ASSERT_NE(taken, way.end());
     for (auto cell = way.begin(); cell != way.end() && cell <= taken; ++cell) {

@@ -37,22 +37,14 @@ VANTAGE_INLINE Choice FrontierGainPlanner::choose(const Situation& situation) {
   if (const std::optional<Pose> goal = situation.goal_ahead()) {
     consider(targets_seen_from(situation.surveyed(), *goal, choice.statistics.ray_operations));
   }
-  const auto aimed = [&] {
-    const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
-    consider(view_of_target(situation.surveyed(), target, choice.statistics.ray_operations));
-  };
-  const auto anywhere = [&] {
+  for (std::size_t i = 0; i < options_.hypotheses; ++i) {
     const VoxelIndex cell = reachable.cell(dice.below(reachable.size()));
     const Pose pose = platform.facing(reachable.position_in(cell), dice.direction());
     consider(targets_seen_from(situation.surveyed(), pose, choice.statistics.ray_operations));
-  };
-
-  const auto aimed_count = static_cast<std::size_t>(options_.aimed_share * static_cast<double>(options_.hypotheses));
-  for (std::size_t i = 0; i < options_.hypotheses; ++i) {
-    i < aimed_count ? aimed() : anywhere();
   }
   for (std::size_t i = 0; i < options_.hypotheses && !best; ++i) {
-    aimed();
+    const FrontierTarget& target = survey.targets[dice.below(survey.targets.size())];
+    consider(view_of_target(situation.surveyed(), target, choice.statistics.ray_operations));
   }
   if (!best) {  // no random pose sees a target, and the aimed ones are beyond the resolving range
     best = view_of_target(situation.surveyed(), survey.targets.front(), choice.statistics.ray_operations);

@@ -86,8 +86,7 @@ VANTAGE_INLINE Choice HarmonicPlanner::choose(const Situation& situation) {
         way = situation.way_to(way.back());
       }
     }
-    wanted = strategy.look_early ? look_early(situation, way, strategy.look_spacing_m, operations)
-                                 : survey.target_seen_from(way.back());
+    wanted = strategy.look_early ? look_early(situation, way, operations) : survey.target_seen_from(way.back());
   }
   const bool looks_around = !std::isinf(strategy.look_again_m3);
   choice.view = looks_around ? best_look_at(situation, *wanted, operations)

@@ -61,7 +61,8 @@ VANTAGE_INLINE TargetView best_look_at(const Situation& situation, const Frontie
 }
 
 VANTAGE_INLINE FrontierTarget look_early(const Situation& situation, const std::vector<VoxelIndex>& way,
-                                         double look_spacing_m, std::uint64_t& operations) {
+                                         std::uint64_t& operations) {
+  constexpr double kLookSpacingM = 0.5;
   const FrontierSurvey& survey = situation.survey();
   const VoxelFrame& frame = situation.map().frame();
   const auto looked_at_from = [](FrontierTarget target, const VoxelIndex& cell) {
@@ -78,7 +79,7 @@ VANTAGE_INLINE FrontierTarget look_early(const Situation& situation, const std::
     if (in_sight(wanted)) {
       return looked_at_from(wanted, way[i]);
     }
-    if (gone_m >= look_spacing_m) {
+    if (gone_m >= kLookSpacingM) {
       const auto other = std::find_if(survey.targets.begin(), survey.targets.end(), in_sight);
       if (other != survey.targets.end()) {
         return looked_at_from(*other, way[i]);

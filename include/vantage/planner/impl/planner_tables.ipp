@@ -20,8 +20,6 @@ VANTAGE_INLINE const SettingTable<FrontierGainOptions>& frontier_gain_settings()
   static const auto table =
       with_survey<O>("FrontierGainOptions", &O::survey)
           .number("hypotheses", "poses", "tried per plan", within(1, 1e6), &O::hypotheses)
-          .number("aimed_share", "", "share of the hypotheses that stand where a frontier is visible", within(0, 1),
-                  &O::aimed_share)
           .number("cost_per_m", "1/m", "a view counts 1 / (1 + this * metres)", at_least(0), &O::cost_per_m);
   return table;
 }
@@ -60,19 +58,15 @@ VANTAGE_INLINE const SettingTable<HarmonicOptions>& harmonic_settings() {
                                  &O::field, &F::neumann)
           .number("tolerance", "", "gauss-seidel: largest relative change of the last sweep", within(1e-15, 1),
                   &O::field, &F::tolerance)
-          .number("uniform_source", "",
-                  "added everywhere, so that every cell has a lower neighbour; 0: the paper's field", at_least(0),
-                  &O::field, &F::uniform_source)
           .number("detour_m", "m", "frontiers further than the nearest by more than this wait", at_least(0),
                   &O::strategy, &S::detour_m)
           .flag("look_early", "looks from the first place of the path that sees the frontier", &O::strategy,
                 &S::look_early)
-          .number("look_spacing_m", "m", "after so much of the path, any frontier in sight is looked at", at_least(0),
-                  &O::strategy, &S::look_spacing_m)
           .number("look_again_m3", "m^3",
                   "looks again from the same place while a view is expected to show that much", at_least(0),
                   &O::strategy, &S::look_again_m3)
           .flag("shortest_way", "takes the shortest path, not the streamline", &O::strategy, &S::shortest_way)
+          .limit("HarmonicFieldOptions::uniform_source", at_least(0), &O::field, &F::uniform_source)
           .limit("HarmonicFieldOptions::max_sweeps", within(1, 1e7), &O::field, &F::max_sweeps);
   return table;
 }
@@ -121,13 +115,9 @@ VANTAGE_INLINE const SettingTable<NextBestViewOptions>& next_best_view_settings(
 
 VANTAGE_INLINE const SettingTable<TourOptions>& tour_settings() {
   using O = TourOptions;
-  static const auto table =
-      with_survey<O>("TourOptions", &O::survey)
-          .choice<TourCost>("cost", "what a tour is to save: seconds or metres",
-                            {{"time", TourCost::Time}, {"path", TourCost::Path}}, &O::cost)
-          .number("site_m", "m", "largest extent of a part of the frontier", more_than(0), &O::site_m)
-          .number("most_sites", "", "the nearest parts that are looked at, and most views of a tour", within(1, 200),
-                  &O::most_sites);
+  static const auto table = with_survey<O>("TourOptions", &O::survey)
+                                .choice<TourCost>("cost", "what a tour is to save: seconds or metres",
+                                                  {{"time", TourCost::Time}, {"path", TourCost::Path}}, &O::cost);
   return table;
 }
 

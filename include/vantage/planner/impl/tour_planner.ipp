@@ -24,6 +24,10 @@
 namespace vantage {
 namespace detail {
 
+// Largest extent along an axis of a part of the frontier. Larger clusters of frontier cells are divided.
+inline constexpr double kSiteM = 1.5;
+// Most parts of the frontier (the nearest) and most views of a tour.
+inline constexpr std::size_t kMostSites = 24;
 // Views at the front of a tour that are chosen anew for a shorter tour.
 inline constexpr std::size_t kRefined = 3;
 
@@ -34,21 +38,20 @@ struct NearestSites {
   std::vector<FrontierSite> sites;
   std::vector<double> lengths;  // see BlockWays::lengths_from
 
-  NearestSites(const Situation& situation, const TourOptions& options)
-      : ways(situation.ways()), start(*situation.reachable().start()) {
-    std::vector<FrontierSite> all = detail::frontier_sites(
-        situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(options.site_m)));
+  explicit NearestSites(const Situation& situation) : ways(situation.ways()), start(*situation.reachable().start()) {
+    std::vector<FrontierSite> all =
+        detail::frontier_sites(situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(kSiteM)));
     std::vector<VoxelIndex> places(all.size());
     std::transform(all.begin(), all.end(), places.begin(),
                    [](const FrontierSite& site) { return site.middle.viewpoint; });
-    lengths = ways.lengths_from(start, places, options.most_sites);
+    lengths = ways.lengths_from(start, places, kMostSites);
     std::vector<std::pair<double, std::size_t>> near;
     near.reserve(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       near.emplace_back(way_m(places[i]), i);
     }
     std::sort(near.begin(), near.end());
-    near.resize(std::min(near.size(), options.most_sites));
+    near.resize(std::min(near.size(), kMostSites));
     sites.reserve(near.size());
     for (const auto& [length_m, i] : near) {
       sites.push_back(std::move(all[i]));
@@ -91,10 +94,9 @@ inline std::vector<std::size_t> ordered(const std::vector<std::size_t>& chosen, 
       share /= all;
     }
   }
-  std::vector<std::size_t> tour;
-  tour.reserve(n);
-  for (const std::size_t i : detail::open_tour(problem)) {
-    tour.push_back(chosen[i]);
+  std::vector<std::size_t> tour = detail::open_tour(problem);
+  for (std::size_t& view : tour) {
+    view = chosen[view];
   }
   return tour;
 }
@@ -124,11 +126,8 @@ inline std::vector<VoxelIndex> cells_of_first(const std::vector<std::size_t>& to
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return std::pair(a.is_seen_later, a.off_axis) < std::pair(b.is_seen_later, b.off_axis);
   });
-  std::vector<VoxelIndex> cells;
-  cells.reserve(ranked.size());
-  for (const Ranked& one : ranked) {
-    cells.push_back(one.cell);
-  }
+  std::vector<VoxelIndex> cells(ranked.size());
+  std::transform(ranked.begin(), ranked.end(), cells.begin(), [](const Ranked& one) { return one.cell; });
   return cells;
 }
 
@@ -184,21 +183,20 @@ inline Choice first_sight(const Situation& situation, const NearestSites& neares
 
 // For a sensor that must be aimed: views are chosen for what they show.
 inline Choice first_view(const Situation& situation, const NearestSites& nearest, const TourViews& sampled,
-                         const TourOptions& options, const Eigen::Vector3d& velocity_m_s,
-                         PlanStatistics& statistics) {
+                         TourCost cost, const Eigen::Vector3d& velocity_m_s, PlanStatistics& statistics) {
   const std::vector<TourView>& views = sampled.views;
   statistics.views_scored += views.size();
   if (views.empty()) {  // what is left is beyond the resolving range, or seen in part
     return nearest_view(situation, statistics);
   }
-  TourLegs legs(situation, options.cost, velocity_m_s, nearest.ways, nearest.lengths, views);
+  TourLegs legs(situation, cost, velocity_m_s, nearest.ways, nearest.lengths, views);
   CoverTourProblem problem;
   problem.per_view = legs.of_stop();
   problem.leg = [&](std::size_t from, std::size_t to) { return legs.between(from, to); };
   for (const TourView& view : views) {
     problem.sees.push_back(view.sees);
   }
-  const std::vector<std::size_t> chosen = cover_tour(problem, options.most_sites);
+  const std::vector<std::size_t> chosen = cover_tour(problem, kMostSites);
   const std::vector<std::size_t> tour = refined_tour(problem, ordered(chosen, situation, views, legs), kRefined);
   const TourView& first = views[tour.front()];
   // Once half of the cells are known, the tour is planned again.
@@ -228,14 +226,14 @@ VANTAGE_INLINE MotionModel TourPlanner::default_motion() {
 }
 
 VANTAGE_INLINE Choice TourPlanner::choose(const Situation& situation) {
-  const detail::NearestSites nearest(situation, options_);
+  const detail::NearestSites nearest(situation);
   const Eigen::Vector3d velocity_m_s = motion_->velocity_at(situation.current().translation());
   std::optional<detail::TourViews> views;
   PlanStatistics statistics;
   if (!situation.sensor().looks_all_around()) {
     views.emplace(situation, nearest.sites, statistics.ray_operations);
   }
-  Choice choice = views ? detail::first_view(situation, nearest, *views, options_, velocity_m_s, statistics)
+  Choice choice = views ? detail::first_view(situation, nearest, *views, options_.cost, velocity_m_s, statistics)
                         : detail::first_sight(situation, nearest, options_.cost, velocity_m_s);
   if (const std::optional<MotionModel>& motion = situation.setup().motion) {
     if (std::optional<std::vector<Pose>> path = situation.path_to(choice.view->view.pose, choice.way)) {
