@@ -48,6 +48,7 @@ class ExplorationPeer : public FrontierPlanner {
     return {situation, TourCost::Time, velocity_m_s, situation.ways(), from_start, views};
   }
   /// Takes this view, until half of the cells that it sees are known, those in the middle of the image first.
+  /// Its statistics begin with `so_far`.
   [[nodiscard]] Choice taking(const Situation& situation, const TourView& view,
                               const std::vector<VoxelIndex>& unknown, const PlanStatistics& so_far);
 

@@ -23,8 +23,9 @@ namespace vantage::detail {
 /// end of a row lead to the option, from the struct inwards.
 ///
 ///     const auto table = SettingTable<HarmonicOptions>("HarmonicOptions")
-///         .number("uniform_source", "", "added everywhere", at_least(0), &HarmonicOptions::uniform_source)
-///         .number("detour_m", "m", "further boundaries wait", at_least(0),
+///         .number("tolerance", "", "largest relative change of the last sweep", within(1e-15, 1),
+///                 &HarmonicOptions::field, &HarmonicFieldOptions::tolerance)
+///         .number("detour_m", "m", "further frontiers wait", at_least(0),
 ///                 &HarmonicOptions::strategy, &HarmonicStrategy::detour_m);
 template <class Options>
 class SettingTable {
