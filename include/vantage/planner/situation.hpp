@@ -65,6 +65,10 @@ class Situation {
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
   bool drop(const TargetView& view);
+  /// After the last target was dropped: the places to which no path led rest, and `survey()` holds other targets, if
+  /// there are any. So a body that has no room to look from one place looks from another. Returns whether any place
+  /// was dropped.
+  bool look_elsewhere();
   /// Stores this plan for the next `sync`; `hoped` as in TriedViews::expect. Returns false if the robot comes no
   /// nearer to the goal: the goal then rests, and `survey()` holds the targets that are left.
   [[nodiscard]] bool remember(const Plan& plan, std::vector<VoxelIndex> hoped);
@@ -135,6 +139,7 @@ class Situation {
   TriedViews tried_;
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;
+  std::vector<VoxelIndex> without_way_;    // places of dropped views
   std::vector<FrontierTarget> set_aside_;  // of the survey: from here, goals in their directions failed
   bool is_stuck_ = false;
   mutable FollowingCaster looking_;

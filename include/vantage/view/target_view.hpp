@@ -33,7 +33,8 @@ struct TargetView {
 [[nodiscard]] TargetView targets_seen_from(const SurveyedMap& surveyed, const Pose& pose, std::uint64_t& operations);
 
 /// A view from the viewpoint of `wanted` that sees `wanted` and, among the orientations tried, the largest number of
-/// other targets within the resolving range. Adds the number of visited cells to `operations`.
+/// other targets within the resolving range. If the body has no room for it, one of the 26 orientations towards
+/// neighbouring cells for which it has, if there is one. Adds the number of visited cells to `operations`.
 [[nodiscard]] TargetView view_of_target(const SurveyedMap& surveyed, const FrontierTarget& wanted,
                                         std::uint64_t& operations);
 

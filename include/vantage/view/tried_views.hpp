@@ -87,6 +87,8 @@ class TriedViews {
                             std::vector<VoxelIndex> hoped = {});
   /// Stores how following the plan ended, if the host reports it. Used by the next `review`.
   void report(GoalResult result) { reported_ = result; }
+  /// Stores that no path leads to a view from this cell: the place rests as if the robot came no nearer to it.
+  void no_way_to(const VoxelIndex& cell);
   /// Compares the current map, with the sensor at `current` (world_from_sensor), with what the last view was to
   /// resolve. Starts with an empty memory if the map is another one. Returns whether a scan was taken in the same map
   /// since the last call, so that unknown cells in sight of `current` are evidence. Without a change of the map, a

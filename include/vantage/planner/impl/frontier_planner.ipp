@@ -24,7 +24,7 @@ VANTAGE_INLINE void ExplorationPlanner::recall(const OccupancyMap& /*map*/, std:
 
 VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
   situation_.sync(map, current);
-  for (;;) {  // ends, because another place rests each time
+  for (;;) {  // ends, because other places rest each time
     const PlanStatistics prepared = prepare(situation_);
     std::vector<VoxelIndex> hoped;
     std::optional<Plan> plan = situation_.end();
@@ -32,7 +32,9 @@ VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& c
       plan = plan_of_choice(hoped);
     }
     plan->statistics += prepared;
-    if (plan->outcome != Outcome::Move || situation_.remember(*plan, std::move(hoped))) {
+    const bool is_final = plan->outcome == Outcome::Move ? situation_.remember(*plan, std::move(hoped))
+                                                         : !situation_.look_elsewhere();
+    if (is_final) {
       return *std::move(plan);
     }
   }

@@ -44,6 +44,7 @@ VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current
   frontier_cells_ = frontier_->cells();
   map_ = &map;
   looking_follows_ = false;
+  without_way_.clear();
   if (tried_.review(map, current_)) {
     note_what_was_in_vain();
   }
@@ -120,6 +121,7 @@ VANTAGE_INLINE Plan Situation::open_plan() const {
 
 VANTAGE_INLINE bool Situation::drop(const TargetView& view) {
   const VoxelIndex place = map_->frame().cell_of(view.view.pose.translation());
+  without_way_.push_back(place);
   const bool any = std::erase_if(survey_.targets, [&](const FrontierTarget& target) {
                      return target.viewpoint == place ||
                             std::find(view.unknown.begin(), view.unknown.end(), target.unknown) != view.unknown.end();
@@ -128,6 +130,17 @@ VANTAGE_INLINE bool Situation::drop(const TargetView& view) {
     survey_.targets = std::exchange(set_aside_, {});
   }
   return any;
+}
+
+VANTAGE_INLINE bool Situation::look_elsewhere() {
+  const std::vector<VoxelIndex> places = std::exchange(without_way_, {});
+  for (const VoxelIndex& place : places) {
+    tried_.no_way_to(place);
+  }
+  if (!places.empty()) {
+    find_targets();
+  }
+  return !places.empty();
 }
 
 VANTAGE_INLINE bool Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {

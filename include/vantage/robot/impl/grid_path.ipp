@@ -176,6 +176,23 @@ inline std::vector<Pose> shortcut(const OccupancyMap& map, const Platform& platf
   return kept;
 }
 
+// The poses of a path; those between its ends look along it.
+inline std::vector<Pose> looking_ahead(const Platform& platform, std::vector<Pose> poses) {
+  for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
+    const Eigen::Vector3d position = poses[i].translation();
+    const Eigen::Vector3d ahead = poses[i + 1].translation() - position;
+    poses[i] = ahead.norm() > 1e-9 ? platform.facing(position, ahead) : poses[i - 1];
+    poses[i].translation() = position;
+  }
+  return poses;
+}
+
+inline bool are_admitted_motions(const OccupancyMap& map, const Platform& platform, const std::vector<Pose>& poses) {
+  return std::adjacent_find(poses.begin(), poses.end(), [&](const Pose& from, const Pose& to) {
+           return !platform.admits_motion(map, from, to);
+         }) == poses.end();
+}
+
 }  // namespace detail
 
 VANTAGE_INLINE std::vector<VoxelIndex> GridPaths::to_nearest(std::span<const VoxelIndex> goals) const {
@@ -229,18 +246,16 @@ VANTAGE_INLINE std::optional<std::vector<Pose>> poses_along(const OccupancyMap& 
     corners.back().translation() = map.frame().centre_of(cell);
   }
   corners.push_back(to);
-  std::vector<Pose> poses = detail::shortcut(map, platform, corners);
-  if (poses.empty()) {
-    return std::nullopt;
+  // A body that is no sphere may fit along the path in one orientation and not in another: straight on and looking
+  // ahead, turned as it stands, or looking ahead from cell to cell.
+  std::vector<Pose> straight = detail::shortcut(map, platform, corners);
+  for (const std::vector<Pose>& poses : {straight, corners}) {
+    std::vector<Pose> ahead = detail::looking_ahead(platform, poses);
+    if (!ahead.empty() && detail::are_admitted_motions(map, platform, ahead)) {
+      return ahead;
+    }
   }
-  for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
-    const Eigen::Vector3d position = poses[i].translation();
-    const Eigen::Vector3d ahead = poses[i + 1].translation() - position;
-    poses[i] = ahead.norm() > 1e-9 ? platform.facing(position, ahead) : poses[i - 1];
-    poses[i].translation() = position;
-  }
-  poses.back() = to;
-  return poses;
+  return straight.empty() ? std::nullopt : std::optional(std::move(straight));
 }
 
 VANTAGE_INLINE std::optional<std::vector<Pose>> grid_path(const OccupancyMap& map, const Platform& platform,

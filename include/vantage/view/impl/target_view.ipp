@@ -8,6 +8,29 @@
 #include <vantage/view/impl/targets_in_sight.hpp>
 
 namespace vantage {
+namespace detail {
+
+// The view of `wanted` from `position` that sees most targets, of orientations in which the body has room there.
+// `otherwise` if there is none.
+inline TargetView view_with_room(const SurveyedMap& surveyed, const FrontierTarget& wanted,
+                                 const Eigen::Vector3d& position, const TargetsInSight& in_sight,
+                                 TargetView otherwise) {
+  const Eigen::Vector3d line = surveyed.map.frame().centre_of(wanted.unknown) - position;
+  TargetView best = std::move(otherwise);
+  double most = 0.0;
+  for (const VoxelIndex& step : kAllNeighbours) {
+    const Pose pose = surveyed.platform.facing(position, Eigen::Vector3d(step.x, step.y, step.z));
+    TargetView candidate = in_sight.in_view(pose);
+    if (candidate.view.utility > most && surveyed.sensor.in_view(pose.linear().transpose() * line) &&
+        surveyed.platform.admits(surveyed.map, pose)) {
+      most = candidate.view.utility;
+      best = std::move(candidate);
+    }
+  }
+  return best;
+}
+
+}  // namespace detail
 
 VANTAGE_INLINE TargetView targets_seen_from(const SurveyedMap& surveyed, const Pose& pose,
                                             std::uint64_t& operations) {
@@ -60,7 +83,10 @@ VANTAGE_INLINE TargetView view_of_target(const SurveyedMap& surveyed, const Fron
       best = std::move(candidate);
     }
   }
-  return best;
+  // A body that is no sphere may have no room for this orientation.
+  return platform.admits(map, best.view.pose)
+             ? best
+             : detail::view_with_room(surveyed, wanted, position, in_sight, std::move(best));
 }
 
 }  // namespace vantage

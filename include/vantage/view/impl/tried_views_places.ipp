@@ -101,6 +101,13 @@ VANTAGE_INLINE void TriedViews::fail(Place& place) {
   place.rests_until = plans_ + (detail::kFirstRest << shift);
 }
 
+VANTAGE_INLINE void TriedViews::no_way_to(const VoxelIndex& cell) {
+  Place& place = place_of(cell);
+  place.no_nearer = detail::kMostAsks;
+  fail(place);
+  rest_now();
+}
+
 VANTAGE_INLINE bool TriedViews::given_up(const Place& place) const {
   return place.rests_until > plans_ &&
          (place.failures >= detail::kMostFailures || place.no_nearer >= detail::kMostAsks);
