@@ -27,6 +27,7 @@ struct ChangingWorld {
   VoxelFrame frame{0.2};
   VoxelGrid<std::uint8_t> solid;
   VoxelGrid<std::uint8_t> sheets;  // bit a: a wall of zero thickness on the upper face of axis a
+  VoxelBox doorway{};              // between the room of the start and the others
   VoxelBox door{};                 // empty: no moving door
   std::optional<VoxelBox> person;
   double inset = 0.0;  // how deep surfaces lie in their cells, cells
@@ -121,6 +122,7 @@ struct ChangingWorld {
   const std::int32_t across = draw(7, 10);
   const std::int32_t gap = draw(2, 10);
   const VoxelBox doorway{{across, gap, flat ? 0 : 1}, {across + 1, gap + 3, head}};
+  world.doorway = doorway;
   wall({{across, 0, 0}, {across + 1, kY, top}}, 0, true);
   if (building == Building::Grille) {
     for (std::int32_t y = 2; y < kY - 1; y += 2) {

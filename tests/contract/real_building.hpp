@@ -14,6 +14,7 @@
 
 #include "contract/cell_drawing.hpp"
 #include "contract/changing_world.hpp"
+#include "support/real_data.hpp"
 
 namespace vantage::testing {
 
@@ -70,6 +71,25 @@ namespace vantage::testing {
                              " cells");
   }
   return best;
+}
+
+inline constexpr std::uint32_t kSeedsOfABuilding = 11;
+
+/// One of the buildings below VANTAGE_DATA, the same for so many seeds in a row: floor plans, worlds of aerial
+/// exploration, houses and offices with furniture.
+[[nodiscard]] inline const World& real_building(std::uint32_t seed) {
+  static const std::vector<World> all = [] {
+    std::vector<World> worlds;
+    for (const char* file : {"floorplans/kth/50052748.yaml", "environments/aerial/complex_office.stl",
+                             "floorplans/kth/50052750.yaml", "environments/aws_small_house/small_house_collision.ply",
+                             "floorplans/kth/50015847.yaml", "environments/gazebo/collapsed_house.ply",
+                             "environments/aerial/maze1.obj", "environments/gazebo/osrf_first_office.ply"}) {
+      worlds.push_back(World::from_file(test::real_data(file)));
+      worlds.back().name = file;
+    }
+    return worlds;
+  }();
+  return all[seed / kSeedsOfABuilding % all.size()];
 }
 
 }  // namespace vantage::testing
