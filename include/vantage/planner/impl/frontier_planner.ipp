@@ -32,8 +32,8 @@ VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& c
       plan = plan_of_choice(hoped);
     }
     plan->statistics += prepared;
-    const bool is_final = plan->outcome == Outcome::Move ? situation_.remember(*plan, std::move(hoped))
-                                                         : !situation_.look_elsewhere();
+    const bool is_final =
+        plan->outcome == Outcome::Move ? situation_.remember(*plan, std::move(hoped)) : !situation_.look_elsewhere();
     if (is_final) {
       return *std::move(plan);
     }
