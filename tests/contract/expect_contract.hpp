@@ -4,12 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "contract/driven_robot.hpp"
 
 namespace vantage::testing {
+
+/// The value of an environment variable.
+[[nodiscard]] inline std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
+  const char* const text = std::getenv(variable);
+  return text != nullptr ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
+}
 
 /// Where a run may fall short of the contract.
 struct Concessions {
@@ -36,7 +45,7 @@ inline bool expect_contract(const std::string& planner, Host host, const Scene& 
     EXPECT_TRUE((may_lack_space && says("assume_free")) || (may_not_move && says("free it")));
   }
   EXPECT_LE(run.misled_by.size(), 3U);
-  EXPECT_EQ(run.pits_met.size(), 0U);
+  EXPECT_LE(run.pits_met.size(), host == Host::Inexact ? 1U : 0U) << "columns; a rim may be mapped beside its place";
   EXPECT_EQ(run.refused_ways, 0U) << "motions that the platform does not admit";
   EXPECT_EQ(run.collisions, 0U);
   EXPECT_EQ(run.disagreements, 0U) << "of one and two threads";

@@ -104,6 +104,14 @@ TEST(ExplorationContractCase, AWallSeenFromItsEndStays) {
   EXPECT_TRUE(expect_contract("next-best-view", Host::Inexact, scene.met_by(Host::Inexact)));
 }
 
+// A path was tested in the orientation of its start and followed in others, with the rod through walls.
+TEST(ExplorationContractCase, ARodFitsWhereThePathLeads) {
+  for (const std::string_view planner : planner_names()) {
+    EXPECT_TRUE(
+        expect_contract(std::string(planner), Host::Outstretched, Scene::numbered(25).met_by(Host::Outstretched)));
+  }
+}
+
 // Known faults: how far these runs fall short, and that all else holds.
 
 // A doorway that the body does not get through shows a few cells to a robot that stands in it, not before it.

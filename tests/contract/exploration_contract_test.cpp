@@ -4,7 +4,6 @@
 // heights. VANTAGE_CONTRACT_SEEDS: number of worlds per planner and host. VANTAGE_CONTRACT_FIRST_SEED: the first one.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <set>
 #include <string>
 #include <tuple>
@@ -24,18 +23,15 @@ using testing::Host;
 using testing::kHosts;
 using testing::Scene;
 
-std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
-  const char* const text = std::getenv(variable);
-  return text != nullptr ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
-}
 using Pair = std::tuple<std::string, Host>;
 
 // Runs the scenes numbered `first`, `first + step`, ..., as many as the environment asks for.
 template <class SceneOf>
 void expect_contract_in_each(const Pair& pair, std::uint32_t step, SceneOf&& scene_of) {
   const auto& [planner, host] = pair;
-  const std::uint32_t seeds = number_from("VANTAGE_CONTRACT_SEEDS", 1);
-  const std::uint32_t first = number_from("VANTAGE_CONTRACT_FIRST_SEED", 1) + static_cast<std::uint32_t>(host);
+  const std::uint32_t seeds = testing::number_from("VANTAGE_CONTRACT_SEEDS", 1);
+  const std::uint32_t first =
+      testing::number_from("VANTAGE_CONTRACT_FIRST_SEED", 1) + static_cast<std::uint32_t>(host);
   std::size_t ended = 0;
   for (std::uint32_t i = 0; i < seeds; ++i) {
     ended += expect_contract(planner, host, scene_of(first + i * step).met_by(host)) ? 1U : 0U;

@@ -15,6 +15,9 @@ namespace VANTAGE_EXPORT vantage {
 /// `admitted_cells` asks `admits_cell` of the derived class for each cell. A derived class that does not change which
 /// cells are admitted should forward it, which is faster. A derived class that does should override `path`, too
 /// (`grid_path(map, *this, from, to)`), because the paths of the wrapped platform do not know of it.
+///
+/// Its answers must depend only on the map. When a fence is lifted, the robot is another platform: make another
+/// planner with it, which recalls the memory of the first (ExplorationPlanner::recall).
 class WrappedPlatform : public Platform {
  public:
   /// Throws std::invalid_argument if `platform` is null.

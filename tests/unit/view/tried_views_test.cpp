@@ -265,6 +265,25 @@ TEST(TriedViews, AViewThatServedItsPurposeStartsAnew) {
 
 // A robot that stops beside a goal would stop there again. One at the goal may look from there as often as there is
 // something new to look at.
+TEST(TriedViews, APlaceWithoutAWayRestsAtOnceAndForAWhile) {
+  OccupancyMap map = free_before_the_hidden();
+  TriedViews tried(sees_all_around());
+  const VoxelIndex place{-5, 5, 5};
+  const Pose here = at(map, {0, 5, 5});
+  tried.review(map, here);
+  tried.no_way_to(place);
+  EXPECT_EQ(tried.places_given_up(), 1U);
+  EXPECT_FALSE(tried.try_resting_again()) << "the way is as closed as before";
+  EXPECT_FALSE(tried.is_stuck(here));
+  for (int plan = 0; plan < 8; ++plan) {
+    EXPECT_TRUE(tried.rests(place)) << plan;
+    map.confirm();
+    tried.review(map, here);
+  }
+  EXPECT_FALSE(tried.any_rests());
+  EXPECT_TRUE(tried.expect(map, path_to(at(map, place), 1.0), {kHidden}));
+}
+
 TEST(TriedViews, ARobotThatStopsOffTheGoalIsAskedTwice) {
   const auto asked_for = [](double off_m, bool reports) {
     OccupancyMap map = free_before_the_hidden();
