@@ -16,7 +16,7 @@ int main() {
   vantage::OccupancyMap map({.resolution_m = 0.2, .region = world.region});
   const auto planner = vantage::make_planner("nearest-frontier", {.sensor = sensor, .platform = robot});
   vantage::Pose pose = vantage::pose_looking({0.9, 0.9, 1.0}, 0.0);  // world_from_sensor
-  map.assume_free(robot->body_box(pose));
+  assume_free(map, *robot, pose);
 
   for (std::size_t views = 1;; ++views) {
     map.insert(camera.scan(pose));

@@ -38,7 +38,7 @@ int main() {
   vantage::OccupancyMap map({.resolution_m = 0.2, .region = world.region});
   const auto planner = vantage::make_planner("nearest-frontier", {.sensor = lidar, .platform = robot});
   vantage::Pose pose = vantage::pose_looking({0.9, 0.9, 1.0}, 0.0);  // world_from_sensor
-  vantage::assume_free(map, *robot, pose, vantage::start_clearance_m(*robot, lidar));
+  vantage::assume_free(map, *robot, pose, vantage::start_clearance_m(map, *robot, lidar));
 
   for (std::size_t views = 1;; ++views) {
     const auto message = message_of(simulated.scan(pose), lidar_from_sensor.linear().cast<float>());

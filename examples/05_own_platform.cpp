@@ -45,7 +45,7 @@ int main() {
   vantage::SimulatedSensor camera(vantage::TriangleScene(world.mesh), sensor);
   vantage::OccupancyMap map({.resolution_m = 0.2, .region = world.region});
   const auto planner = vantage::make_planner("nearest-frontier", {.sensor = sensor, .platform = robot});
-  map.assume_free(robot->body_box(pose));
+  assume_free(map, *robot, pose);
 
   for (std::size_t views = 1;; ++views) {
     map.insert(camera.scan(pose));

@@ -44,7 +44,7 @@ int main() {
 
   Shared shared{.map = vantage::OccupancyMap({.resolution_m = 0.2, .region = world.region}),
                 .pose = vantage::pose_looking({0.9, 0.9, 1.0}, 0.0)};
-  shared.map.assume_free(robot->body_box(shared.pose));
+  assume_free(shared.map, *robot, shared.pose);
   const std::jthread mapping(map_scans, std::ref(shared), std::ref(camera));  // stopped and joined at the end
   std::unique_lock guard(shared.lock);
   for (;;) {

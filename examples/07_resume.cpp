@@ -39,7 +39,7 @@ int main() {
 
   {  // the first day
     vantage::OccupancyMap map(of_map);
-    map.assume_free(robot->body_box(pose));
+    assume_free(map, *robot, pose);
     const auto planner = vantage::make_planner("nearest-frontier", setup);
     explore(*planner, map, camera, 20, pose);
     vantage::save_octomap(map, map_file);

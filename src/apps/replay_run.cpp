@@ -13,6 +13,7 @@
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
+#include <vantage/planner/assume_free.hpp>
 #include <vantage/report/report_json.hpp>
 
 #include "report/full_map.hpp"
@@ -134,7 +135,7 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
     try {
       check_place(pose);
       reading = recording.read(i);
-      map.assume_free(platform.body_box(pose));
+      assume_free(map, platform, pose);
       insert_ms = milliseconds_of([&] { frame.scan = map.insert(reading.scan.scan); });
     } catch (const std::bad_alloc&) {
       throw;  // out of memory: the next frame would find no more

@@ -102,10 +102,11 @@ SensorCarrier carrier_of(const ExploreRequest& request) {
   }
   (void)start_in_world(request);  // a faulty start is found before the world is read
   SensorCarrier carrier{.sensor = is_plan(request) ? in_plane(sensor_of(request)) : sensor_of(request)};
-  // A free cell may contain a part of a wall that the sensor saw only in passing. The cells beside it show that wall,
-  // so a body smaller than a cell needs them clear. A robot that does not stop meets more such walls.
-  const double margin_m = std::max(request.resolution_m - request.robot_radius_m,
-                                   request.max_speed_m_s ? 0.5 * request.resolution_m : 0.0);
+  // A robot that does not stop meets more walls that its sensor saw only in passing.
+  std::optional<double> margin_m;
+  if (request.max_speed_m_s) {
+    margin_m = std::max(request.resolution_m - request.robot_radius_m, 0.5 * request.resolution_m);
+  }
   if (!request.band.empty() || is_plan(request)) {
     carrier.platform = std::make_shared<const GroundRobot>(
         GroundRobotOptions{.radius_m = request.robot_radius_m, .margin_m = margin_m});
@@ -162,7 +163,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
       throw std::invalid_argument("--band '" + request.band + "': " + error.what());
     }
   }
-  options.start_clearance_m = start_clearance_m(*carrier.platform, carrier.sensor);
+  options.start_clearance_m = start_clearance_m(OccupancyMap(options.map), *carrier.platform, carrier.sensor);
   options.look_around = request.look_around;
   options.max_views = request.max_views;
   options.scan_spacing_m = request.scan_spacing_m;

@@ -64,7 +64,8 @@ RoomsRun explore_rooms(const PlanCase& what) {
   RoomsRun run;
   run.sensor = what.sensor;
   run.cell_m = what.cell_m;
-  run.robot = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = 0.15, .yaw_only = what.is_level});
+  run.robot = std::make_shared<const FreeFlyer>(
+      FreeFlyerOptions{.radius_m = 0.15, .margin_m = 0.0, .yaw_only = what.is_level});
   const std::optional<Pose> start = Truth(run.world, run.cell_m, run.world.region).draw_start(*run.robot, 1);
   if (!start) {
     throw std::runtime_error("rooms: the robot fits nowhere");

@@ -78,7 +78,7 @@ std::string explore(Robot& robot, const vantage::RangeSensor& sensor) {
   const auto body = std::make_shared<vantage::FreeFlyer>(vantage::FreeFlyerOptions{.radius_m = 0.3});
   vantage::OccupancyMap map({.resolution_m = 0.2});
   const auto planner = vantage::make_planner("harmonic", {.sensor = sensor, .platform = body});
-  assume_free(map, *body, robot.pose(), start_clearance_m(*body, sensor));
+  assume_free(map, *body, robot.pose(), start_clearance_m(map, *body, sensor));
   map.insert(robot.scan());
   for (;;) {
     const vantage::Plan plan = planner->plan(map, robot.pose());

@@ -79,7 +79,7 @@ class DrivenRobot {
     }
     make_planners();
     pose_ = pose_looking(start_of(host), 0.3);
-    declare_free(start_clearance_m(*platform_, scene_.planned_sensor()));
+    declare_free(start_clearance_m(known(), *platform_, scene_.planned_sensor()));
     for_each_cell(world_.solid.box(), [&](const VoxelIndex& cell) {
       if (world_.is_solid(cell)) {
         map_.set(cell, Occupancy::Unknown);  // the operator does not declare solid cells free

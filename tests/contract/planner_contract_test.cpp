@@ -93,7 +93,7 @@ class Robot {
   Robot(const ContractCase& setting, Furniture furniture, std::uint32_t seed, std::size_t max_bytes = 0)
       : world_(testing::make_cell_world(furniture, seed)),
         sensor_(setting.narrow ? camera() : all_round()),
-        platform_(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1})),
+        platform_(std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1, .margin_m = 0.0})),
         map_({.resolution_m = world_.frame.size_m,
               .region = world_.frame.box_of(world_.solid.box()),
               .max_bytes = max_bytes}),

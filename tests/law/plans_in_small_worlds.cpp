@@ -38,7 +38,7 @@ int run(std::string_view name, const CellWorld& world) {
   vantage::OccupancyMap map({.resolution_m = world.frame.size_m, .region = world.frame.box_of(world.solid.box())});
   const auto planner = vantage::make_planner(name, {.sensor = sensor, .platform = robot});
   vantage::Pose pose = vantage::pose_looking(world.frame.centre_of(world.start), 0.0);
-  assume_free(map, *robot, pose, start_clearance_m(*robot, sensor));
+  assume_free(map, *robot, pose, start_clearance_m(map, *robot, sensor));
   int plans = 0;
   while (plans < kViews) {
     map.insert(vantage::testing::scan_cells_of(world, sensor, pose));

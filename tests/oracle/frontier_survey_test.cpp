@@ -78,7 +78,7 @@ SurveyedWorld random_world(std::mt19937& engine, bool is_level = false) {
   const OccupancyMap map = random_rooms(engine, resolution_m, is_level);
   const double across_m = map.frame().box_of(map.bounds()).extent().norm() + resolution_m;
   const double radius_m = (engine() % 2 == 0 || is_level ? 0.4 : 1.6) * resolution_m;
-  SurveyedWorld world{map, FreeFlyer({.radius_m = radius_m, .yaw_only = engine() % 3 == 0}), sensor,
+  SurveyedWorld world{map, FreeFlyer({.radius_m = radius_m, .margin_m = 0.0, .yaw_only = engine() % 3 == 0}), sensor,
                       pose_looking(Eigen::Vector3d::Constant(0.5 * resolution_m), 0.0), std::min(far_m, across_m)};
   world.is_level = is_level;
   return world;

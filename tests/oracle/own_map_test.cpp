@@ -135,7 +135,7 @@ TEST(OwnMap, IsReachedWithoutABodyWhereItsMirrorIs) {
   std::mt19937 engine(54);
   std::size_t reached = 0;
   std::size_t beyond = 0;
-  const FreeFlyer point(FreeFlyerOptions{.radius_m = 0.04});
+  const FreeFlyer point(FreeFlyerOptions{.radius_m = 0.04, .margin_m = 0.0});
   for (int i = 0; i < 60; ++i) {
     const World world(engine);
     const VoxelIndex start = kOwnFrame.cell_of(random_point(engine));

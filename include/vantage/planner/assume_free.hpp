@@ -10,16 +10,17 @@
 namespace VANTAGE_EXPORT vantage {
 
 /// Writes free space to the map around the start of a robot: all still unknown cells that its body touches at `pose`
-/// (world_from_sensor), and those within `clearance_m` metres of the sensor. The caller vouches that this space is
-/// free. Known cells do not change. Throws std::invalid_argument unless `clearance_m` is in [0, 5].
+/// (world_from_sensor), and those within a cell and within `clearance_m` metres of the sensor. The caller vouches
+/// that this space is free. Known cells do not change. Throws std::invalid_argument unless `clearance_m` is in [0,
+/// 5].
 ///
-///     assume_free(map, *platform, pose, start_clearance_m(*platform, sensor));
+///     assume_free(map, *platform, pose, start_clearance_m(map, *platform, sensor));
 void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, double clearance_m = 0.0);
 
 /// The radius around the sensor, metres, that should be declared free at the start. A sensor with a narrow field of
 /// view does not see what lies beside the body, so the body must first move through unseen space until the space that
 /// it needs fits into the view. 0 for a sensor that sees all around and has minimum range 0; at most 5.
-[[nodiscard]] double start_clearance_m(const Platform& platform, const RangeSensor& sensor);
+[[nodiscard]] double start_clearance_m(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor);
 
 }  // namespace vantage
 

@@ -122,6 +122,7 @@ class Situation {
   void note_what_was_in_vain();
   void find_targets();
   void set_refused_aside();
+  [[nodiscard]] double body_m() const;
   [[nodiscard]] bool hardly_moves() const;
   [[nodiscard]] bool stands_beside_unknown() const;
   [[nodiscard]] std::optional<Plan> turn_on_the_spot();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/robot/platform.hpp>
 
@@ -13,9 +14,9 @@ struct FreeFlyerOptions {
   double radius_m = 0.3;
   double min_height_m = -std::numeric_limits<double>::infinity();  ///< lowest admitted z of the sensor, metres, world
   double max_height_m = std::numeric_limits<double>::infinity();  ///< highest admitted z of the sensor, metres, world
-  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]. A free cell may contain
-  /// a part of a wall: choose it so that radius and margin are at least a cell.
-  double margin_m = 0.0;
+  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]. None: as much as makes
+  /// radius and margin a cell of the map, because a free cell may contain a part of a wall.
+  std::optional<double> margin_m = std::nullopt;
   bool yaw_only = false;  ///< true: the optical axis stays horizontal, e.g. a multirotor with a fixed camera
 };
 
@@ -33,7 +34,7 @@ class FreeFlyer final : public Platform {
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
-  [[nodiscard]] double reach_m() const override { return options_.radius_m + options_.margin_m; }
+  [[nodiscard]] double reach_m() const override { return options_.radius_m + options_.margin_m.value_or(0.0); }
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
@@ -46,6 +47,7 @@ class FreeFlyer final : public Platform {
   [[nodiscard]] bool height_allowed(double z_m) const {
     return z_m >= options_.min_height_m && z_m <= options_.max_height_m;
   }
+  [[nodiscard]] double clear_m(const OccupancyMap& map) const;
   FreeFlyerOptions options_;
 };
 

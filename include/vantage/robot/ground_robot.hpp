@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vantage/compiler.hpp>
 #include <vantage/robot/platform.hpp>
 
@@ -10,9 +11,9 @@ namespace VANTAGE_EXPORT vantage {
 struct GroundRobotOptions {
   /// Radius of the body, a disc around the sensor, metres, in [0, 1000] (0: the sensor's cell)
   double radius_m = 0.3;
-  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]. A free cell may contain
-  /// a part of a wall: choose it so that radius and margin are at least a cell.
-  double margin_m = 0.0;
+  /// Additional distance around the body in which cells must be clear, metres, in [0, 1000]. None: as much as makes
+  /// radius and margin a cell of the map, because a free cell may contain a part of a wall.
+  std::optional<double> margin_m = std::nullopt;
 };
 
 /// A disc that drives in one layer of cells, with a horizontal optical axis. Meant for HeightBand::plane, whose cells
@@ -30,7 +31,7 @@ class GroundRobot final : public Platform {
   [[nodiscard]] bool admits(const OccupancyMap& map, const Pose& pose) const override;
   [[nodiscard]] bool admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const override;
   [[nodiscard]] VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const override;
-  [[nodiscard]] double reach_m() const override { return options_.radius_m + options_.margin_m; }
+  [[nodiscard]] double reach_m() const override { return options_.radius_m + options_.margin_m.value_or(0.0); }
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override;
   [[nodiscard]] Pose facing(const Eigen::Vector3d& position_m, const Eigen::Vector3d& direction) const override;
   [[nodiscard]] double distance_m(const Pose& from, const Pose& to) const override;
@@ -40,6 +41,7 @@ class GroundRobot final : public Platform {
   [[nodiscard]] bool can_tilt() const override { return false; }
 
  private:
+  [[nodiscard]] double clear_m(const OccupancyMap& map) const;
   GroundRobotOptions options_;
 };
 

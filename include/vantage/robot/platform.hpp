@@ -26,8 +26,8 @@ class Platform {
   /// The cells of `box` that the platform admits, as 1. Must equal `admits_cell` for each cell; a platform may
   /// compute all of them faster together. Allocates memory for the whole box.
   [[nodiscard]] virtual VoxelGrid<std::uint8_t> admitted_cells(const OccupancyMap& map, const VoxelBox& box) const;
-  /// Distance from the sensor to the end of the body, metres: cells further away must not affect whether a cell is
-  /// admitted. Infinite if unknown.
+  /// Distance from the sensor to the end of the body, metres: cells further away, and more than a cell away, must not
+  /// affect whether a cell is admitted. Infinite if unknown.
   [[nodiscard]] virtual double reach_m() const { return std::numeric_limits<double>::infinity(); }
   /// Whether the body may move the sensor straight from one pose to the other: all cells that it touches in between
   /// are clear, or are already touched at `from`. So a body can leave a place that is found too narrow.

@@ -39,8 +39,8 @@ struct ObjectViewOptions {
 /// reaches the far side of the box. A body that reaches `body_m` from the sensor does not touch the box there.
 [[nodiscard]] double fitting_radius_m(const Box& box, const RangeSensor& sensor, double resolution_m, double body_m);
 
-/// The options with radii, if there are none: `fitting_radius_m` for `Platform::reach_m`, if it is finite, and two
-/// cells beside it.
+/// The options with radii, if there are none: `fitting_radius_m` for `Platform::reach_m`, if it is finite, or
+/// at least a cell, and two cells beside it.
 [[nodiscard]] ObjectViewOptions with_radii(const ObjectViewOptions& options, const RangeSensor& sensor,
                                            const Platform& platform, double resolution_m);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -13,6 +14,7 @@ namespace vantage {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kCell = 0.1;
 
 // Random bodies at random poses, off the centres of the cells, beside cells that are known.
 TEST(AssumeFree, DeclaresTheUnknownCellsThatTheBodyTouchesAndThoseNearTheSensor) {
@@ -22,7 +24,7 @@ TEST(AssumeFree, DeclaresTheUnknownCellsThatTheBodyTouchesAndThoseNearTheSensor)
   std::size_t left = 0;
   std::size_t known = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    OccupancyMap map({.resolution_m = 0.1});
+    OccupancyMap map({.resolution_m = kCell});
     const double radius_m = draw(0.05, 0.4);
     const double clearance_m = trial % 2 == 0 ? 0.0 : draw(0.0, 0.6);
     const FreeFlyer flyer({.radius_m = radius_m});
@@ -43,10 +45,10 @@ TEST(AssumeFree, DeclaresTheUnknownCellsThatTheBodyTouchesAndThoseNearTheSensor)
         return;
       }
       const double distance_m = map.frame().box_of(cell).distance_to(pose.translation());
-      if (std::abs(distance_m - radius_m) < 1e-6 || std::abs(distance_m - clearance_m) < 1e-6) {
+      if (std::abs(distance_m - std::max(radius_m, kCell)) < 1e-6 || std::abs(distance_m - clearance_m) < 1e-6) {
         return;
       }
-      const bool is_near = distance_m < radius_m || distance_m < clearance_m;
+      const bool is_near = distance_m < std::max({radius_m, kCell, clearance_m});
       EXPECT_EQ(map.at(cell), is_near ? Occupancy::Free : Occupancy::Unknown);
       ++(is_near ? declared : left);
     });
@@ -87,10 +89,13 @@ TEST(AssumeFree, RefusesAClearanceThatIsNone) {
 
 // Outside the declared ball, a body that moves along the optical axis lies within the field of view.
 TEST(AssumeFree, AtTheEdgeOfTheClearanceTheBodyIsInTheFieldOfView) {
-  EXPECT_EQ(start_clearance_m(FreeFlyer({.radius_m = 0.3}), RangeSensor::spherical(90, 45, 2 * kPi, kPi, 0.0, 4.0)),
-            0.0);
-  EXPECT_GE(start_clearance_m(FreeFlyer({.radius_m = 0.3}), RangeSensor::spherical(90, 45, 2 * kPi, kPi, 0.8, 4.0)),
-            0.8)
+  const OccupancyMap map({.resolution_m = 0.05});
+  EXPECT_EQ(
+      start_clearance_m(map, FreeFlyer({.radius_m = 0.3}), RangeSensor::spherical(90, 45, 2 * kPi, kPi, 0.0, 4.0)),
+      0.0);
+  EXPECT_GE(
+      start_clearance_m(map, FreeFlyer({.radius_m = 0.3}), RangeSensor::spherical(90, 45, 2 * kPi, kPi, 0.8, 4.0)),
+      0.8)
       << "nothing is seen within the minimum range";
   std::mt19937 engine(5);
   const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine); };
@@ -98,7 +103,7 @@ TEST(AssumeFree, AtTheEdgeOfTheClearanceTheBodyIsInTheFieldOfView) {
   for (; sensors < 500; ++sensors) {
     const double radius_m = draw(0.05, 0.4);
     const RangeSensor sensor = RangeSensor::pinhole(64, 48, draw(0.6, 2.0), draw(0.6, 2.0), draw(0.0, 0.5), 6.0);
-    const double clearance_m = start_clearance_m(FreeFlyer({.radius_m = radius_m}), sensor);
+    const double clearance_m = start_clearance_m(map, FreeFlyer({.radius_m = radius_m}), sensor);
     ASSERT_LT(clearance_m, 5.0);
     // A rim of the swept body that touches the declared ball from outside.
     const double ahead_m = std::sqrt(clearance_m * clearance_m - radius_m * radius_m) + 1e-9;

@@ -23,7 +23,7 @@ struct Walk {
     return check(plan, map, flyer, pose_looking({x, y, 0.5}, 1.0));
   }
   OccupancyMap map{{.resolution_m = 0.2}};
-  FreeFlyer flyer{{.radius_m = 0.1}};
+  FreeFlyer flyer{{.radius_m = 0.1, .margin_m = 0.0}};
   Plan plan;
 };
 

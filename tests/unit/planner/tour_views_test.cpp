@@ -33,7 +33,7 @@ TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
       }
     });
     PlannerSetup setup;
-    setup.platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1});
+    setup.platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1, .margin_m = 0.0});
     setup.sensor = RangeSensor::preset("kinect");
     Situation situation(setup);
     situation.sync(map, Pose::Identity());

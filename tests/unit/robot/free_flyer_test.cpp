@@ -56,7 +56,7 @@ TEST(FreeFlyer, AdmitsExactlyWhereItsSphereTouchesFreeCellsOnly) {
   std::size_t admitted = 0;
   std::size_t refused = 0;
   for (const double radius_m : {0.0, 0.04, 0.1, 0.23}) {
-    const FreeFlyer flyer({.radius_m = radius_m});
+    const FreeFlyer flyer({.radius_m = radius_m, .margin_m = 0.0});
     const OccupancyMap map = random_map(engine, 16, 0.02);
     for (int i = 0; i < 3000; ++i) {
       const Eigen::Vector3d position(metre(engine), metre(engine), metre(engine));
@@ -88,14 +88,53 @@ TEST(FreeFlyer, KnowsAllAdmittedCellsAtOnceAsItKnowsEach) {
   EXPECT_GT(admitted_count, 1000U);
 }
 
+// Without a margin a body keeps at least a cell of the map clear, as one of that radius with a margin of 0 does.
+TEST(FreeFlyer, KeepsAtLeastACellClear) {
+  std::mt19937 engine(11);
+  std::uniform_real_distribution<double> metre(0.0, 1.6);
+  std::size_t admitted = 0;
+  std::size_t moved = 0;
+  std::size_t tighter = 0;
+  for (const double radius_m : {0.0, 0.04, 0.1, 0.17}) {
+    const OccupancyMap map = random_map(engine, 16, 0.02);
+    const double clear_m = std::max(radius_m, kCell);
+    const FreeFlyer flyer({.radius_m = radius_m});
+    const FreeFlyer exact_flyer({.radius_m = clear_m, .margin_m = 0.0});
+    const FreeFlyer close_flyer({.radius_m = radius_m, .margin_m = 0.0});
+    const GroundRobot robot({.radius_m = radius_m});
+    const GroundRobot exact_robot({.radius_m = clear_m, .margin_m = 0.0});
+    EXPECT_EQ(flyer.admitted_cells(map, map.bounds()).values(),
+              exact_flyer.admitted_cells(map, map.bounds()).values());
+    EXPECT_EQ(robot.admitted_cells(map, map.bounds()).values(),
+              exact_robot.admitted_cells(map, map.bounds()).values());
+    for (int i = 0; i < 2000; ++i) {
+      const Pose from = pose_looking({metre(engine), metre(engine), metre(engine)}, 1.0);
+      Pose to = from;
+      to.translation() += Eigen::Vector3d(metre(engine), metre(engine), 0.0) * 0.3;
+      const VoxelIndex cell = map.frame().cell_of(from.translation());
+      EXPECT_EQ(flyer.admits(map, from), exact_flyer.admits(map, from));
+      EXPECT_EQ(flyer.admits_cell(map, cell), exact_flyer.admits_cell(map, cell));
+      EXPECT_EQ(flyer.admits_motion(map, from, to), exact_flyer.admits_motion(map, from, to));
+      EXPECT_EQ(robot.admits(map, from), exact_robot.admits(map, from));
+      EXPECT_EQ(robot.admits_motion(map, from, to), exact_robot.admits_motion(map, from, to));
+      admitted += flyer.admits(map, from) ? 1U : 0U;
+      moved += flyer.admits_motion(map, from, to) ? 1U : 0U;
+      tighter += close_flyer.admits(map, from) && !flyer.admits(map, from) ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(admitted, 500U);
+  EXPECT_GT(moved, 200U);
+  EXPECT_GT(tighter, 200U);
+}
+
 TEST(FreeFlyer, AMotionIsAdmittedExactlyWhenEveryPoseOfItIs) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> metre(0.2, 1.4);
   std::size_t admitted = 0;
   std::size_t refused = 0;
   for (const double radius_m : {0.03, 0.12}) {
-    const FreeFlyer flyer({.radius_m = radius_m});
-    const FreeFlyer fatter({.radius_m = radius_m + 2e-3});
+    const FreeFlyer flyer({.radius_m = radius_m, .margin_m = 0.0});
+    const FreeFlyer fatter({.radius_m = radius_m + 2e-3, .margin_m = 0.0});
     const OccupancyMap map = random_map(engine, 16, 0.01);
     for (int i = 0; i < 2000; ++i) {
       const Pose from = pose_looking({metre(engine), metre(engine), metre(engine)}, 0.0);
@@ -190,7 +229,7 @@ TEST(GridPath, IsAsShortAsTheSlowSearchSaysAndKeepsToAdmittedPoses) {
   constexpr std::size_t kWorlds = test::kSanitized ? 12 : 60;
   for (std::size_t world = 0; world < kWorlds; ++world) {
     const OccupancyMap map = random_map(engine, 12, world % 2 == 0 ? 0.35 : 0.1);
-    const FreeFlyer flyer({.radius_m = 0.0});
+    const FreeFlyer flyer({.radius_m = 0.0, .margin_m = 0.0});
     std::uniform_int_distribution<std::int32_t> coordinate(0, 11);
     const auto draw = [&] {
       VoxelIndex cell;
@@ -244,7 +283,7 @@ TEST(GridPath, FindsAllGoalsThatAreHardlyFurtherThanTheNearest) {
     while (map.at(start) != Occupancy::Free) {
       ++start.x;
     }
-    const FreeFlyer flyer({.radius_m = 0.0});
+    const FreeFlyer flyer({.radius_m = 0.0, .margin_m = 0.0});
     const ReachableSpace space(map, flyer, pose_looking(map.frame().centre_of(start), 0.0));
     const GridPaths paths(space);
     std::vector<VoxelIndex> goals{{40, 40, 40}};

@@ -50,7 +50,7 @@ TEST(GroundRobot, AdmitsExactlyWhereItsDiscTouchesFreeCellsOnly) {
   std::size_t admitted = 0;
   std::size_t refused = 0;
   for (const double radius_m : {0.0, 0.04, 0.1, 0.23}) {
-    const GroundRobot robot({.radius_m = radius_m});
+    const GroundRobot robot({.radius_m = radius_m, .margin_m = 0.0});
     const OccupancyMap map = random_plane(engine, 32, 0.03);
     for (int i = 0; i < 3000; ++i) {
       const Eigen::Vector3d position(metre(engine), metre(engine), (kLayer + 0.3) * kFloorCell);

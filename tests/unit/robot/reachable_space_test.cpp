@@ -100,7 +100,7 @@ TEST(ReachableSpace, IsWhatAFloodFillReachesWhateverHappensToTheMap) {
   constexpr int kWorlds = test::kSanitized ? 3 : 8;
   for (int world = 0; world < kWorlds; ++world) {
     OccupancyMap map({.resolution_m = 0.1});
-    const FreeFlyer slim({.radius_m = 0.07 * (world % 3), .min_height_m = -0.5});
+    const FreeFlyer slim({.radius_m = 0.07 * (world % 3), .min_height_m = -0.5, .margin_m = 0.0});
     const FreeFlyer wide({.radius_m = 0.17});
     ReachableSpace followed;
     Mirror mirror;
@@ -149,7 +149,7 @@ TEST(ReachableSpace, IsWhatAFloodFillReachesWhateverHappensToTheMap) {
 
 // A body between eight free cells fits, but at the centre of none of them.
 TEST(ReachableSpace, IsOneCellWhereTheBodyCanOnlyTurn) {
-  const FreeFlyer flyer({.radius_m = 0.08});
+  const FreeFlyer flyer({.radius_m = 0.08, .margin_m = 0.0});
   OccupancyMap map({.resolution_m = 0.1});
   const Pose between = pose_looking({0.1, 0.1, 0.1}, 0.0);
   ReachableSpace space;
@@ -169,7 +169,7 @@ TEST(ReachableSpace, IsOneCellWhereTheBodyCanOnlyTurn) {
 
 // Cells that touch at corners only are many parts of a brick, and a snake is one part that is entered many times.
 TEST(ReachableSpace, FollowsACheckerboardAndASnake) {
-  const FreeFlyer point({.radius_m = 0.0});
+  const FreeFlyer point({.radius_m = 0.0, .margin_m = 0.0});
   OccupancyMap map({.resolution_m = 0.1});
   for_each_cell({{0, 0, 0}, {40, 40, 24}}, [&](const VoxelIndex& cell) {
     map.set(cell, (cell.x + cell.y + cell.z) % 2 == 0 ? Occupancy::Free : Occupancy::Occupied);

@@ -52,7 +52,7 @@ TEST(Audit, CountsOnlyWhatRangeHeightAndBodyLetTheSensorSee) {
     return audit(map, robot, sensor, kInTheRoom, {}).observable_left;
   };
   // Below: a wall across x = 3 with a hole of one cell.
-  const FreeFlyer low({.radius_m = 0.0, .max_height_m = 1.0});
+  const FreeFlyer low({.radius_m = 0.0, .max_height_m = 1.0, .margin_m = 0.0});
   for_each_cell(VoxelBox{{3, 0, 0}, {4, 10, 10}}, [&](const VoxelIndex& cell) {
     if (cell != VoxelIndex{3, 5, 5}) {
       map.set(cell, Occupancy::Occupied);
@@ -102,7 +102,7 @@ TEST(Audit, OneLookIsEnoughWhereNoOtherPlaceSeesTheCell) {
     map.set(corridor(x), Occupancy::Free);
   }
   map.set(corridor(20), Occupancy::Unknown);
-  const FreeFlyer robot({.radius_m = 0.05});
+  const FreeFlyer robot({.radius_m = 0.05, .margin_m = 0.0});
   const Pose at_the_end = pose_looking(map.frame().centre_of(corridor(19)), 0.0);
   const auto in_vain = [&](double range_m, const std::vector<Pose>& looked_from) {
     const AuditResult found = audit(map, robot, audited_lidar(range_m), at_the_end, looked_from);
@@ -139,7 +139,7 @@ bool line_touches(const VoxelIndex& a, const VoxelIndex& b, const VoxelIndex& ce
 TEST(Audit, AgreesWithItsDefinitionInRandomMaps) {
   std::mt19937_64 engine(3);
   const VoxelBox box{{-3, 2, -2}, {4, 9, 3}};
-  const FreeFlyer robot({.radius_m = 0.0});
+  const FreeFlyer robot({.radius_m = 0.0, .margin_m = 0.0});
   const RangeSensor sensor = audited_lidar(0.52);
   std::size_t left = 0;
   std::size_t hidden = 0;

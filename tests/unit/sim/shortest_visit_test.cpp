@@ -24,8 +24,8 @@ class BlockedBox {
     });
   }
   [[nodiscard]] NumberedCells space() const {
-    return NumberedCells(
-        ReachableSpace(map_, FreeFlyer(FreeFlyerOptions{.radius_m = 0.1}), pose_looking({0.5, 0.5, 0.5}, 0.0)));
+    return NumberedCells(ReachableSpace(map_, FreeFlyer(FreeFlyerOptions{.radius_m = 0.1, .margin_m = 0.0}),
+                                        pose_looking({0.5, 0.5, 0.5}, 0.0)));
   }
 
  private:

@@ -24,8 +24,8 @@ OccupancyMap closed_room() {
 }
 
 FrontierSurvey survey_of(const OccupancyMap& map, const RangeSensor& sensor = rays_all_around()) {
-  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1}), sensor, pose_looking({1.1, 1.1, 1.1}, 0.0), {},
-                          TriedViews(sensor));
+  return survey_frontiers(map, FreeFlyer({.radius_m = 0.1, .margin_m = 0.0}), sensor,
+                          pose_looking({1.1, 1.1, 1.1}, 0.0), {}, TriedViews(sensor));
 }
 
 constexpr VoxelBox kOpening{{12, 4, 4}, {13, 6, 6}};  // four cells of the wall at x = 12
@@ -37,7 +37,8 @@ TEST(FrontierSurvey, AnOpeningOfFreeCellsIsATarget) {
   const FrontierSurvey survey = survey_of(map);
   EXPECT_EQ(survey.frontier_cells, 4U);
   EXPECT_EQ(survey.targets.size(), 4U);
-  const ReachableSpace reachable(map, FreeFlyer({.radius_m = 0.1}), pose_looking({1.1, 1.1, 1.1}, 0.0));
+  const ReachableSpace reachable(map, FreeFlyer({.radius_m = 0.1, .margin_m = 0.0}),
+                                 pose_looking({1.1, 1.1, 1.1}, 0.0));
   for (const FrontierTarget& target : survey.targets) {
     EXPECT_TRUE(kOpening.contains(target.frontier));
     EXPECT_EQ(target.unknown, (target.frontier + VoxelIndex{1, 0, 0}));
@@ -102,12 +103,12 @@ TEST(FrontierSurvey, WhatIsLeftIsCountedByItsCause) {
     tried.in_vain(map, cell + VoxelIndex{1, 0, 0}, {9, 5, 5});
     tried.in_vain(map, cell + VoxelIndex{1, 0, 0}, {5, 10, 5});
   });
-  const FreeFlyer flyer({.radius_m = 0.1});
+  const FreeFlyer flyer({.radius_m = 0.1, .margin_m = 0.0});
   EXPECT_EQ(survey_frontiers(map, flyer, sensor, current, {}, tried).leftover, (Leftover{.in_vain = 4}));
 
   // A body that stays near the floor, with a horizontal field of view.
   const RangeSensor level = RangeSensor::spherical(120, 2, 2.0 * std::numbers::pi, 0.01, 0.0, 6.0);
-  const FreeFlyer low({.radius_m = 0.1, .max_height_m = 0.25, .yaw_only = true});
+  const FreeFlyer low({.radius_m = 0.1, .max_height_m = 0.25, .margin_m = 0.0, .yaw_only = true});
   const Pose below = pose_looking({1.1, 1.1, 0.1}, 0.0);
   const auto left = [&] { return survey_frontiers(map, low, level, below, {}, TriedViews(level)).leftover; };
   EXPECT_EQ(left(), (Leftover{.unreachable = 4}));

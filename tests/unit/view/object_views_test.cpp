@@ -34,7 +34,8 @@ TEST(FittingRadius, HasTheWholeBoxInViewAndRoomForTheBody) {
     }
     const FreeFlyer flyer({.radius_m = body_m});
     const ObjectViewOptions options = with_radii({.object = box}, sensor, flyer, cell_m);
-    EXPECT_EQ(options.radii_m, std::vector{fitting_radius_m(box, sensor, cell_m, body_m + 2.0 * cell_m)});
+    EXPECT_EQ(options.radii_m,
+              std::vector{fitting_radius_m(box, sensor, cell_m, std::max(body_m, cell_m) + 2.0 * cell_m)});
     EXPECT_EQ(options.aimed().max_distance_m, options.radii_m.front());
     EXPECT_EQ(with_radii({.object = box, .radii_m = {2.0, 3.0}}, sensor, flyer, cell_m).radii_m,
               (std::vector{2.0, 3.0}));

@@ -13,6 +13,11 @@ namespace detail {
 
 inline constexpr double kFurthestClearM = 5.0;
 
+// Half the sides of the body, which keeps at least a cell clear.
+inline Eigen::Vector3d half_sides(const OccupancyMap& map, const Box& body) {
+  return (0.5 * body.extent()).cwiseMax(map.resolution_m());
+}
+
 }  // namespace detail
 
 // The body is the ellipsoid inscribed in its box: the corners of the box may contain a wall.
@@ -21,11 +26,11 @@ VANTAGE_INLINE void assume_free(OccupancyMap& map, const Platform& platform, con
                          clearance_m, "in [0, 5] metres");
   const Box body = platform.body_box(pose);
   const VoxelFrame& frame = map.frame();
-  const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
+  const Eigen::Vector3d half = detail::half_sides(map, body);
   const Eigen::Vector3d clear = Eigen::Vector3d::Constant(clearance_m);
   const Eigen::Vector3d position = pose.translation();
-  const Eigen::Vector3d least = body.min.cwiseMin(position - clear);
-  const Eigen::Vector3d most = body.max.cwiseMax(position + clear);
+  const Eigen::Vector3d least = (body.centre() - half).cwiseMin(position - clear);
+  const Eigen::Vector3d most = (body.centre() + half).cwiseMax(position + clear);
   for_each_cell(VoxelBox{frame.cell_of(least), frame.cell_of(most) + VoxelIndex{1, 1, 1}},
                 [&](const VoxelIndex& cell) {
                   const Box box = frame.box_of(cell);
@@ -38,8 +43,9 @@ VANTAGE_INLINE void assume_free(OccupancyMap& map, const Platform& platform, con
                 });
 }
 
-VANTAGE_INLINE double start_clearance_m(const Platform& platform, const RangeSensor& sensor) {
-  const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
+VANTAGE_INLINE double start_clearance_m(const OccupancyMap& map, const Platform& platform,
+                                        const RangeSensor& sensor) {
+  const Eigen::Vector3d half = detail::half_sides(map, platform.body_box(Pose::Identity()));
   // Distance at which an opening of half-width side_m fits into a field of view. A field of view of about 0 is that
   // of a planar sensor; nothing lies beside it, so it needs no distance.
   constexpr double kFlatRad = 1e-2;

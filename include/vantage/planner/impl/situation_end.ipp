@@ -85,11 +85,15 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
   return plan;
 }
 
+// The size of the body, which keeps at least a cell clear around the sensor.
+VANTAGE_INLINE double Situation::body_m() const {
+  return std::max(setup_.platform->body_box(current_).extent().maxCoeff(), 2.0 * map_->resolution_m());
+}
+
 // Whether all reachable cells lie within the size of the body, or within the minimum range of the sensor, plus one
 // cell.
 VANTAGE_INLINE bool Situation::hardly_moves() const {
-  const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
-  const double little_m = std::max(body_m, sensor().min_range_m) + map_->resolution_m();
+  const double little_m = std::max(body_m(), sensor().min_range_m) + map_->resolution_m();
   if (static_cast<double>(reachable().size()) > std::pow(2.0 * little_m / map_->resolution_m() + 2.0, 3)) {
     return false;
   }
@@ -102,8 +106,7 @@ VANTAGE_INLINE bool Situation::hardly_moves() const {
 // Whether the body would touch an unknown cell beside a free one if it moved one cell further. If not, only known
 // cells are in its way, and there is nothing to declare free.
 VANTAGE_INLINE bool Situation::stands_beside_unknown() const {
-  const double body_m = setup_.platform->body_box(current_).extent().maxCoeff();
-  const double near_m = 0.5 * body_m + map_->resolution_m();
+  const double near_m = 0.5 * body_m() + map_->resolution_m();
   const std::vector<VoxelIndex> places = reachable().cells();
   const auto is_near = [&](const VoxelIndex& cell) {
     const Box box = map_->frame().box_of(cell);

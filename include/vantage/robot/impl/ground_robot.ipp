@@ -14,17 +14,22 @@ namespace vantage {
 
 VANTAGE_INLINE GroundRobot::GroundRobot(const GroundRobotOptions& options) : options_(options) {
   detail::require_length(options.radius_m, "GroundRobotOptions::radius_m");
-  detail::require_length(options.margin_m, "GroundRobotOptions::margin_m");
+  detail::require_length(options.margin_m.value_or(0.0), "GroundRobotOptions::margin_m");
+}
+
+// How far from the sensor all cells of this map must be clear.
+VANTAGE_INLINE double GroundRobot::clear_m(const OccupancyMap& map) const {
+  return options_.margin_m ? reach_m() : std::max(reach_m(), map.resolution_m());
 }
 
 VANTAGE_INLINE bool GroundRobot::admits(const OccupancyMap& map, const Pose& pose) const {
   const Eigen::Vector3d position = pose.translation();
   if (!is_rigid(pose) || !map.frame().addressable(position) || std::abs(optical_axis(pose).z()) > 1e-6 ||
-      detail::disc_is_larger_than_known(map, reach_m())) {
+      detail::disc_is_larger_than_known(map, clear_m(map))) {
     return false;
   }
   const std::int32_t layer = map.frame().cell_of(position).z;
-  return detail::swept_sphere_is_clear(map.frame(), position, position, reach_m(),
+  return detail::swept_sphere_is_clear(map.frame(), position, position, clear_m(map),
                                        [&](const VoxelIndex& cell) { return map.is_clear(cell); },
                                        {layer, layer + 1});
 }
@@ -35,24 +40,25 @@ VANTAGE_INLINE bool GroundRobot::admits_cell(const OccupancyMap& map, const Voxe
 
 VANTAGE_INLINE VoxelGrid<std::uint8_t> GroundRobot::admitted_cells(const OccupancyMap& map,
                                                                    const VoxelBox& box) const {
-  if (detail::disc_is_larger_than_known(map, reach_m())) {
+  if (detail::disc_is_larger_than_known(map, clear_m(map))) {
     return VoxelGrid<std::uint8_t>(box);
   }
-  return detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), reach_m(), 0));
+  return detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), clear_m(map), 0));
 }
 
 VANTAGE_INLINE bool GroundRobot::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d a = from.translation();
   const Eigen::Vector3d b = to.translation();
+  const double radius_m = clear_m(map);
   if (!frame.addressable(a) || !frame.addressable(b) || frame.cell_of(a).z != frame.cell_of(b).z ||
-      detail::disc_is_larger_than_known(map, reach_m())) {
+      detail::disc_is_larger_than_known(map, radius_m)) {
     return false;
   }
   const std::int32_t layer = frame.cell_of(a).z;
   return detail::swept_sphere_is_clear(
-      frame, a, b, reach_m(),
-      [&](const VoxelIndex& cell) { return map.is_clear(cell) || detail::sphere_touches(frame, a, reach_m(), cell); },
+      frame, a, b, radius_m,
+      [&](const VoxelIndex& cell) { return map.is_clear(cell) || detail::sphere_touches(frame, a, radius_m, cell); },
       {layer, layer + 1});
 }
 

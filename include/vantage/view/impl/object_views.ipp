@@ -38,7 +38,7 @@ VANTAGE_INLINE ObjectViewOptions with_radii(const ObjectViewOptions& options, co
                                             const Platform& platform, double resolution_m) {
   ObjectViewOptions all = options;
   if (all.radii_m.empty()) {
-    const double body_m = std::isfinite(platform.reach_m()) ? platform.reach_m() : 0.0;
+    const double body_m = std::max(resolution_m, std::isfinite(platform.reach_m()) ? platform.reach_m() : 0.0);
     all.radii_m = {fitting_radius_m(options.object, sensor, resolution_m, body_m + 2.0 * resolution_m)};
   }
   return all;
