@@ -16,7 +16,8 @@ enum class FloorRule : std::uint8_t {
   Ignored,  ///< no requirement; for maps without a floor, such as a floor plan
   /// No visible drop. A column goes down if all its cells within one step below the band are known free, and the next
   /// cell further down is known or lies outside of the map's region. A column is a drop if all its cells within one
-  /// step are known free and it, or a column within six cells, goes down.
+  /// step are known free and it, or a column within six cells, goes down. Not enough beside pits for a sensor that
+  /// does not see the floor near the robot: a column whose floor was never seen counts as one with a floor.
   NoDrop,
   /// a visible floor: a cell within one step below the band is occupied, or HeightBand::assume_floor covers the
   /// column
