@@ -95,7 +95,9 @@ int replay(const ReplayRequest& request) {
   check_numbers(request);
   check_targets(request.run.out, request.run.json);
   const Recording recording = recording_of(request);
-  const auto platform = std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m});
+  // Whoever held the camera came closer to walls than a robot would, so the body alone must fit.
+  const auto platform =
+      std::make_shared<const FreeFlyer>(FreeFlyerOptions{.radius_m = request.run.robot_radius_m, .margin_m = 0.0});
   auto planners = planners_of(request, recording.sensor(), platform);
   OccupancyMap map(map_options_of(request));
   ProgressStream told(request.run);

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vantage/frontier/frontiers.hpp>
 #include <vantage/frontier/void_cells.hpp>
-#include <vantage/planner/assume_free.hpp>
 #include <vantage/report/report_json.hpp>
 
 #include "report/full_map.hpp"
@@ -135,7 +134,7 @@ ReplayRecord replay(const Recording& recording, const ReplaySpan& span, Occupanc
     try {
       check_place(pose);
       reading = recording.read(i);
-      assume_free(map, platform, pose);
+      map.assume_free(platform.body_box(pose));
       insert_ms = milliseconds_of([&] { frame.scan = map.insert(reading.scan.scan); });
     } catch (const std::bad_alloc&) {
       throw;  // out of memory: the next frame would find no more
