@@ -13,7 +13,7 @@ constexpr std::size_t kMostCells = 64;
 // A view is kept if it shows this share of what the best one of the part shows.
 constexpr double kKept = 0.8;
 
-// The part with some of its targets, evenly choice.
+// The part with some of its targets, evenly chosen.
 FrontierSite thinned(const FrontierSite& site) {
   FrontierSite thin{site.middle, {}};
   const std::size_t stride = (site.targets.size() + kMostCells - 1) / kMostCells;

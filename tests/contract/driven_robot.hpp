@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vantage/evaluation/exploration_peers.hpp>
 #include <vantage/map/height_band.hpp>
 #include <vantage/planner/assume_free.hpp>
@@ -88,6 +89,9 @@ class DrivenRobot {
     look();
     explore();
   }
+
+  DrivenRobot(const DrivenRobot&) = delete;  // the true space refers to members
+  DrivenRobot& operator=(const DrivenRobot&) = delete;
 
   std::size_t plans = 0;
   double gone_m = 0.0;

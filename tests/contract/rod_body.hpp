@@ -49,7 +49,7 @@ class RodBody final : public WrappedPlatform {
              return (can_tilt() || step.z == 0) && admits(map, facing(at, Eigen::Vector3d(step.x, step.y, step.z)));
            });
   }
-  [[nodiscard]] double reach_m() const override { return wrapped().reach_m() + rod_m_; }
+  [[nodiscard]] double reach_m() const override { return rod_m_ + std::max(radius_m_, wrapped().reach_m()); }
   [[nodiscard]] bool admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const override {
     const VoxelFrame& frame = map.frame();
     const auto clear = [&](const VoxelIndex& cell) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 #include <vantage/field/laplace_multigrid.hpp>
 #include <vantage/field/laplace_relaxation.hpp>
 #include <vantage/field/streamline.hpp>
@@ -44,6 +45,9 @@ std::vector<double> direct_solution(const LaplaceProblem& problem, double eps) {
   Eigen::SparseMatrix<double> a(n, n);
   a.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(a);
+  if (lu.info() != Eigen::Success) {
+    throw std::runtime_error("the operator is singular");
+  }
   const Eigen::VectorXd u = lu.solve(b);
   std::vector<double> phi(problem.size());
   for (std::size_t i = 0; i < phi.size(); ++i) {

@@ -19,9 +19,10 @@ namespace VANTAGE_EXPORT vantage {
 enum class Outcome : std::uint8_t {
   Move,      ///< there is a view to take: follow the path
   Explored,  ///< nothing is left that this sensor on this platform could observe
-  /// Everything within reach is seen, but known free space from which more could be seen is cut off: plan again later
+  /// Everything within reach is seen, but known free space from which more could be seen is cut off, or the body has
+  /// no room to look there: plan again later
   Unreachable,
-  Blocked,  ///< the platform cannot start or move, or no path to any view exists; `reason` names the remedy
+  Blocked,  ///< the platform cannot start or move, or the strategy has no view with a path; `reason` names the remedy
 };
 
 [[nodiscard]] constexpr std::string_view to_string(Outcome outcome) {

@@ -52,16 +52,16 @@ class FrontierPlanner : public ExplorationPlanner {
   void recall(const OccupancyMap& map, std::string_view memory) final { situation_.recall(map, memory); }
 
  protected:
-  /// Called once the situation is up to date, before `choose` or the end of the run: discards results of the last
-  /// plan. Returns counts that every plan has.
+  /// Called once the situation is up to date, before the first `choose` or the end of the run, and again whenever
+  /// places were put to rest: discards results of the last plan. Returns counts that every plan has.
   virtual PlanStatistics prepare(const Situation& /*situation*/) { return {}; }
   /// Chooses a view. At least one target exists. If no view serves, the plan is Blocked for the reason of the choice.
   /// If no path leads to the chosen view, the targets that it sees are removed for this plan and `choose` is called
-  /// again.
+  /// again. When none is left, their places rest, and targets that are seen from elsewhere follow.
   [[nodiscard]] virtual Choice choose(const Situation& situation) = 0;
 
  private:
-  [[nodiscard]] Plan plan_of_choice(std::vector<VoxelIndex>& hoped);
+  [[nodiscard]] Plan plan_of_choice(std::vector<VoxelIndex>& hoped, PlanStatistics& spent);
 
   Situation situation_;
 };

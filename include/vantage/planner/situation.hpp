@@ -39,6 +39,7 @@ namespace VANTAGE_EXPORT vantage {
 ///       |
 ///       v  targets
 ///     strategy chooses ---> no path to the view: drop(view), choose again
+///       |                   no target left: look_elsewhere(), choose again
 ///       |
 ///       v
 ///     remember(plan) ------> the robot comes no nearer to this goal: its place rests, choose again
@@ -65,9 +66,9 @@ class Situation {
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
   bool drop(const TargetView& view);
-  /// After the last target was dropped: the places to which no path led rest, and `survey()` holds other targets, if
-  /// there are any. So a body that has no room to look from one place looks from another. Returns whether any place
-  /// was dropped.
+  /// The places of dropped views rest, at most 256 in a plan, and `survey()` holds the targets that are seen from
+  /// elsewhere. So a body that has no room to look from one place looks from another. Returns false if no further
+  /// place rests.
   bool look_elsewhere();
   /// Stores this plan for the next `sync`; `hoped` as in TriedViews::expect. Returns false if the robot comes no
   /// nearer to the goal: the goal then rests, and `survey()` holds the targets that are left.
@@ -141,6 +142,7 @@ class Situation {
   FrontierSurveyor surveyor_;
   FrontierSurvey survey_;
   std::vector<VoxelIndex> without_way_;    // places of dropped views
+  std::size_t places_left_ = 0;            // that may be put to rest in this plan
   std::vector<FrontierTarget> set_aside_;  // of the survey: from here, goals in their directions failed
   bool is_stuck_ = false;
   mutable FollowingCaster looking_;

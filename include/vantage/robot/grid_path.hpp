@@ -43,7 +43,8 @@ class GridPaths {
 
 /// Converts a path of cells to poses (world_from_sensor): from `from` through cell centres to `to`. Corners that a
 /// straight admitted motion can skip are removed; in between, the sensor looks along the path, or as it does at
-/// `from` where the body has no room to look along it. None if a motion between consecutive poses is not admitted.
+/// `from` where the body has no room to look along it, or from cell to cell. None if a motion between consecutive
+/// poses is not admitted.
 [[nodiscard]] std::optional<std::vector<Pose>> poses_along(const OccupancyMap& map, const Platform& platform,
                                                            const Pose& from, std::span<const VoxelIndex> cells,
                                                            const Pose& to);

@@ -133,7 +133,8 @@ class TriedViews {
   [[nodiscard]] bool any_rests() const { return !resting_.empty(); }
   /// Boxes of cells that contain all resting places, one for each goal that rests, in raster order of the goals.
   [[nodiscard]] std::vector<VoxelBox> resting() const;
-  /// The number of resting places that failed three times, or to which the robot came no nearer.
+  /// The number of resting places that failed three times, to which the robot came no nearer, or to which no path
+  /// leads.
   [[nodiscard]] std::size_t places_given_up() const;
   /// The directions (unit vectors, world) from `current` (world_from_sensor) to the goals that failed from there and
   /// rest: they are further away than the goal tolerance, and the robot is within half of it of where it was when

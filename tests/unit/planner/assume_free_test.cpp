@@ -89,7 +89,7 @@ TEST(AssumeFree, RefusesAClearanceThatIsNone) {
 
 // Outside the declared ball, a body that moves along the optical axis lies within the field of view.
 TEST(AssumeFree, AtTheEdgeOfTheClearanceTheBodyIsInTheFieldOfView) {
-  const OccupancyMap map({.resolution_m = 0.05});
+  const OccupancyMap map({.resolution_m = 0.1});
   EXPECT_EQ(
       start_clearance_m(map, FreeFlyer({.radius_m = 0.3}), RangeSensor::spherical(90, 45, 2 * kPi, kPi, 0.0, 4.0)),
       0.0);
@@ -101,9 +101,10 @@ TEST(AssumeFree, AtTheEdgeOfTheClearanceTheBodyIsInTheFieldOfView) {
   const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine); };
   std::size_t sensors = 0;
   for (; sensors < 500; ++sensors) {
-    const double radius_m = draw(0.05, 0.4);
+    const double body_m = draw(0.0, 0.4);
+    const double radius_m = std::max(body_m, map.resolution_m());  // a cell stays clear
     const RangeSensor sensor = RangeSensor::pinhole(64, 48, draw(0.6, 2.0), draw(0.6, 2.0), draw(0.0, 0.5), 6.0);
-    const double clearance_m = start_clearance_m(map, FreeFlyer({.radius_m = radius_m}), sensor);
+    const double clearance_m = start_clearance_m(map, FreeFlyer({.radius_m = body_m}), sensor);
     ASSERT_LT(clearance_m, 5.0);
     // A rim of the swept body that touches the declared ball from outside.
     const double ahead_m = std::sqrt(clearance_m * clearance_m - radius_m * radius_m) + 1e-9;

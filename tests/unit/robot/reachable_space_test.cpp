@@ -100,7 +100,9 @@ TEST(ReachableSpace, IsWhatAFloodFillReachesWhateverHappensToTheMap) {
   constexpr int kWorlds = test::kSanitized ? 3 : 8;
   for (int world = 0; world < kWorlds; ++world) {
     OccupancyMap map({.resolution_m = 0.1});
-    const FreeFlyer slim({.radius_m = 0.07 * (world % 3), .min_height_m = -0.5, .margin_m = 0.0});
+    const FreeFlyer slim({.radius_m = 0.07 * (world % 3),
+                          .min_height_m = -0.5,
+                          .margin_m = world % 2 == 0 ? std::optional(0.0) : std::nullopt});
     const FreeFlyer wide({.radius_m = 0.17});
     ReachableSpace followed;
     Mirror mirror;

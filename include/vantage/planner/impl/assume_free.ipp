@@ -13,11 +13,6 @@ namespace detail {
 
 inline constexpr double kFurthestClearM = 5.0;
 
-// Half the sides of the body, which keeps at least a cell clear.
-inline Eigen::Vector3d half_sides(const OccupancyMap& map, const Box& body) {
-  return (0.5 * body.extent()).cwiseMax(map.resolution_m());
-}
-
 }  // namespace detail
 
 // The body is the ellipsoid inscribed in its box: the corners of the box may contain a wall.
@@ -26,17 +21,19 @@ VANTAGE_INLINE void assume_free(OccupancyMap& map, const Platform& platform, con
                          clearance_m, "in [0, 5] metres");
   const Box body = platform.body_box(pose);
   const VoxelFrame& frame = map.frame();
-  const Eigen::Vector3d half = detail::half_sides(map, body);
-  const Eigen::Vector3d clear = Eigen::Vector3d::Constant(clearance_m);
+  const Eigen::Vector3d half = (0.5 * body.extent()).cwiseMax(1e-9);
+  const double cell_m = map.resolution_m() * (1.0 + 1e-9);
+  const Eigen::Vector3d clear = Eigen::Vector3d::Constant(std::max(clearance_m, cell_m));
   const Eigen::Vector3d position = pose.translation();
-  const Eigen::Vector3d least = (body.centre() - half).cwiseMin(position - clear);
-  const Eigen::Vector3d most = (body.centre() + half).cwiseMax(position + clear);
+  const Eigen::Vector3d least = body.min.cwiseMin(position - clear);
+  const Eigen::Vector3d most = body.max.cwiseMax(position + clear);
   for_each_cell(VoxelBox{frame.cell_of(least), frame.cell_of(most) + VoxelIndex{1, 1, 1}},
                 [&](const VoxelIndex& cell) {
                   const Box box = frame.box_of(cell);
                   const Eigen::Vector3d nearest = body.centre().cwiseMax(box.min).cwiseMin(box.max);
                   const bool in_body = (nearest - body.centre()).cwiseQuotient(half).squaredNorm() <= 1.0 + 1e-9;
-                  if (in_body || box.distance_to(position) < clearance_m) {
+                  const double distance_m = box.distance_to(position);
+                  if (in_body || distance_m <= cell_m || distance_m < clearance_m) {
                     const Eigen::Vector3d within = 0.25 * box.extent();
                     map.assume_free({box.min + within, box.max - within});
                   }
@@ -45,7 +42,8 @@ VANTAGE_INLINE void assume_free(OccupancyMap& map, const Platform& platform, con
 
 VANTAGE_INLINE double start_clearance_m(const OccupancyMap& map, const Platform& platform,
                                         const RangeSensor& sensor) {
-  const Eigen::Vector3d half = detail::half_sides(map, platform.body_box(Pose::Identity()));
+  const Eigen::Vector3d half =
+      (0.5 * platform.body_box(Pose::Identity()).extent()).cwiseMax(map.resolution_m());  // a cell stays clear
   // Distance at which an opening of half-width side_m fits into a field of view. A field of view of about 0 is that
   // of a planar sensor; nothing lies beside it, so it needs no distance.
   constexpr double kFlatRad = 1e-2;

@@ -24,41 +24,43 @@ VANTAGE_INLINE void ExplorationPlanner::recall(const OccupancyMap& /*map*/, std:
 
 VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& current) {
   situation_.sync(map, current);
-  for (;;) {  // ends, because other places rest each time
+  PlanStatistics spent;
+  for (;;) {  // ends, because in each round other places rest, and their number is limited
     const PlanStatistics prepared = prepare(situation_);
     std::vector<VoxelIndex> hoped;
     std::optional<Plan> plan = situation_.end();
     if (!plan) {
-      plan = plan_of_choice(hoped);
+      plan = plan_of_choice(hoped, spent);
     }
-    plan->statistics += prepared;
     const bool is_final =
         plan->outcome == Outcome::Move ? situation_.remember(*plan, std::move(hoped)) : !situation_.look_elsewhere();
     if (is_final) {
+      plan->statistics += prepared;
+      plan->statistics += spent;
       return *std::move(plan);
     }
   }
 }
 
-// Chooses views until a path leads to one. What it hopes for is put into `hoped`.
-VANTAGE_INLINE Plan FrontierPlanner::plan_of_choice(std::vector<VoxelIndex>& hoped) {
+// Chooses views until a path leads to one. What it hopes for is put into `hoped`; adds to `spent`.
+VANTAGE_INLINE Plan FrontierPlanner::plan_of_choice(std::vector<VoxelIndex>& hoped, PlanStatistics& spent) {
   Plan plan = situation_.open_plan();
   plan.reason = "the platform cannot follow the path to any view of a frontier";
   while (!situation_.survey().targets.empty()) {
     detail::Stopwatch watch;
     Choice choice = choose(situation_);
-    plan.statistics += choice.statistics;
-    plan.statistics.choose_ms += watch.lap_ms();
+    spent += choice.statistics;
+    spent.choose_ms += watch.lap_ms();
     plan.candidates = std::move(choice.candidates);
     if (!choice.view) {
-      plan.reason = std::move(choice.reason);
+      plan.reason = choice.reason.empty() ? "the strategy chose no view" : std::move(choice.reason);
       break;
     }
     TargetView& view = *choice.view;
     if (choice.path.empty()) {
       choice.path = situation_.path_to(view.view.pose, choice.way).value_or(std::vector<Pose>());
     }
-    plan.statistics.path_ms += watch.lap_ms();
+    spent.path_ms += watch.lap_ms();
     if (!choice.path.empty()) {
       plan.outcome = Outcome::Move;
       plan.reason = choice.reason.empty() ? "a view of " + std::to_string(view.unknown.size()) + " unknown cells"

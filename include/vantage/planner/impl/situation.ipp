@@ -26,6 +26,9 @@ inline const PlannerSetup& valid(const PlannerSetup& setup, const FrontierSurvey
 inline constexpr double kFarCells = 300.0;
 inline constexpr std::size_t kBlocksAtOnce = 8;
 
+// Most places that a plan puts to rest because no way leads to a view from them: a plan must end.
+inline constexpr std::size_t kMostPlacesWithoutWay = 256;
+
 // Blocks of about a metre.
 inline std::int32_t side_for(double cell_m) { return cell_m < 0.15 ? 8 : 4; }
 
@@ -45,6 +48,7 @@ VANTAGE_INLINE void Situation::sync(const OccupancyMap& map, const Pose& current
   map_ = &map;
   looking_follows_ = false;
   without_way_.clear();
+  places_left_ = detail::kMostPlacesWithoutWay;
   if (tried_.review(map, current_)) {
     note_what_was_in_vain();
   }
@@ -133,14 +137,20 @@ VANTAGE_INLINE bool Situation::drop(const TargetView& view) {
 }
 
 VANTAGE_INLINE bool Situation::look_elsewhere() {
-  const std::vector<VoxelIndex> places = std::exchange(without_way_, {});
-  for (const VoxelIndex& place : places) {
-    tried_.no_way_to(place);
+  detail::Stopwatch watch;
+  bool any = false;
+  for (const VoxelIndex& place : std::exchange(without_way_, {})) {
+    if (places_left_ > 0 && !tried_.rests(place)) {
+      --places_left_;
+      tried_.no_way_to(place);
+      any = true;
+    }
   }
-  if (!places.empty()) {
+  if (any) {
     find_targets();
   }
-  return !places.empty();
+  sync_ms_ += watch.lap_ms();
+  return any;
 }
 
 VANTAGE_INLINE bool Situation::remember(const Plan& plan, std::vector<VoxelIndex> hoped) {

@@ -85,7 +85,7 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
   return plan;
 }
 
-// The size of the body, which keeps at least a cell clear around the sensor.
+// The size of the body, or two cells: most bodies keep a cell clear.
 VANTAGE_INLINE double Situation::body_m() const {
   return std::max(setup_.platform->body_box(current_).extent().maxCoeff(), 2.0 * map_->resolution_m());
 }

@@ -84,9 +84,10 @@ VANTAGE_INLINE TargetView view_of_target(const SurveyedMap& surveyed, const Fron
     }
   }
   // A body that is no sphere may have no room for this orientation.
-  return platform.admits(map, best.view.pose)
-             ? best
-             : detail::view_with_room(surveyed, wanted, position, in_sight, std::move(best));
+  if (platform.admits(map, best.view.pose)) {
+    return best;
+  }
+  return detail::view_with_room(surveyed, wanted, position, in_sight, std::move(best));
 }
 
 }  // namespace vantage

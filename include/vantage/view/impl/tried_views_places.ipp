@@ -104,6 +104,7 @@ VANTAGE_INLINE void TriedViews::fail(Place& place) {
 VANTAGE_INLINE void TriedViews::no_way_to(const VoxelIndex& cell) {
   Place& place = place_of(cell);
   place.no_nearer = detail::kMostAsks;
+  place.asked_from.reset();
   fail(place);
   rest_now();
 }
