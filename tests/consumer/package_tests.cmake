@@ -55,6 +55,6 @@ if(VANTAGE_INSTALL)
     package.pkg_config PROPERTIES FIXTURES_REQUIRED installed_package)
 endif()
 vantage_consumer_test(subdirectory -DWAY=subdirectory "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
-                      "-DCOMPONENTS=core$<SEMICOLON>headers" -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
+                      -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
 vantage_consumer_test(fetchcontent -DWAY=fetchcontent "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
                       -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
