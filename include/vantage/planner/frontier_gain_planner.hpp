@@ -17,10 +17,10 @@ struct FrontierGainOptions {
 };
 
 /// Baseline planner: draws poses in the reachable space at random, counts by ray casting the frontier cells that the
-/// sensor would see from each, and takes the best. The path is found by A*. If none of
-/// them sees a frontier, poses at the viewpoints of random targets are tried. Unlike in the paper, cells beyond the
-/// resolving range of the sensor do not count, and the goal to which the robot is moving is a candidate,
-/// too: a robot that plans while it moves would turn around at every other draw. (Shade & Newman 2011, III-B.1.)
+/// sensor would see from each, and takes the best. If none of them sees a frontier, poses at the viewpoints of random
+/// targets are tried. The path is found by A*. Unlike in the paper, cells beyond the resolving range of the sensor do
+/// not count, and the goal to which the robot is moving is a candidate, too: a robot that plans while it moves would
+/// turn around at every other draw. (Shade & Newman 2011, III-B.1.)
 class FrontierGainPlanner final : public FrontierPlanner {
  public:
   /// Throws std::invalid_argument, which names the invalid option or part of the setup.

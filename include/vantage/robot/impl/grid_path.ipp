@@ -249,8 +249,8 @@ VANTAGE_INLINE std::optional<std::vector<Pose>> poses_along(const OccupancyMap& 
   // A body that is no sphere may fit along the path in one orientation and not in another: straight on and looking
   // ahead, turned as it stands, or looking ahead from cell to cell.
   std::vector<Pose> straight = detail::shortcut(map, platform, corners);
-  for (const std::vector<Pose>& poses : {straight, corners}) {
-    std::vector<Pose> ahead = detail::looking_ahead(platform, poses);
+  for (const std::vector<Pose>* poses : {&straight, &corners}) {
+    std::vector<Pose> ahead = detail::looking_ahead(platform, *poses);
     if (!ahead.empty() && detail::are_admitted_motions(map, platform, ahead)) {
       return ahead;
     }
