@@ -47,7 +47,7 @@ class FreeFlyer final : public Platform {
   [[nodiscard]] bool height_allowed(double z_m) const {
     return z_m >= options_.min_height_m && z_m <= options_.max_height_m;
   }
-  [[nodiscard]] double clear_m(const OccupancyMap& map) const;
+  [[nodiscard]] bool has_room(const OccupancyMap& map, const Eigen::Vector3d& position) const;
   FreeFlyerOptions options_;
 };
 

@@ -41,7 +41,6 @@ class GroundRobot final : public Platform {
   [[nodiscard]] bool can_tilt() const override { return false; }
 
  private:
-  [[nodiscard]] double clear_m(const OccupancyMap& map) const;
   GroundRobotOptions options_;
 };
 

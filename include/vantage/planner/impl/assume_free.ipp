@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vantage/planner/assume_free.hpp>
 
+#include <vantage/robot/impl/body_cells.hpp>
 #include <vantage/settings/impl/option_rule.hpp>
 
 namespace vantage {
@@ -42,8 +43,7 @@ VANTAGE_INLINE void assume_free(OccupancyMap& map, const Platform& platform, con
 
 VANTAGE_INLINE double start_clearance_m(const OccupancyMap& map, const Platform& platform,
                                         const RangeSensor& sensor) {
-  const Eigen::Vector3d half =
-      (0.5 * platform.body_box(Pose::Identity()).extent()).cwiseMax(map.resolution_m());  // a cell stays clear
+  const Eigen::Vector3d half = detail::clear_half_m(platform.body_box(Pose::Identity()), map);
   // Distance at which an opening of half-width side_m fits into a field of view. A field of view of about 0 is that
   // of a planar sensor; nothing lies beside it, so it needs no distance.
   constexpr double kFlatRad = 1e-2;

@@ -13,6 +13,7 @@
 #include <vantage/view/target_view.hpp>
 
 #include <vantage/planner/impl/blocked_reasons.hpp>
+#include <vantage/robot/impl/body_cells.hpp>
 
 namespace vantage {
 namespace detail {
@@ -85,9 +86,9 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
   return plan;
 }
 
-// The size of the body, or two cells: most bodies keep a cell clear.
+// The size of the space that the body needs.
 VANTAGE_INLINE double Situation::body_m() const {
-  return std::max(setup_.platform->body_box(current_).extent().maxCoeff(), 2.0 * map_->resolution_m());
+  return 2.0 * detail::clear_half_m(setup_.platform->body_box(current_), *map_).maxCoeff();
 }
 
 // Whether all reachable cells lie within the size of the body, or within the minimum range of the sensor, plus one

@@ -13,6 +13,18 @@
 
 namespace vantage::detail {
 
+/// How far from the sensor all cells of the map must be clear for a round body with these options, metres. Without a
+/// margin at least a cell, because a free cell may contain a part of a wall.
+template <class Options>
+[[nodiscard]] double clear_m(const Options& options, const OccupancyMap& map) {
+  return options.margin_m ? options.radius_m + *options.margin_m : std::max(options.radius_m, map.resolution_m());
+}
+
+/// The same for any body in the box `body`, on each side of its centre along each axis, as if without a margin.
+[[nodiscard]] inline Eigen::Vector3d clear_half_m(const Box& body, const OccupancyMap& map) {
+  return (0.5 * body.extent()).cwiseMax(map.resolution_m());
+}
+
 /// Whether a sphere touches more cells than the map has stored, so that it fits nowhere. This check bounds the cost
 /// of a large body.
 [[nodiscard]] inline bool is_larger_than_known(const OccupancyMap& map, double radius_m) {

@@ -18,37 +18,28 @@ VANTAGE_INLINE FreeFlyer::FreeFlyer(const FreeFlyerOptions& options) : options_(
                          options.min_height_m, "<= max_height_m");
 }
 
-// How far from the sensor all cells of this map must be clear.
-VANTAGE_INLINE double FreeFlyer::clear_m(const OccupancyMap& map) const {
-  return options_.margin_m ? reach_m() : std::max(reach_m(), map.resolution_m());
-}
-
-VANTAGE_INLINE bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
-  const Eigen::Vector3d position = pose.translation();
-  if (!is_rigid(pose) || !map.frame().addressable(position) || !height_allowed(position.z())) {
-    return false;
-  }
-  if (detail::is_larger_than_known(map, clear_m(map)) ||
-      (options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6)) {
-    return false;
-  }
-  return detail::swept_sphere_is_clear(map.frame(), position, position, clear_m(map),
+VANTAGE_INLINE bool FreeFlyer::has_room(const OccupancyMap& map, const Eigen::Vector3d& position) const {
+  const double radius_m = detail::clear_m(options_, map);
+  return height_allowed(position.z()) && !detail::is_larger_than_known(map, radius_m) &&
+         detail::swept_sphere_is_clear(map.frame(), position, position, radius_m,
                                        [&](const VoxelIndex& cell) { return map.is_clear(cell); });
 }
 
+VANTAGE_INLINE bool FreeFlyer::admits(const OccupancyMap& map, const Pose& pose) const {
+  return is_rigid(pose) && map.frame().addressable(pose.translation()) &&
+         !(options_.yaw_only && std::abs(optical_axis(pose).z()) > 1e-6) && has_room(map, pose.translation());
+}
+
 VANTAGE_INLINE bool FreeFlyer::admits_cell(const OccupancyMap& map, const VoxelIndex& cell) const {
-  const Eigen::Vector3d centre = map.frame().centre_of(cell);
-  return height_allowed(centre.z()) && !detail::is_larger_than_known(map, clear_m(map)) &&
-         detail::swept_sphere_is_clear(map.frame(), centre, centre, clear_m(map),
-                                       [&](const VoxelIndex& touched) { return map.is_clear(touched); });
+  return has_room(map, map.frame().centre_of(cell));
 }
 
 VANTAGE_INLINE VoxelGrid<std::uint8_t> FreeFlyer::admitted_cells(const OccupancyMap& map, const VoxelBox& box) const {
-  if (detail::is_larger_than_known(map, clear_m(map))) {
+  if (detail::is_larger_than_known(map, detail::clear_m(options_, map))) {
     return VoxelGrid<std::uint8_t>(box);
   }
   VoxelGrid<std::uint8_t> admitted =
-      detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), clear_m(map)));
+      detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), detail::clear_m(options_, map)));
   for (std::int32_t z = box.lo.z; z < box.hi.z; ++z) {
     if (!height_allowed(map.frame().centre_of({0, 0, z}).z())) {
       for_each_cell({{box.lo.x, box.lo.y, z}, {box.hi.x, box.hi.y, z + 1}},
@@ -62,7 +53,7 @@ VANTAGE_INLINE bool FreeFlyer::admits_motion(const OccupancyMap& map, const Pose
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d a = from.translation();
   const Eigen::Vector3d b = to.translation();
-  const double radius_m = clear_m(map);
+  const double radius_m = detail::clear_m(options_, map);
   if (!frame.addressable(a) || !frame.addressable(b) || !height_allowed(b.z()) ||
       detail::is_larger_than_known(map, radius_m)) {
     return false;

@@ -17,19 +17,14 @@ VANTAGE_INLINE GroundRobot::GroundRobot(const GroundRobotOptions& options) : opt
   detail::require_length(options.margin_m.value_or(0.0), "GroundRobotOptions::margin_m");
 }
 
-// How far from the sensor all cells of this map must be clear.
-VANTAGE_INLINE double GroundRobot::clear_m(const OccupancyMap& map) const {
-  return options_.margin_m ? reach_m() : std::max(reach_m(), map.resolution_m());
-}
-
 VANTAGE_INLINE bool GroundRobot::admits(const OccupancyMap& map, const Pose& pose) const {
   const Eigen::Vector3d position = pose.translation();
   if (!is_rigid(pose) || !map.frame().addressable(position) || std::abs(optical_axis(pose).z()) > 1e-6 ||
-      detail::disc_is_larger_than_known(map, clear_m(map))) {
+      detail::disc_is_larger_than_known(map, detail::clear_m(options_, map))) {
     return false;
   }
   const std::int32_t layer = map.frame().cell_of(position).z;
-  return detail::swept_sphere_is_clear(map.frame(), position, position, clear_m(map),
+  return detail::swept_sphere_is_clear(map.frame(), position, position, detail::clear_m(options_, map),
                                        [&](const VoxelIndex& cell) { return map.is_clear(cell); },
                                        {layer, layer + 1});
 }
@@ -40,17 +35,17 @@ VANTAGE_INLINE bool GroundRobot::admits_cell(const OccupancyMap& map, const Voxe
 
 VANTAGE_INLINE VoxelGrid<std::uint8_t> GroundRobot::admitted_cells(const OccupancyMap& map,
                                                                    const VoxelBox& box) const {
-  if (detail::disc_is_larger_than_known(map, clear_m(map))) {
+  if (detail::disc_is_larger_than_known(map, detail::clear_m(options_, map))) {
     return VoxelGrid<std::uint8_t>(box);
   }
-  return detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), clear_m(map), 0));
+  return detail::cells_for_body(map, box, detail::touched_by_sphere(map.frame(), detail::clear_m(options_, map), 0));
 }
 
 VANTAGE_INLINE bool GroundRobot::admits_motion(const OccupancyMap& map, const Pose& from, const Pose& to) const {
   const VoxelFrame& frame = map.frame();
   const Eigen::Vector3d a = from.translation();
   const Eigen::Vector3d b = to.translation();
-  const double radius_m = clear_m(map);
+  const double radius_m = detail::clear_m(options_, map);
   if (!frame.addressable(a) || !frame.addressable(b) || frame.cell_of(a).z != frame.cell_of(b).z ||
       detail::disc_is_larger_than_known(map, radius_m)) {
     return false;
