@@ -59,6 +59,10 @@ class FrontierPlanner : public ExplorationPlanner {
   /// If no path leads to the chosen view, the targets that it sees are removed for this plan and `choose` is called
   /// again. When none is left, their places rest, and targets that are seen from elsewhere follow.
   [[nodiscard]] virtual Choice choose(const Situation& situation) = 0;
+  /// What a utility is worth at the end of a way of `way_m` metres: at a price of `cost_per_m`, in 1/m, >= 0.
+  [[nodiscard]] static double worth(double utility, double cost_per_m, double way_m) {
+    return utility / (1.0 + cost_per_m * way_m);
+  }
 
  private:
   [[nodiscard]] Plan plan_of_choice(std::vector<VoxelIndex>& hoped, PlanStatistics& spent);

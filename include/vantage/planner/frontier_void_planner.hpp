@@ -107,7 +107,6 @@ class FrontierVoidPlanner final : public FrontierPlanner {
   void choose_view_of_voids(const Situation& situation, std::size_t most_targets, Choice& choice);
   [[nodiscard]] std::vector<double> search_places(const Situation& situation, std::size_t most_targets,
                                                   PlanStatistics& statistics);
-  [[nodiscard]] double discounted(double utility, double distance_m) const;
   void choose_best(const Situation& situation, const std::vector<Pose>& views, Choice& choice) const;
 
   FrontierVoidOptions options_;

@@ -24,12 +24,11 @@ VANTAGE_INLINE Choice FrontierGainPlanner::choose(const Situation& situation) {
   double best_value = 0.0;
   const auto consider = [&](TargetView candidate) {
     ++choice.statistics.views_scored;
-    const double value = candidate.view.utility /
-                         (1.0 + options_.cost_per_m * platform.distance_m(situation.current(), candidate.view.pose));
+    const double way_m = platform.distance_m(situation.current(), candidate.view.pose);
     if (candidate.view.utility > 0.0) {
       choice.candidates.push_back(candidate.view);
     }
-    if (value > best_value) {
+    if (const double value = worth(candidate.view.utility, options_.cost_per_m, way_m); value > best_value) {
       best_value = value;
       best = std::move(candidate);
     }

@@ -169,13 +169,10 @@ VANTAGE_INLINE std::vector<double> FrontierVoidPlanner::search_places(const Situ
   for (const auto& [cell, value] : utility.cells) {
     search_.places.push_back(cell);
     search_.utility.push_back(value);
-    values.push_back(discounted(static_cast<double>(value), (map.frame().centre_of(cell) - here).norm()));
+    values.push_back(
+        worth(static_cast<double>(value), options_.strategy.cost_per_m, (map.frame().centre_of(cell) - here).norm()));
   }
   return values;
-}
-
-VANTAGE_INLINE double FrontierVoidPlanner::discounted(double utility, double distance_m) const {
-  return utility / (1.0 + options_.strategy.cost_per_m * distance_m);
 }
 
 // The void cells that count for a view: not given up, and not looked at in vain from its place.
@@ -204,7 +201,7 @@ VANTAGE_INLINE void FrontierVoidPlanner::choose_best(const Situation& situation,
         View& view = candidate.view;
         std::vector<SightedCell> seen = void_cells_seen(situation, view.pose, rays, candidate.operations);
         view.utility = detail::expected(seen);
-        candidate.value = discounted(view.utility, (view.pose.translation() - here).norm());
+        candidate.value = worth(view.utility, options_.strategy.cost_per_m, (view.pose.translation() - here).norm());
         if (&rays == &looking.rays() && candidates.size() <= detail::kRememberedViews) {
           candidate.seen = std::move(seen);
         }
