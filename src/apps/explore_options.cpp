@@ -41,6 +41,11 @@ void add_robot_options(CLI::App& command, ExploreRequest& request) {
       ->type_name("LOW,HIGH[,SENSOR]")
       ->group("Robot");
   command
+      .add_flag("--no-floor", request.no_floor,
+                "With --band: it drives where no floor was seen, too; for worlds without a floor")
+      ->needs("--band")
+      ->group("Robot");
+  command
       .add_flag("--look-around", request.look_around,
                 "The robot turns once on the spot and scans before the first plan")
       ->group("Robot");

@@ -211,8 +211,10 @@ std::optional<HeightBandOptions> band_of(const ExploreRequest& request) {
   if (!(n[0] <= n[1]) || (n.size() > 2 && !(n[0] <= n[2] && n[2] <= n[1]))) {
     throw std::invalid_argument("--band '" + request.band + "' must hold LOW <= SENSOR <= HIGH");
   }
-  return HeightBandOptions{
-      .min_height_m = n[0], .max_height_m = n[1], .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1])};
+  return HeightBandOptions{.min_height_m = n[0],
+                           .max_height_m = n[1],
+                           .sensor_height_m = n.size() > 2 ? n[2] : 0.5 * (n[0] + n[1]),
+                           .needs_floor = !request.no_floor};
 }
 
 std::optional<MotionModel> motion_of(const ExploreRequest& request) {

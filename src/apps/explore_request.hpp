@@ -40,6 +40,7 @@ struct ExploreRequest {
   std::optional<double> planning_latency_s;
   bool yaw_only = false;
   std::string band;
+  bool no_floor = false;
   bool look_around = false;
   bool wear = false;
   bool bound = false;

@@ -158,7 +158,13 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
   options.band = band_of(request);
   if (options.band) {
     try {
-      (void)HeightBand(options.map, *options.band);
+      const HeightBand band({.resolution_m = request.resolution_m}, *options.band);
+      HeightBandOptions in_region = *options.band;
+      in_region.needs_floor = false;  // the run maps the floor below the region, too
+      (void)HeightBand(options.map, in_region);
+      if (options.band->needs_floor) {
+        (void)start_floor_m(band, *carrier.platform, carrier.sensor);
+      }
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("--band '" + request.band + "': " + error.what());
     }

@@ -50,21 +50,20 @@ ExplorationRunOptions checked(ExplorationRunOptions options, const World& world)
   return options;
 }
 
-Truth truth_of(const World& world, const RangeSensor& sensor, const ExplorationRunOptions& options) {
-  const double around_m = sensor.reports_no_return ? Truth::kAroundM : std::max(Truth::kAroundM, sensor.max_range_m);
-  Truth truth(world, options.map.resolution_m, *options.map.region, around_m);
-  return options.band ? truth.in_band(*options.band) : truth;
-}
-
-// In a band the map must hold the cells that tell a floor from a drop.
+// In a band the map must hold the cells in which a floor may lie.
 OccupancyMapOptions map_options_of(const ExplorationRunOptions& options) {
   OccupancyMapOptions map = options.map;
-  const HeightBandOptions band = options.band.value_or(HeightBandOptions{});
-  const double deepest_m = band.min_height_m - band.step_height_m;
-  if (double& bottom_m = map.region->min.z(); options.band && bottom_m <= deepest_m) {
-    bottom_m = std::min(bottom_m, deepest_m - 2.0 * map.resolution_m);
+  if (options.band && options.band->needs_floor) {
+    const double deepest_m = options.band->min_height_m - options.band->step_height_m;
+    map.region->min.z() = std::min(map.region->min.z(), deepest_m - map.resolution_m);
   }
   return map;
+}
+
+Truth truth_of(const World& world, const RangeSensor& sensor, const ExplorationRunOptions& options) {
+  const double around_m = sensor.reports_no_return ? Truth::kAroundM : std::max(Truth::kAroundM, sensor.max_range_m);
+  Truth truth(world, options.map.resolution_m, *map_options_of(options).region, around_m);
+  return options.band ? truth.in_band(*options.band) : truth;
 }
 
 Pose between(const Pose& from, const Pose& to, double share) {
@@ -98,6 +97,9 @@ ExplorationRun::ExplorationRun(const World& world, const RangeSensor& sensor,
       scene_(world.mesh),
       truth_(truth_of(world, sensor, options_)),
       map_(map_options_of(options_)) {
+  if (options_.band && options_.band->needs_floor) {
+    start_floor_m_ = start_floor_m(HeightBand(map_.options(), *options_.band), *platform_, sensor_);
+  }
   (void)SimulatedSensor(scene_, sensor, options_.noise);  // validates sensor and noise
 }
 
@@ -123,8 +125,8 @@ void ExplorationRun::check_start(const Pose& start) const {
   }
 }
 
-// Declares the space at the start free; in a band at all heights of it. Of the clearance only truly free cells are
-// declared.
+// Declares the space at the start free; in a band at all heights of it, and the floor. Of the clearance only truly
+// free cells are declared, and a floor only where there is one.
 void ExplorationRun::assume_start_free(const Pose& start) {
   OccupancyMap declared({.resolution_m = map_.resolution_m(), .region = options_.map.region});
   assume_free(declared, *platform_, start);
@@ -143,6 +145,12 @@ void ExplorationRun::assume_start_free(const Pose& start) {
       inner.max.z() = options_.band->max_height_m;
     }
     map_.assume_free(inner);
+  });
+  truth_.map().for_each_known([&](const VoxelIndex& cell, Occupancy) {
+    const Eigen::Vector3d centre = map_.frame().centre_of(cell);
+    if ((centre - start.translation()).head<2>().norm() < start_floor_m_ && truth_.map().is_clear(cell)) {
+      band_->assume_floor(centre, 0.0);
+    }
   });
 }
 

@@ -136,8 +136,7 @@ Truth Truth::in_band(const HeightBandOptions& options) const {
     for (VoxelIndex cell{column.x, column.y, lowest}; cell.z < above; ++cell.z) {
       state = std::max(state, at(cell));  // Free < Grazed < Occupied
     }
-    const bool drop = state == CellTruth::Free && band.plane().at(column) == Occupancy::Occupied;
-    cells.set(column, drop ? CellTruth::Occupied : state);
+    cells.set(column, state);
   });
   return {band.plane(), std::move(cells), longest_range_m_};
 }

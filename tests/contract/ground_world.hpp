@@ -11,11 +11,10 @@ namespace vantage::testing {
 
 /// The heights that matter for a robot that drives on the floor of a building, whose upper face is at z = 1 cell. It
 /// drives over what is one cell high, and under what hangs in the uppermost cells, as the lintels of the doors do.
-[[nodiscard]] inline HeightBandOptions band_above_floor(double cell_m, FloorRule floor) {
+[[nodiscard]] inline HeightBandOptions band_above_floor(double cell_m) {
   return {.min_height_m = 1.75 * cell_m,
           .max_height_m = 6.0 * cell_m,
           .sensor_height_m = 3.5 * cell_m,
-          .floor = floor,
           .step_height_m = 1.25 * cell_m};
 }
 

@@ -39,7 +39,6 @@ struct Scene {
   double rod_cells = 0.0;  // length of the rod of an outstretched body
   bool drives = false;     // on a floor, and plans in a band of heights
   bool pits = false;       // in that floor
-  FloorRule floor = FloorRule::NoDrop;
   Barrier barrier = Barrier::None;
 
   /// Enumerates combinations of building, sensor, cell size and dimension.
@@ -69,7 +68,6 @@ struct Scene {
   static Scene over_pits(std::uint32_t number) {
     Scene scene{Building::Rooms, number, number % 3, std::array{0.1, 0.2, 0.4}[number / 3 % 3]};
     scene.drives = scene.pits = true;
-    scene.floor = scene.sensor_kind == 0 ? FloorRule::NoDrop : FloorRule::Seen;
     return scene;
   }
   [[nodiscard]] ChangingWorld world() const {
@@ -108,18 +106,6 @@ struct Scene {
                                                     tall * (drives ? 1.2 : 0.52), near_m, 25.0 * cell_m);
     sensor.reports_no_return = reports_no_return;
     return sensor;
-  }
-  /// The sensor as a planner has to know it. Where a robot must have seen the floor, that is a sensor which sees
-  /// columns from where the floor comes into view up to where its rays meet every cell of the floor.
-  [[nodiscard]] RangeSensor planned_sensor() const {
-    RangeSensor planned = sensor();
-    if (drives && floor == FloorRule::Seen) {
-      const double height_m = 2.5 * cell_m;
-      const double half_rad = std::min(0.5 * planned.vertical_angle_rad(), 0.5 * std::numbers::pi - 1e-9);
-      planned.min_range_m = std::max(planned.min_range_m, height_m / std::tan(half_rad));
-      planned.max_range_m = std::min(planned.max_range_m, std::sqrt(height_m * planned.resolving_range_m(cell_m)));
-    }
-    return planned;
   }
   [[nodiscard]] std::shared_ptr<const Platform> platform() const {
     std::shared_ptr<const Platform> made;

@@ -31,7 +31,7 @@ class TrueSpace {
       map_.set(cell, world.solid[cell] != 0 ? Occupancy::Occupied : Occupancy::Free);
     });
     if (scene.drives) {
-      HeightBand band(map_.options(), band_above_floor(scene.cell_m, FloorRule::NoDrop));
+      HeightBand band(map_.options(), band_above_floor(scene.cell_m));
       band.follow(map_);
       map_ = band.plane();
     }
@@ -39,7 +39,7 @@ class TrueSpace {
 
   /// The map of all that the world holds.
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
-  [[nodiscard]] bool is_solid(const VoxelIndex& cell) const { return map_.at(cell) != Occupancy::Free; }
+  [[nodiscard]] bool is_solid(const VoxelIndex& cell) const { return !map_.is_clear(cell); }
   /// The cells that the body overlaps, `gap_m` wider than it is, and that satisfy `wanted`.
   template <class Wanted>
   [[nodiscard]] std::vector<VoxelIndex> touched(const Pose& pose, double gap_m, Wanted&& wanted) const {
@@ -95,11 +95,12 @@ class TrueSpace {
     return {.resolution_m = world.frame.size_m, .region = world.frame.box_of(world.solid.box())};
   }
 
-  // In a band, what a robot drives round is in the way of its sight, too, drops included.
+  // In a band, an obstacle that is lower than the sensor is in the way of its sight, too.
   [[nodiscard]] bool in_sight(const Eigen::Vector3d& from, const VoxelIndex& cell) const {
     const VoxelRay line(world_.frame, from, world_.frame.centre_of(cell));
-    return world_.in_sight(from, cell) &&
-           (!scene_.drives || line.all_from_the_end([&](const VoxelIndex& met) { return !is_solid(met); }));
+    return world_.in_sight(from, cell) && (!scene_.drives || line.all_from_the_end([&](const VoxelIndex& met) {
+             return map_.at(met) == Occupancy::Free;
+           }));
   }
 
   const Scene& scene_;

@@ -11,25 +11,12 @@
 
 namespace VANTAGE_EXPORT vantage {
 
-/// What a ground robot requires of the floor below a column of the height band.
-enum class FloorRule : std::uint8_t {
-  Ignored,  ///< no requirement; for maps without a floor, such as a floor plan
-  /// No visible drop. A column goes down if all its cells within one step below the band are known free, and the next
-  /// cell further down is known or lies outside of the map's region. A column is a drop if all its cells within one
-  /// step are known free and it, or a column within six cells, goes down. Not enough beside pits for a sensor that
-  /// does not see the floor near the robot: a column whose floor was never seen counts as one with a floor.
-  NoDrop,
-  /// a visible floor: a cell within one step below the band is occupied, or HeightBand::assume_floor covers the
-  /// column
-  Seen,
-};
-
 /// Which heights of a map matter for a ground robot, and at which height the projected plane lies. A cell counts if
 /// its centre lies between `min_height_m` and `max_height_m`. All heights are z coordinates in the world frame.
 struct HeightBandOptions {
   /// Lower end of the band: the lowest z of an obstacle. It must lie above the floor by more than half a cell and the
   /// noise of the sensor, and by less than `step_height_m`. Otherwise the floor is found in a cell of the band, and
-  /// is an obstacle, or it is a drop.
+  /// is an obstacle, or it is not found.
   double min_height_m = 0.1;
   double max_height_m = 1.0;     ///< upper end of the band, >= min_height_m
   double sensor_height_m = 0.5;  ///< z of the sensor; the plane is the layer of cells that holds it
@@ -37,9 +24,9 @@ struct HeightBandOptions {
   /// an obstacle sees only a part of the band. With a share of 1 the columns beside the robot would stay unknown, and
   /// the robot could not leave.
   double free_share = 0.25;
-  /// What the robot requires of the floor. A horizontal sensor does not see the floor beside it. FloorRule::Seen
-  /// therefore needs a call of HeightBand::assume_floor for the start position.
-  FloorRule floor = FloorRule::NoDrop;
+  /// Whether the robot may be only where a floor was seen within one step below the band, or declared
+  /// (HeightBand::assume_floor, for the start). False only for maps without a floor: a pit is then not noticed.
+  bool needs_floor = true;
   /// The deepest step that the robot can drive down, in [0, 1000]. The floor is searched in the cells below the band
   /// whose upper face lies above `min_height_m - step_height_m`.
   double step_height_m = 0.25;
@@ -49,10 +36,9 @@ struct HeightBandOptions {
 /// robots that drive, whose sensor stays at a constant height. Planners explore it like any other map. With a
 /// GroundRobot, the harmonic field becomes two-dimensional.
 ///
-/// A column is occupied if one of its cells in the band is occupied, or if it is a drop (see FloorRule::NoDrop). It
-/// is free if at least `free_share` of its cells are free and its floor satisfies HeightBandOptions::floor. Otherwise
-/// it is unknown. All cells of the plane have log-odds at a clamping limit, so none is contested. Rays at a grazing
-/// angle may erase single cells of a wall, but rarely all cells of a column.
+/// A column is occupied if one of its cells in the band is occupied, free if at least `free_share` of them are free,
+/// and otherwise unknown. Rays at a grazing angle may erase single cells of a wall, but rarely all cells of a column.
+/// A free column without a floor (HeightBandOptions::needs_floor) is contested: sight passes it, but no body.
 ///
 ///     HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.2, .sensor_height_m = 0.8});
 ///     map.insert(scan);
@@ -64,7 +50,7 @@ class HeightBand {
  public:
   /// Creates the band for maps with the options `of_map`. If `of_map` has a region, it also bounds the plane. Throws
   /// std::invalid_argument, which names the option, if an option is out of range, if no cell centre lies in the band,
-  /// if the region does not overlap the band, or if the region does not contain the height of the sensor.
+  /// or if the region does not overlap the band, or contains neither the height of the sensor nor the floor.
   HeightBand(const OccupancyMapOptions& of_map, const HeightBandOptions& options);
 
   /// The options that were passed to the constructor.
@@ -74,10 +60,12 @@ class HeightBand {
   /// The layers of cells in the band, as a half-open range of z indices [first, second).
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> layers() const { return {lowest_, above_}; }
 
-  /// Declares that a floor exists in every column that `box` touches (world frame, metres), for example where the
-  /// robot stands. Takes effect at the next `follow`. A column that is seen to be a drop stays a drop. Throws
-  /// std::invalid_argument if the box touches more than OccupancyMap::kMaxBoxCells columns.
-  void assume_floor(const Box& box);
+  /// Declares that a floor exists in every column at most `radius_m` metres from `centre_m` (world frame), for
+  /// example where the robot stands: start_floor_m. Takes effect at the next `follow`, but not where all cells within
+  /// one step below the band are seen to be free. Throws std::invalid_argument unless the centre is finite and the
+  /// radius in [0, 1000], and if
+  /// the disc touches more than OccupancyMap::kMaxBoxCells columns.
+  void assume_floor(const Eigen::Vector3d& centre_m, double radius_m);
 
   /// Updates the plane from `map`. The cost depends on what has changed since the last call. If the revision of `map`
   /// has grown, the revision of the plane grows too, even if nothing in the band has changed. If `map` is not the map
@@ -86,11 +74,10 @@ class HeightBand {
 
  private:
   [[nodiscard]] Occupancy state_of(const OccupancyMap& map, const VoxelIndex& column) const;
-  [[nodiscard]] Occupancy state_by_floor(const OccupancyMap& map, const VoxelIndex& column) const;
-  [[nodiscard]] bool is_near_a_drop(const OccupancyMap& map, const VoxelIndex& column) const;
+  [[nodiscard]] bool has_floor(const OccupancyMap& map, const VoxelIndex& column) const;
 
   HeightBandOptions options_;
-  std::int32_t lowest_floor_ = 0;  // equals `lowest_` under FloorRule::Ignored
+  std::int32_t lowest_floor_ = 0;  // equals `lowest_` if no floor is needed
   std::int32_t lowest_ = 0;
   std::int32_t above_ = 0;
   std::int32_t layer_ = 0;

@@ -3,6 +3,7 @@
 
 #include <vantage/compiler.hpp>
 #include <vantage/geometry/pose.hpp>
+#include <vantage/map/height_band.hpp>
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/raytrace/range_sensor.hpp>
 #include <vantage/robot/platform.hpp>
@@ -21,6 +22,13 @@ void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, 
 /// view does not see what lies beside the body, so the body must first move through unseen space until the space that
 /// it needs fits into the view. 0 for a sensor that sees all around and has minimum range 0; at most 5.
 [[nodiscard]] double start_clearance_m(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor);
+
+/// The radius around the sensor, metres, in which a floor should be declared at the start of a robot that drives:
+/// that of its body, or up to where a level sensor sees a floor one step below the band. Throws
+/// std::invalid_argument, which names HeightBandOptions::needs_floor, if the sensor sees such a floor nowhere.
+///
+///     band.assume_floor(pose.translation(), start_floor_m(band, *platform, sensor));
+[[nodiscard]] double start_floor_m(const HeightBand& band, const Platform& platform, const RangeSensor& sensor);
 
 }  // namespace vantage
 

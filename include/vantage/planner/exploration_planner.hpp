@@ -75,9 +75,9 @@ struct Plan {
   Outcome outcome = Outcome::Blocked;  ///< what the host should do
   View goal;                           ///< the view to take; valid only if outcome is Move
   std::vector<Pose> path;  ///< from the current pose to goal.pose, both included; empty unless outcome is Move
-  /// The unknown cells that the view is to resolve; a cell appears once for each target frontier cell beside it. Once
-  /// all of them are known, the rest of the path is not worth following: plan again. Empty if the planner does not
-  /// know them.
+  /// The unknown cells that the view is to resolve; a cell appears once for each target frontier cell beside it. Or
+  /// contested cells, at which it looks again. Once all of them are known and none is contested, the rest of the path
+  /// is not worth following: plan again. Empty if the planner does not know them.
   std::vector<VoxelIndex> sought;
   /// The views that were compared, with their utilities, for display. Includes the goal of a Move. Empty for planners
   /// that do not compare views.

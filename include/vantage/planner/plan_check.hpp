@@ -14,7 +14,7 @@ namespace VANTAGE_EXPORT vantage {
 enum class PlanCheck : std::uint8_t {
   Good,         ///< continue
   WayClosed,    ///< a motion of the rest of the path is not admitted any more
-  NothingLeft,  ///< all cells that the plan sought are known
+  NothingLeft,  ///< all cells that the plan sought are known, and none is contested
   OffPath,      ///< the sensor is too far from the path
 };
 

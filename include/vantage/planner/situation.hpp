@@ -59,9 +59,9 @@ class Situation {
   /// std::invalid_argument unless `current` is finite and rigid up to 1e-3.
   void sync(const OccupancyMap& map, const Pose& current);
   /// If no target is left: the plan that ends the run, or that turns the sensor on the spot, steps aside or looks
-  /// closely at cells that were looked at in vain (TriedViews::looked_closely). If the robot does not move
-  /// (TriedViews::is_stuck) and every target lies in a refused direction: a Blocked plan. Otherwise none. Leftover
-  /// and counts of the plan are those of the survey.
+  /// closely at cells that were looked at in vain (TriedViews::looked_closely), or again at contested cells in the
+  /// way to a place with more to see. If the robot does not move (TriedViews::is_stuck) and every target lies in a
+  /// refused direction: a Blocked plan. Otherwise none. Leftover and counts of the plan are those of the survey.
   [[nodiscard]] std::optional<Plan> end();
   /// Removes, for this plan, the targets that are seen by a view to which no path leads, and those with the same
   /// viewpoint. Returns whether there were any.
@@ -129,6 +129,11 @@ class Situation {
   [[nodiscard]] std::optional<Plan> turn_on_the_spot();
   [[nodiscard]] std::optional<Plan> step_aside();
   [[nodiscard]] std::optional<Plan> look_closely();
+  [[nodiscard]] std::optional<Plan> look_at_contested();
+  [[nodiscard]] std::optional<OccupancyMap> map_without_contested() const;
+  [[nodiscard]] std::optional<VoxelIndex> viewpoint_beyond(const ReachableSpace& space) const;
+  [[nodiscard]] std::vector<VoxelIndex> contested_on_way(const ReachableSpace& space, const VoxelIndex& goal) const;
+  [[nodiscard]] std::optional<Plan> look_again_at(const VoxelIndex& cell, const std::vector<VoxelIndex>& cells) const;
   [[nodiscard]] std::optional<VoxelIndex> place_cut_off() const;
   [[nodiscard]] std::optional<VoxelIndex> viewpoint_among(std::vector<VoxelIndex> places) const;
 
@@ -156,5 +161,6 @@ class Situation {
 
 #if defined(VANTAGE_HEADER_ONLY)
 #include <vantage/planner/impl/situation.ipp>
+#include <vantage/planner/impl/situation_contested.ipp>
 #include <vantage/planner/impl/situation_end.ipp>
 #endif

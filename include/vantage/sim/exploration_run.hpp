@@ -33,8 +33,9 @@ struct ExplorationRunOptions {
   /// the map is the layer of cells above z = 0.
   OccupancyMapOptions map = {};
   /// The robot drives and explores the plane of these heights: the planner gets the plane of the HeightBand
-  /// instead of the map, and coverage and collisions are those of the plane. If the map's region reaches down to
-  /// where a step ends, the map gets two more layers below. None: the robot flies.
+  /// instead of the map, and coverage and collisions are those of the plane. The map's region is extended down to
+  /// where a step ends, and the floor around the start is declared (start_floor_m) where there is one. None: the
+  /// robot flies.
   std::optional<HeightBandOptions> band = std::nullopt;
   /// Radius around the sensor in which truly free cells are declared free at the start, metres, in [0, 5]
   /// (assume_free, start_clearance_m). The space of the body is always declared free.
@@ -140,6 +141,7 @@ class ExplorationRun {
   Truth truth_;
   OccupancyMap map_;
   std::optional<HeightBand> band_;
+  double start_floor_m_ = 0.0;
   std::vector<VoxelIndex> observable_;  // from the start of the latest run, because the next may start there, too
   std::optional<Pose> observable_from_;
 };

@@ -33,7 +33,7 @@ class Truth {
   Truth(const World& world, double resolution_m, const Box& region, double around_m = kAroundM);
 
   /// The ground truth of the plane of a band of heights (HeightBand): a column is occupied if a cell of the band
-  /// is or if it is a drop (FloorRule), else grazed if a cell is, else free. Throws as HeightBand.
+  /// is, else grazed if a cell is, else free. `map` tells where a floor is. Throws as HeightBand.
   [[nodiscard]] Truth in_band(const HeightBandOptions& band) const;
 
   /// True state of a cell.

@@ -56,6 +56,8 @@ struct TriedViewsOptions {
 /// behind them become targets until a view from the front closes the surface again. The number of known neighbours
 /// only grows, whatever their states, so a cell gets at most six further chances.
 ///
+/// **Evidence about a contested cell** is kept in the same way, until the cell is occupied or clear.
+///
 /// **Places that could not be reached.** A place fails if the host reports GoalResult::Failed, or if it would be
 /// asked for a third time although the robot came no nearer: the rest of the path is no shorter or, within the goal
 /// tolerance, the rest of the turn is no smaller.
@@ -80,9 +82,9 @@ class TriedViews {
 
   // --- input from the planner
   /// Stores that a view at the end of `path` (poses world_from_sensor, at least one) is planned. It is to resolve the
-  /// cells `sought`. It may resolve some of `hoped`: they count as looked at in vain only if it resolves none of
-  /// them. Returns false if the place was asked for twice and the robot came no nearer: then the place rests, and the
-  /// planner must choose another view.
+  /// cells `sought`, all unknown or all contested (OccupancyMap::contested). It may resolve some of `hoped`: they
+  /// count as looked at in vain only if it resolves none of them. Returns false if the place was asked for twice and
+  /// the robot came no nearer: then the place rests, and the planner must choose another view.
   [[nodiscard]] bool expect(const OccupancyMap& map, const std::vector<Pose>& path, std::vector<VoxelIndex> sought,
                             std::vector<VoxelIndex> hoped = {});
   /// Stores how following the plan ended, if the host reports it. Used by the next `review`.
@@ -127,6 +129,9 @@ class TriedViews {
   /// touches it, or the cell was missed from this place.
   [[nodiscard]] bool looked_from_beside(const OccupancyMap& map, const VoxelIndex& unknown,
                                         const VoxelIndex& place) const;
+  /// Whether the cell was looked at in vain, or missed, from about the distance of this place: the longer of the two
+  /// distances is less than 1.5 times the shorter one.
+  [[nodiscard]] bool tried_at_distance(const VoxelIndex& cell, const VoxelIndex& place) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
   /// Whether any place rests.
@@ -158,8 +163,9 @@ class TriedViews {
     OccupancyMap::Revision revision;
     std::vector<VoxelIndex> sought;
     std::vector<VoxelIndex> hoped;
+    bool of_contested;  // whether what is sought was contested, not unknown
   };
-  // Evidence about one unknown cell.
+  // Evidence about one cell.
   struct Looks {
     std::vector<VoxelIndex> in_vain;  // places that differ
     std::vector<VoxelIndex> clear;    // places of looks along lines that were clear; none touches another

@@ -206,17 +206,17 @@ TEST(LaplaceDomain, OfAHeightBandIsAPlane) {
                                           .max_height_m = 0.45,
                                           .sensor_height_m = 0.1,
                                           .free_share = 1.0,
-                                          .floor = FloorRule::Ignored},
+                                          .needs_floor = false},
                                                                          {.min_height_m = 0.2,
                                                                          .max_height_m = 0.3,
                                                                          .sensor_height_m = 0.25,
                                                                          .free_share = 1.0,
-                                                                         .floor = FloorRule::Ignored},
+                                                                         .needs_floor = false},
                                                                          {.min_height_m = 0.5,
                                                                          .max_height_m = 0.9,
                                                                          .sensor_height_m = 0.6,
                                                                          .free_share = 0.5,
-                                                                         .floor = FloorRule::Ignored}}) {
+                                                                         .needs_floor = false}}) {
     OccupancyMap map({.resolution_m = 0.1, .region = Box{{-2.0, -1.7, -0.6}, {2.1, 1.9, 1.2}}});
     for_each_cell(*map.region(), [&](const VoxelIndex& cell) {
       const int drawn = draw(engine);

@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vantage/map/height_band.hpp>
 #include <vantage/robot/ground_robot.hpp>
 
@@ -20,28 +21,20 @@ bool may_hold_the_floor(const OccupancyMap& map, const VoxelIndex& cell, const H
          map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m;
 }
 
-/// Whether no floor is within one step below the band: all cells are free, and there is one.
-bool is_open_below(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
+/// Whether a floor was seen or, unless all cells are free that could hold it, declared.
+bool has_floor(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options,
+               bool is_declared) {
   bool all_free = true;
-  bool any = false;  // a step smaller than a cell may have no layer
   for (std::int32_t z = -40; z < 40; ++z) {
     const VoxelIndex cell{x, y, z};
     if (may_hold_the_floor(map, cell, options)) {
+      if (map.at(cell) == Occupancy::Occupied) {
+        return true;
+      }
       all_free = all_free && map.at(cell) == Occupancy::Free;
-      any = true;
     }
   }
-  return all_free && any;
-}
-
-/// Whether rays went further down than a step there, as far as the map reaches.
-bool is_deep(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options) {
-  std::int32_t below = 40;
-  while (map.frame().box_of(VoxelIndex{x, y, below}).max.z() > options.min_height_m - options.step_height_m) {
-    --below;
-  }
-  return is_open_below(map, x, y, options) &&
-         (map.at({x, y, below}) != Occupancy::Unknown || !map.in_region({x, y, below}));
+  return is_declared && !all_free;
 }
 
 /// The state of one column by definition.
@@ -63,23 +56,7 @@ Occupancy column_of(const OccupancyMap& map, std::int32_t x, std::int32_t y, con
   if (free == 0 || free < options.free_share * cells) {
     return Occupancy::Unknown;
   }
-  if (options.floor == FloorRule::Ignored) {
-    return Occupancy::Free;
-  }
-  for (std::int32_t z = -40; z < 40; ++z) {
-    const VoxelIndex cell{x, y, z};
-    if (map.at(cell) == Occupancy::Occupied && may_hold_the_floor(map, cell, options)) {
-      return Occupancy::Free;
-    }
-  }
-  bool beside_a_drop = false;
-  for_each_cell(VoxelBox{{x - 6, y - 6, 0}, {x + 7, y + 7, 1}}, [&](const VoxelIndex& column) {
-    beside_a_drop = beside_a_drop || is_deep(map, column.x, column.y, options);
-  });
-  if (is_open_below(map, x, y, options) && beside_a_drop) {
-    return Occupancy::Occupied;
-  }
-  return options.floor == FloorRule::NoDrop ? Occupancy::Free : Occupancy::Unknown;
+  return Occupancy::Free;
 }
 
 void change_at_random(OccupancyMap& map, std::mt19937& engine) {
@@ -100,7 +77,8 @@ void change_at_random(OccupancyMap& map, std::mt19937& engine) {
 TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
   std::size_t compared = 0;
   std::size_t occupied = 0;
-  std::size_t free = 0;
+  std::size_t with_floor = 0;
+  std::size_t without_floor = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> metre(-1.5, 1.0);
@@ -109,10 +87,12 @@ TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
                                     .max_height_m = low + 0.73,
                                     .sensor_height_m = metre(engine),
                                     .free_share = seed % 3 == 0 ? 0.5 : 1.0,
-                                    .floor = static_cast<FloorRule>(seed % 3),
+                                    .needs_floor = seed % 3 != 0,
                                     .step_height_m = 0.137 * (seed % 4)};
     OccupancyMap map({.resolution_m = kCell});
     HeightBand band(map.options(), options);
+    const Eigen::Vector3d declared(metre(engine), metre(engine), 0.3);
+    band.assume_floor(declared, 0.6);
     for (int change = 0; change < 6; ++change) {
       change_at_random(map, engine);
       band.follow(map);
@@ -122,16 +102,25 @@ TEST(HeightBand, IsWhatItsColumnsAreAfterEveryChange) {
       for_each_cell(VoxelBox{{-16, -16, layer}, {16, 16, layer + 1}}, [&](const VoxelIndex& cell) {
         const Occupancy expected = column_of(map, cell.x, cell.y, options);
         ASSERT_EQ(band.plane().at(cell), expected) << "seed " << seed << ", change " << change;
-        ASSERT_FALSE(band.plane().contested(cell));
+        const Box column = map.frame().box_of(cell);
+        const Eigen::Vector2d nearest =
+            declared.head<2>().cwiseMax(column.min.head<2>()).cwiseMin(column.max.head<2>());
+        const bool is_declared = (nearest - declared.head<2>()).norm() <= 0.6;
+        const bool clear = expected == Occupancy::Free &&
+                           (!options.needs_floor || has_floor(map, cell.x, cell.y, options, is_declared));
+        ASSERT_EQ(band.plane().is_clear(cell), clear) << "seed " << seed << ", change " << change;
+        ASSERT_EQ(band.plane().contested(cell), expected == Occupancy::Free && !clear);
         ++compared;
         occupied += expected == Occupancy::Occupied ? 1U : 0U;
-        free += expected == Occupancy::Free ? 1U : 0U;
+        with_floor += clear ? 1U : 0U;
+        without_floor += band.plane().contested(cell) ? 1U : 0U;
       });
     }
   }
   EXPECT_EQ(compared, 12U * 6U * 32U * 32U);
   EXPECT_GT(occupied, 500U);
-  EXPECT_GT(free, 1000U);
+  EXPECT_GT(with_floor, 1000U);
+  EXPECT_GT(without_floor, 500U);
 }
 
 // A hall with a floor and a pit of 2 m whose inside was observed.
@@ -143,9 +132,9 @@ TEST(HeightBand, AGroundRobotKeepsOutOfAPit) {
   map.set_log_odds(pit, -2.0);
   map.set_log_odds(VoxelBox{{10, 5, -21}, {30, 25, -20}}, 3.5);
   const GroundRobot robot({.radius_m = 0.15});
-  for (const FloorRule rule : {FloorRule::Ignored, FloorRule::NoDrop, FloorRule::Seen}) {
+  for (const bool needs_floor : {false, true}) {
     HeightBand band(map.options(),
-                    {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55, .floor = rule});
+                    {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55, .needs_floor = needs_floor});
     band.follow(map);
     std::size_t over_the_pit = 0;
     std::size_t elsewhere = 0;
@@ -153,63 +142,31 @@ TEST(HeightBand, AGroundRobotKeepsOutOfAPit) {
       const bool over = pit.contains({cell.x, cell.y, -1});
       (over ? over_the_pit : elsewhere) += robot.admits_cell(band.plane(), cell) ? 1U : 0U;
     });
-    EXPECT_EQ(over_the_pit, rule == FloorRule::Ignored ? 400U : 0U);
+    EXPECT_EQ(over_the_pit, needs_floor ? 0U : 400U);
     EXPECT_GT(elsewhere, 300U);
   }
 }
 
-// A floor inside of a cell: rays of a sparse sensor that meet it further away leave the cells of some columns free.
-// Nothing is free below them. A pit is seen deeper down only some way behind its edge, and keeps the robot out from
-// the edge on.
-TEST(HeightBand, AFloorThatRaysPassCloselyIsNoDrop) {
-  for (const bool is_pit : {false, true}) {
-    OccupancyMap map({.resolution_m = kCell});
-    HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55});
-    map.set_log_odds(VoxelBox{{0, 0, -2}, {40, 30, -1}}, 3.5);
-    map.set_log_odds(VoxelBox{{0, 0, -1}, {40, 30, 14}}, -2.0);
-    const VoxelBox passed{{10, 0, -2}, {20, 30, -1}};
-    map.set_log_odds(passed, -2.0);
-    band.follow(map);
-    EXPECT_EQ(band.plane().at({12, 5, 5}), Occupancy::Free);
-    if (is_pit) {
-      map.set(VoxelIndex{12, 5, -3}, Occupancy::Free);
-      band.follow(map);
-    }
-    const auto is_drop = [&](const VoxelIndex& column) { return band.plane().at(column) == Occupancy::Occupied; };
-    EXPECT_EQ(is_drop({10, 5, 5}), is_pit);
-    EXPECT_EQ(is_drop({18, 11, 5}), is_pit);
-    EXPECT_FALSE(is_drop({19, 11, 5})) << "seven columns away";
-    EXPECT_FALSE(is_drop({9, 5, 5})) << "the floor is seen";
-  }
-}
-
-// Nothing below the region of a map can be known, so a free column down to there is a drop.
-TEST(HeightBand, BelowTheRegionADropIsSupposed) {
-  for (const double bottom_m : {-0.2, -0.3}) {
-    OccupancyMap map({.resolution_m = kCell, .region = Box{{0.0, 0.0, bottom_m}, {3.0, 3.0, 2.0}}});
-    HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55});
-    map.set_log_odds(VoxelBox{{0, 0, -2}, {30, 30, 14}}, -2.0);
-    band.follow(map);
-    EXPECT_EQ(band.plane().at({12, 5, 5}), bottom_m == -0.2 ? Occupancy::Occupied : Occupancy::Free);
-  }
-}
-
-TEST(HeightBand, AFloorMustBeSeenOrAssumedWhereItIsAskedFor) {
+TEST(HeightBand, WhereNoFloorWasSeenSightPassesButNoBody) {
   OccupancyMap map({.resolution_m = kCell});
   map.set_log_odds(VoxelBox{{0, 0, 0}, {20, 20, 14}}, -2.0);
   map.set_log_odds(VoxelBox{{0, 0, -1}, {10, 20, 0}}, 3.5);
-  HeightBand band(map.options(),
-                  {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55, .floor = FloorRule::Seen});
-  band.follow(map);
-  EXPECT_EQ(band.plane().at({9, 3, 5}), Occupancy::Free);
-  EXPECT_EQ(band.plane().at({10, 3, 5}), Occupancy::Unknown);
-  band.assume_floor({{1.0, 0.0, 0.0}, {1.5, 0.5, 0.1}});
-  band.follow(map);
-  EXPECT_EQ(band.plane().at({14, 3, 5}), Occupancy::Free);
-  EXPECT_EQ(band.plane().at({15, 3, 5}), Occupancy::Unknown);
+  HeightBand band(map.options(), {.min_height_m = 0.1, .max_height_m = 1.0, .sensor_height_m = 0.55});
+  const auto at = [&](std::int32_t x) {
+    band.follow(map);
+    return std::pair(band.plane().at({x, 3, 5}), band.plane().is_clear({x, 3, 5}));
+  };
+  EXPECT_EQ(at(9), std::pair(Occupancy::Free, true));
+  EXPECT_EQ(at(10), std::pair(Occupancy::Free, false));
+  band.assume_floor({1.25, 0.35, 0.8}, 0.26);
+  EXPECT_EQ(at(14), std::pair(Occupancy::Free, true));
+  EXPECT_EQ(at(16), std::pair(Occupancy::Free, false));
   map.set_log_odds(VoxelBox{{10, 0, -4}, {20, 20, 0}}, -2.0);
-  band.follow(map);
-  EXPECT_EQ(band.plane().at({14, 3, 5}), Occupancy::Occupied);
+  EXPECT_EQ(at(14), std::pair(Occupancy::Free, false)) << "declared, but seen to be missing";
+  map.set(VoxelIndex{14, 3, -2}, Occupancy::Occupied);
+  EXPECT_EQ(at(14), std::pair(Occupancy::Free, true)) << "a step down";
+  EXPECT_THROW(band.assume_floor({0.0, 0.0, 0.0}, -1.0), std::invalid_argument);
+  EXPECT_THROW(band.assume_floor({0.0, std::nan(""), 0.0}, 1.0), std::invalid_argument);
 }
 
 TEST(HeightBand, TellsOfALookInVainWithoutAChange) {
@@ -233,7 +190,8 @@ TEST(HeightBand, TellsOfALookInVainWithoutAChange) {
 
 TEST(HeightBand, KeepsToTheRegionOfTheMap) {
   OccupancyMap map({.resolution_m = kCell, .region = Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}});
-  HeightBand band(map.options(), {.min_height_m = 0.0, .max_height_m = 0.5, .sensor_height_m = 0.25});
+  HeightBand band(map.options(),
+                  {.min_height_m = 0.0, .max_height_m = 0.5, .sensor_height_m = 0.25, .needs_floor = false});
   EXPECT_EQ(*band.plane().region(), (VoxelBox{{0, 0, 2}, {10, 10, 3}}));
 }
 
@@ -278,6 +236,10 @@ TEST(HeightBand, NamesTheOptionAtFault) {
   EXPECT_EQ(message({.min_height_m = 0.5, .max_height_m = 1.5, .sensor_height_m = 2.5}, storey),
             "HeightBandOptions::sensor_height_m is 2.5, must be within the map's region");
   EXPECT_EQ(message({.min_height_m = 0.5, .max_height_m = 2.5, .sensor_height_m = 1.9}, storey), "");
+  EXPECT_EQ(
+      message({.min_height_m = 0.0, .max_height_m = 1.0}, storey),
+      "HeightBandOptions::needs_floor: the map's region holds no cell below the band, so no floor is ever seen");
+  EXPECT_EQ(message({.min_height_m = 0.0, .max_height_m = 1.0, .needs_floor = false}, storey), "");
   HeightBand band({.resolution_m = kCell}, {});
   EXPECT_THROW(band.follow(OccupancyMap({.resolution_m = 0.2})), std::invalid_argument);
 }

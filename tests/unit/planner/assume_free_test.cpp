@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <vantage/map/height_band.hpp>
 #include <vantage/planner/assume_free.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
@@ -116,6 +119,52 @@ TEST(AssumeFree, AtTheEdgeOfTheClearanceTheBodyIsInTheFieldOfView) {
     }
   }
   EXPECT_EQ(sensors, 500U);
+}
+
+// Outside of the declared disc, the floor one step below the band is in view, in every direction to which a level
+// sensor can be turned; well inside of it, it is not.
+TEST(StartFloor, ReachesToWhereTheSensorSeesTheFloor) {
+  std::mt19937 engine(6);
+  const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine); };
+  std::size_t sensors = 0;
+  for (; sensors < 500; ++sensors) {
+    const double cell_m = draw(0.05, 0.2);
+    const double above_m = draw(0.3, 1.0);  // the sensor above a floor one step below the band
+    const HeightBand band(
+        {.resolution_m = cell_m},
+        {.min_height_m = 0.1, .max_height_m = 1.5, .sensor_height_m = above_m - 0.1, .step_height_m = 0.2});
+    const double tall_rad = draw(0.6, 1.6);
+    const RangeSensor sensor = sensors % 2 == 0
+                                   ? RangeSensor::pinhole(64, 48, draw(0.6, 2.0), tall_rad, draw(0.0, 2.0), 30.0)
+                                   : RangeSensor::spherical(64, 48, 2 * kPi, tall_rad, draw(0.0, 2.0), 30.0);
+    const double floor_m = start_floor_m(band, GroundRobot({.radius_m = 0.2}), sensor);
+    EXPECT_GE(floor_m, 0.2);
+    for (int place = 0; place < 40; ++place) {
+      const double azimuth = draw(-0.49, 0.49) * sensor.horizontal_angle_rad();
+      const auto floor_at = [&](double range_m) {
+        return Eigen::Vector3d(range_m * std::sin(azimuth), above_m, range_m * std::cos(azimuth));
+      };
+      EXPECT_TRUE(sensor.in_view(floor_at(floor_m)));
+      EXPECT_GE(floor_at(floor_m).norm(), sensor.min_range_m);
+    }
+    const double seen_from_m = above_m / std::tan(0.5 * tall_rad);
+    EXPECT_FALSE(sensor.in_view({0.0, above_m, 0.9 * seen_from_m}));
+  }
+  EXPECT_EQ(sensors, 500U);
+}
+
+TEST(StartFloor, NamesTheOptionIfTheSensorNeverSeesTheFloor) {
+  const HeightBand band({.resolution_m = 0.1}, {.sensor_height_m = 0.5});
+  for (const RangeSensor& sensor : {RangeSensor::spherical(360, 1, 2 * kPi, 0.001, 0.0, 20.0),  // a plane of rays
+                                    RangeSensor::pinhole(64, 48, 1.0, 0.1, 0.0, 4.0)}) {        // ends above it
+    try {
+      (void)start_floor_m(band, GroundRobot({.radius_m = 0.2}), sensor);
+      ADD_FAILURE() << "no error";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "HeightBandOptions::needs_floor is true, but the lowest rays of the sensor do not reach the floor");
+    }
+  }
 }
 
 }  // namespace

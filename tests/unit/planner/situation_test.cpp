@@ -10,8 +10,10 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vantage/planner/make_planner.hpp>
+#include <vantage/planner/plan_check.hpp>
 #include <vantage/planner/situation.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/grid_path.hpp>
@@ -74,6 +76,69 @@ TEST(Situation, BehindAClosedDoorIsUnreachableUntilItOpens) {
 }
 
 // A crack that no body fits through or into is no place that is cut off.
+TEST(Situation, ContestedCellsInTheWayAreLookedAtFromDistancesThatDifferUntilTheyAreSettled) {
+  constexpr double kRangeM = 1.0;
+  OccupancyMap map = two_rooms({});
+  for_each_cell(VoxelBox{{kWall + 1, 0, 0}, {kWall + 5, 11, 7}}, [&](const VoxelIndex& cell) {
+    const bool inside = VoxelBox{{kWall + 1, 1, 1}, {kWall + 5, 10, 6}}.contains(cell);
+    map.set(cell, inside ? Occupancy::Free : Occupancy::Occupied);
+  });
+  map.set_log_odds(kDoor, -map.log_odds_step());
+  Situation situation(
+      robot_with(RangeSensor::spherical(180, 90, 2 * std::numbers::pi, std::numbers::pi, 0.0, kRangeM), 0.25));
+  Pose robot = in_the_first_room();
+  std::unordered_map<VoxelIndex, std::vector<double>> looks_m;  // distances
+  std::size_t looks = 0;
+  std::optional<Plan> end;
+  for (;;) {
+    situation.sync(map, robot);
+    end = situation.end();
+    ASSERT_TRUE(end) << "no target is in range of the first room";
+    if (end->outcome != Outcome::Move || ++looks > 100) {
+      break;
+    }
+    ASSERT_FALSE(end->sought.empty());
+    bool differs = false;
+    for (const VoxelIndex& cell : end->sought) {
+      EXPECT_TRUE(map.contested(cell));
+      EXPECT_TRUE(kDoor.contains(cell));
+      const double look_m = (map.frame().centre_of(cell) - end->goal.pose.translation()).norm();
+      EXPECT_LE(look_m, kRangeM);
+      differs = differs || std::none_of(looks_m[cell].begin(), looks_m[cell].end(), [&](double other_m) {
+                  return std::max(look_m, other_m) < 1.5 * std::min(look_m, other_m) - 1e-9;
+                });
+      looks_m[cell].push_back(look_m);
+    }
+    EXPECT_EQ(check(*end, map, situation.platform(), robot), PlanCheck::Good);
+    EXPECT_TRUE(differs);
+    ASSERT_TRUE(situation.remember(*end, {}));
+    robot = end->goal.pose;
+    map.confirm();  // a scan that changes nothing
+  }
+  EXPECT_GE(looks, 2U);
+  EXPECT_LE(looks, 20U);
+  EXPECT_EQ(end->outcome, Outcome::Unreachable);
+  EXPECT_NE(end->reason.find("around ("), std::string::npos) << end->reason;
+
+  for_each_cell(kDoor, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  situation.sync(map, robot);
+  EXPECT_FALSE(situation.end());
+  EXPECT_FALSE(situation.survey().targets.empty());
+}
+
+TEST(Situation, ContestedCellsThatHideNothingAreNotLookedAt) {
+  OccupancyMap map = two_rooms({});
+  map.set(VoxelIndex{0, 5, 3}, Occupancy::Unknown);  // in a wall
+  map.set_log_odds(VoxelBox{{6, 1, 1}, {9, 10, 6}}, -map.log_odds_step());
+  map.set(VoxelIndex{1, 5, 3}, Occupancy::Occupied);
+  map.set(VoxelIndex{20, 10, 6}, Occupancy::Free);  // a frontier that nothing sees
+  Situation situation(robot_with(round_about(), 0.25));
+  situation.sync(map, in_the_first_room());
+  const std::optional<Plan> end = situation.end();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::Explored) << end->reason;
+}
+
 TEST(Situation, ACrackThatNoBodyFitsIntoIsNotUnreachable) {
   const OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 2}});
   Situation situation(robot_with(round_about(), 0.25));

@@ -11,9 +11,6 @@
 namespace vantage {
 namespace detail {
 
-// A ray that goes down by 10 degrees passes one more layer within so many columns.
-inline constexpr std::int32_t kNearADrop = 6;
-
 inline void validate(const HeightBandOptions& options) {
   detail::require_option(std::isfinite(options.min_height_m), "HeightBandOptions::min_height_m", options.min_height_m,
                          "finite");
@@ -26,10 +23,10 @@ inline void validate(const HeightBandOptions& options) {
   detail::require_length(options.step_height_m, "HeightBandOptions::step_height_m");
 }
 
-// The options of the projected map: a copy of those of the map, with a region of one layer.
+// The options of the projected map: a region of one layer, and log-odds by which a cell can be contested.
 inline OccupancyMapOptions plane_options(const OccupancyMapOptions& of_map, const HeightBandOptions& options) {
   validate(options);
-  OccupancyMapOptions plane = of_map;
+  OccupancyMapOptions plane{.resolution_m = of_map.resolution_m, .max_bytes = of_map.max_bytes};
   const double size_m = of_map.resolution_m;
   const double layer_m = (std::floor(options.sensor_height_m / size_m) + 0.5) * size_m;
   const double furthest_m = size_m * (kFurthestVoxel - 1);
@@ -54,7 +51,7 @@ VANTAGE_INLINE HeightBand::HeightBand(const OccupancyMapOptions& of_map, const H
   above_ = cells.hi.z;
   layer_ = plane_.region()->lo.z;
   lowest_floor_ = lowest_;
-  if (options.floor != FloorRule::Ignored) {
+  if (options.needs_floor) {
     const double deepest_m = options.min_height_m - options.step_height_m;
     while (frame.corner_of({0, 0, lowest_floor_}).z() > deepest_m && lowest_floor_ > -kFurthestVoxel) {
       --lowest_floor_;
@@ -70,6 +67,10 @@ VANTAGE_INLINE HeightBand::HeightBand(const OccupancyMapOptions& of_map, const H
                            "above the bottom of the map's region");
     detail::require_option(region.lo.z <= layer_ && layer_ < region.hi.z, "HeightBandOptions::sensor_height_m",
                            options.sensor_height_m, "within the map's region");
+    if (options.needs_floor && region.lo.z >= lowest_) {
+      throw std::invalid_argument(
+          "HeightBandOptions::needs_floor: the map's region holds no cell below the band, so no floor is ever seen");
+    }
   }
 }
 
@@ -84,22 +85,21 @@ VANTAGE_INLINE void HeightBand::follow(const OccupancyMap& map) {
   }
   for (const VoxelIndex& brick : map.changed_since(followed_)) {
     const VoxelIndex first = Brick::first_cell(brick);
-    const bool has_floor = lowest_floor_ < lowest_;
-    if (first.z < above_ && first.z + Brick::kSide > lowest_floor_ - (has_floor ? 1 : 0)) {
-      // A drop has an effect on columns beside it.
-      const std::int32_t around = has_floor && first.z < lowest_ ? Brick::kSide : 0;
-      for (std::int32_t y = first.y - around; y <= first.y + around; y += Brick::kSide) {
-        for (std::int32_t x = first.x - around; x <= first.x + around; x += Brick::kSide) {
-          stale_.emplace(y, x);
-        }
-      }
+    if (first.z < above_ && first.z + Brick::kSide > lowest_floor_) {
+      stale_.emplace(first.y, first.x);
     }
   }
   for (const auto& [y, x] : stale_) {
     for_each_cell(VoxelBox{{x, y, layer_}, {x + Brick::kSide, y + Brick::kSide, layer_ + 1}},
                   [&](const VoxelIndex& column) {
                     const Occupancy state = state_of(map, column);
-                    if (plane_.at(column) != state) {
+                    const bool clear = state == Occupancy::Free && has_floor(map, column);
+                    if (plane_.at(column) == state && plane_.is_clear(column) == clear) {
+                      return;
+                    }
+                    if (state == Occupancy::Free && !clear) {
+                      plane_.set_log_odds(column, -plane_.log_odds_step());  // contested
+                    } else {
                       plane_.set(column, state);
                     }
                   });
@@ -120,55 +120,39 @@ VANTAGE_INLINE Occupancy HeightBand::state_of(const OccupancyMap& map, const Vox
     }
     free += state == Occupancy::Free ? 1 : 0;
   }
-  return free > 0 && free >= options_.free_share * (above_ - lowest_) ? state_by_floor(map, column)
-                                                                      : Occupancy::Unknown;
+  return free > 0 && free >= options_.free_share * (above_ - lowest_) ? Occupancy::Free : Occupancy::Unknown;
 }
 
-// The state of a column whose cells in the band are free.
-VANTAGE_INLINE Occupancy HeightBand::state_by_floor(const OccupancyMap& map, const VoxelIndex& column) const {
-  bool all_free = lowest_floor_ < lowest_;
+VANTAGE_INLINE bool HeightBand::has_floor(const OccupancyMap& map, const VoxelIndex& column) const {
+  bool all_free = true;
   for (VoxelIndex cell{column.x, column.y, lowest_floor_}; cell.z < lowest_; ++cell.z) {
     const Occupancy state = map.at(cell);
     if (state == Occupancy::Occupied) {
-      return Occupancy::Free;
+      return true;
     }
     all_free = all_free && state == Occupancy::Free;
   }
-  if (all_free && is_near_a_drop(map, column)) {
-    return Occupancy::Occupied;
-  }
-  return options_.floor != FloorRule::Seen || assumed_.contains(column) ? Occupancy::Free : Occupancy::Unknown;
+  return !options_.needs_floor || (!all_free && assumed_.contains(column));
 }
 
-// Rays of a sparse sensor that meet the floor further away pass through the upper part of the cells that hold it.
-// Only below a drop do they go further down, there or a little behind the edge.
-VANTAGE_INLINE bool HeightBand::is_near_a_drop(const OccupancyMap& map, const VoxelIndex& column) const {
-  constexpr std::int32_t kNear = detail::kNearADrop;
-  for (std::int32_t y = column.y - kNear; y <= column.y + kNear; ++y) {
-    for (std::int32_t x = column.x - kNear; x <= column.x + kNear; ++x) {
-      const VoxelIndex below{x, y, lowest_floor_ - 1};
-      bool is_drop = map.at(below) != Occupancy::Unknown || !map.in_region(below);
-      for (VoxelIndex cell{x, y, lowest_floor_}; is_drop && cell.z < lowest_; ++cell.z) {
-        is_drop = map.at(cell) == Occupancy::Free;
-      }
-      if (is_drop) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-VANTAGE_INLINE void HeightBand::assume_floor(const Box& box) {
-  VoxelBox columns = plane_.frame().cells_touched_by(box);
+VANTAGE_INLINE void HeightBand::assume_floor(const Eigen::Vector3d& centre_m, double radius_m) {
+  detail::require_option(centre_m.allFinite(), "HeightBand::assume_floor: centre_m", centre_m.norm(), "finite");
+  detail::require_length(radius_m, "HeightBand::assume_floor: radius_m");
+  const VoxelFrame& frame = plane_.frame();
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m);
+  Eigen::Vector3d centre = centre_m;
+  centre.z() = frame.centre_of({0, 0, layer_}).z();
+  VoxelBox columns{frame.cell_of(centre - reach), frame.cell_of(centre + reach) + VoxelIndex{1, 1, 1}};
   columns.lo.z = layer_;
   columns.hi.z = layer_ + 1;
   detail::require_option(columns.size() <= OccupancyMap::kMaxBoxCells, "HeightBand::assume_floor: count of columns",
                          columns.size(), "at most OccupancyMap::kMaxBoxCells");
   for_each_cell(columns, [&](const VoxelIndex& column) {
-    assumed_.insert(column);
-    const VoxelIndex first = Brick::first_cell(Brick::of_cell(column));
-    stale_.emplace(first.y, first.x);
+    if (frame.box_of(column).distance_to(centre) <= radius_m) {
+      assumed_.insert(column);
+      const VoxelIndex first = Brick::first_cell(Brick::of_cell(column));
+      stale_.emplace(first.y, first.x);
+    }
   });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vantage/planner/assume_free.hpp>
 
 #include <vantage/robot/impl/body_cells.hpp>
@@ -54,6 +55,24 @@ VANTAGE_INLINE double start_clearance_m(const OccupancyMap& map, const Platform&
   const double blind_m = std::max({fits_at_m(half.z(), sensor.vertical_angle_rad()),
                                    fits_at_m(side_m, sensor.horizontal_angle_rad()), sensor.min_range_m});
   return blind_m > 0.0 ? std::min(std::hypot(blind_m, std::max(side_m, half.z())), detail::kFurthestClearM) : 0.0;
+}
+
+// Below the lowest rays, which meet the floor furthest away in the corners of the image of a pinhole, or within the
+// minimum range.
+VANTAGE_INLINE double start_floor_m(const HeightBand& band, const Platform& platform, const RangeSensor& sensor) {
+  const HeightBandOptions& heights = band.options();
+  const double above_floor_m = heights.sensor_height_m - heights.min_height_m + heights.step_height_m;
+  double unseen_m = std::sqrt(std::max(0.0, sensor.min_range_m * sensor.min_range_m - above_floor_m * above_floor_m));
+  for (const std::size_t column : {std::size_t{0}, sensor.width - 1}) {
+    const Eigen::Vector3d ray = sensor.direction(column, sensor.height - 1);
+    if (ray.y() * sensor.max_range_m <= above_floor_m) {
+      throw std::invalid_argument(
+          "HeightBandOptions::needs_floor is true, but the lowest rays of the sensor do not reach the floor");
+    }
+    unseen_m = std::max(unseen_m, above_floor_m * std::hypot(ray.x(), ray.z()) / ray.y());
+  }
+  const Eigen::Vector3d half = 0.5 * platform.body_box(Pose::Identity()).extent();
+  return std::max(unseen_m, half.head<2>().maxCoeff()) + band.plane().resolution_m();
 }
 
 }  // namespace vantage

@@ -24,7 +24,7 @@ VANTAGE_INLINE PlanCheck check(const Plan& plan, const OccupancyMap& map, const 
     return PlanCheck::Good;
   }
   if (!plan.sought.empty() && std::none_of(plan.sought.begin(), plan.sought.end(), [&](const VoxelIndex& cell) {
-        return map.at(cell) == Occupancy::Unknown;
+        return map.at(cell) == Occupancy::Unknown || map.contested(cell);
       })) {
     return PlanCheck::NothingLeft;
   }

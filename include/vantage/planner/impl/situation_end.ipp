@@ -54,7 +54,8 @@ VANTAGE_INLINE std::optional<Plan> Situation::end() {
       plan.reason = detail::kIsNotAdmitted;
       return plan;
     }
-    for (const auto move : {&Situation::turn_on_the_spot, &Situation::step_aside, &Situation::look_closely}) {
+    for (const auto move : {&Situation::turn_on_the_spot, &Situation::step_aside, &Situation::look_closely,
+                            &Situation::look_at_contested}) {
       if (std::optional<Plan> moves = (this->*move)()) {
         return moves;
       }
@@ -213,7 +214,8 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_closely() {
   return std::nullopt;
 }
 
-// A viewpoint of a frontier cell in admitted cells that are not connected to the current place.
+// A viewpoint of a frontier cell in admitted cells that are not connected to the current place, or in cells that
+// would be if no cell was contested.
 VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
   std::vector<VoxelIndex> beyond;
   reachable().admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
@@ -224,7 +226,11 @@ VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
       }
     });
   });
-  return viewpoint_among(std::move(beyond));
+  if (const std::optional<VoxelIndex> viewpoint = viewpoint_among(std::move(beyond))) {
+    return viewpoint;
+  }
+  const std::optional<OccupancyMap> open = map_without_contested();
+  return open ? viewpoint_beyond(ReachableSpace(*open, platform(), current_)) : std::nullopt;
 }
 
 // The first of these places from which an observable frontier cell is in sight.

@@ -18,6 +18,10 @@ namespace detail {
 inline constexpr std::size_t kMostCells = std::size_t{1} << 18;
 inline constexpr std::size_t kMostScans = 64;
 
+inline bool is_settled(const OccupancyMap& map, const VoxelIndex& cell) {
+  return map.at(cell) != Occupancy::Unknown && !map.contested(cell);
+}
+
 inline int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
   return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
     return map.at(cell + step) != Occupancy::Unknown;
@@ -114,7 +118,7 @@ VANTAGE_INLINE void TriedViews::forget(const OccupancyMap& map) {
   const std::uint64_t oldest = crowded ? ages[ages.size() / 2] : 0;
   std::erase_if(looks_, [&](const auto& entry) {
     const auto& [cell, looks] = entry;
-    return looks.latest < oldest || map.at(cell) != Occupancy::Unknown ||
+    return looks.latest < oldest || detail::is_settled(map, cell) ||
            detail::known_around(map, cell) > looks.known_neighbours;
   });
   may_hold_.clear();
@@ -132,8 +136,10 @@ VANTAGE_INLINE bool TriedViews::arrived(const Pose& current) const {
 VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   const VoxelIndex goal = map.frame().cell_of(expected_->goal.translation());
   const std::vector<VoxelIndex>& sought = expected_->sought;
-  const auto is_unknown = [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; };
-  const bool served = !sought.empty() && std::none_of(sought.begin(), sought.end(), is_unknown);
+  const auto is_open = [&](const VoxelIndex& cell) {
+    return map.at(cell) == Occupancy::Unknown || (expected_->of_contested && map.contested(cell));
+  };
+  const bool served = !sought.empty() && std::none_of(sought.begin(), sought.end(), is_open);
   if (served) {
     std::erase_if(places_, [](const Place& place) { return place.failures == 0; });
   }
@@ -152,7 +158,7 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
     }
     const VoxelIndex here = map.frame().cell_of(current.translation());
     const auto look = [&](const VoxelIndex& cell, std::vector<VoxelIndex> Looks::*unseen) {
-      if (!is_unknown(cell)) {
+      if (!is_open(cell)) {
         return;
       }
       Looks& looks = new_look_at(map, cell);
@@ -169,7 +175,7 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
       look(cell, &Looks::missed);
     }
     const std::vector<VoxelIndex>& hoped = expected_->hoped;
-    if (std::all_of(hoped.begin(), hoped.end(), is_unknown)) {
+    if (std::all_of(hoped.begin(), hoped.end(), is_open)) {
       for (const VoxelIndex& cell : hoped) {
         look(cell, &Looks::hoped);
       }
@@ -255,6 +261,18 @@ VANTAGE_INLINE bool TriedViews::gave_up(const VoxelIndex& unknown) const {
   const auto patience = static_cast<std::size_t>(options_.patience);
   return looks != nullptr &&
          (looks->in_vain.size() >= patience || looks->in_vain.size() + looks->missed.size() >= 2 * patience);
+}
+
+VANTAGE_INLINE bool TriedViews::tried_at_distance(const VoxelIndex& cell, const VoxelIndex& place) const {
+  const Looks* looks = looks_at(cell);
+  const double here = detail::squared_distance(cell, place);
+  const auto is_alike = [&](const VoxelIndex& other) {
+    const double there = detail::squared_distance(cell, other);
+    return std::max(here, there) < 1.5 * 1.5 * std::min(here, there);
+  };
+  return looks != nullptr && (std::any_of(looks->in_vain.begin(), looks->in_vain.end(), is_alike) ||
+                              std::any_of(looks->clear.begin(), looks->clear.end(), is_alike) ||
+                              std::any_of(looks->missed.begin(), looks->missed.end(), is_alike));
 }
 
 VANTAGE_INLINE bool TriedViews::looked_closely(const OccupancyMap& map, const VoxelIndex& unknown) const {

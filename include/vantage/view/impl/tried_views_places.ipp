@@ -76,7 +76,8 @@ VANTAGE_INLINE bool TriedViews::expect(const OccupancyMap& map, const std::vecto
       return false;
     }
   }
-  expected_ = Expectation{path.back(), map.revision(), std::move(sought), std::move(hoped)};
+  const bool of_contested = !sought.empty() && map.contested(sought.front());
+  expected_ = Expectation{path.back(), map.revision(), std::move(sought), std::move(hoped), of_contested};
   return true;
 }
 

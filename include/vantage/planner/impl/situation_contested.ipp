@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Contested cells between the robot and a place with more to see: rays passed through them and rays ended in them or,
+// in the plane of a HeightBand, no floor was seen there. No body may be in them, so the robot looks at them again.
+//
+//       reachable cells         contested
+//     . . . . . . . . . . . | c c c c c c | . . place beyond . .   ? ? ?  unknown
+//           ^     ^     ^
+//           |     |     +--- first look, from the nearest place
+//           +-----+--- in vain: from places whose distance to the cells differs by half,
+//                      because a level sensor sees the floor from some distances only
+#include <algorithm>
+#include <utility>
+#include <vantage/planner/situation.hpp>
+#include <vantage/robot/grid_path.hpp>
+
+namespace vantage {
+namespace detail {
+
+inline std::vector<VoxelIndex> contested_cells(const OccupancyMap& map) {
+  std::vector<VoxelIndex> cells;
+  map.for_each_known([&](const VoxelIndex& cell, Occupancy state) {
+    if (state == Occupancy::Free && map.contested(cell)) {
+      cells.push_back(cell);
+    }
+  });
+  return cells;
+}
+
+}  // namespace detail
+
+// The map as if its contested cells were clear. None if it has none.
+VANTAGE_INLINE std::optional<OccupancyMap> Situation::map_without_contested() const {
+  const std::vector<VoxelIndex> cells = detail::contested_cells(*map_);
+  if (cells.empty()) {
+    return std::nullopt;
+  }
+  OccupancyMap open = *map_;
+  for (const VoxelIndex& cell : cells) {
+    open.set(cell, Occupancy::Free);
+  }
+  return open;
+}
+
+// A viewpoint of a frontier cell in `space` that lies further than the size of the body from all reachable cells.
+VANTAGE_INLINE std::optional<VoxelIndex> Situation::viewpoint_beyond(const ReachableSpace& space) const {
+  const std::int32_t near = map_->frame().cells_up_to(body_m());
+  std::vector<VoxelIndex> places = space.cells();
+  std::erase_if(places, [&](const VoxelIndex& cell) {
+    return reachable().any_in(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(near));
+  });
+  return viewpoint_among(std::move(places));
+}
+
+// A view of contested cells that are in the way to a place with more to see.
+VANTAGE_INLINE std::optional<Plan> Situation::look_at_contested() {
+  std::optional<OccupancyMap> open = map_without_contested();
+  while (open) {  // ends, because each round closes cells
+    const ReachableSpace space(*open, platform(), current_);
+    const std::optional<VoxelIndex> beyond = space.start() ? viewpoint_beyond(space) : std::nullopt;
+    const std::vector<VoxelIndex> cells = beyond ? contested_on_way(space, *beyond) : std::vector<VoxelIndex>();
+    for (const VoxelIndex& cell : cells) {
+      if (std::optional<Plan> look = look_again_at(cell, cells)) {
+        return look;
+      }
+    }
+    for (const VoxelIndex& cell : cells) {
+      open->set(cell, Occupancy::Occupied);
+    }
+    if (cells.empty()) {
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+// The contested cells around the first place on the way to `goal` that cannot be reached.
+VANTAGE_INLINE std::vector<VoxelIndex> Situation::contested_on_way(const ReachableSpace& space,
+                                                                   const VoxelIndex& goal) const {
+  std::vector<VoxelIndex> cells;
+  const std::vector<VoxelIndex> way = GridPaths(space).to(goal);
+  const auto first =
+      std::find_if(way.begin(), way.end(), [&](const VoxelIndex& cell) { return !reachable().contains(cell); });
+  if (first != way.end()) {
+    Pose pose = current_;
+    pose.translation() = space.position_in(*first);
+    for_each_cell(map_->frame().cells_touched_by(platform().body_box(pose)).grown(1), [&](const VoxelIndex& cell) {
+      if (map_->contested(cell)) {
+        cells.push_back(cell);
+      }
+    });
+  }
+  return cells;
+}
+
+// A view of `cell`, and of others of `cells` in its view, from the nearest place at a distance from which it was not
+// yet looked at.
+VANTAGE_INLINE std::optional<Plan> Situation::look_again_at(const VoxelIndex& cell,
+                                                            const std::vector<VoxelIndex>& cells) const {
+  Plan plan = open_plan();
+  const auto view_from = [&](const VoxelIndex& place) {
+    const Eigen::Vector3d position = reachable().position_in(place);
+    return platform().facing(position, map_->frame().centre_of(cell) - position);
+  };
+  const auto is_seen_in = [&](const Pose& view, const VoxelIndex& one) {
+    return sees(*map_, sensor(), view, one, plan.statistics.ray_operations);
+  };
+  std::vector<VoxelIndex> places = reachable().cells();
+  std::erase_if(places, [&](const VoxelIndex& place) {
+    return tried_.rests(place) || tried_.tried_at_distance(cell, place) || !is_seen_in(view_from(place), cell);
+  });
+  while (!places.empty()) {
+    const std::vector<VoxelIndex> way = GridPaths(reachable()).to_nearest(places);
+    const Pose view = view_from(way.back());
+    if (std::optional<std::vector<Pose>> path = path_to(view, way)) {
+      plan.outcome = Outcome::Move;
+      plan.goal.pose = view;
+      plan.path = *std::move(path);
+      std::copy_if(cells.begin(), cells.end(), std::back_inserter(plan.sought),
+                   [&](const VoxelIndex& one) { return is_seen_in(view, one); });
+      plan.reason = "a look at contested cells in the way to a place with more to see";
+      return plan;
+    }
+    std::erase(places, way.back());
+  }
+  return std::nullopt;
+}
+
+}  // namespace vantage
