@@ -41,7 +41,8 @@ class DrivenRobot {
         errors_(host, scene_) {
     make_planners();
     pose_ = pose_looking(errors_.start(world_), 0.3);
-    map_.declare_free(*platform_, pose_, start_clearance_m(known(), *platform_, scene_.planned_sensor()), *space_);
+    map_.declare_free(*platform_, pose_, start_clearance_m(known(), *platform_, scene_.sensor()), *space_);
+    map_.declare_floor(*platform_, pose_, scene_.sensor(), *space_);
     map_.forget_solid_cells();
     look();
     explore();
@@ -64,9 +65,9 @@ class DrivenRobot {
   /// The map that the planner plans in.
   [[nodiscard]] const OccupancyMap& known() const { return map_.known(); }
   [[nodiscard]] std::vector<VoxelIndex> left() const {
-    return still_observable(known(), *platform_, scene_.planned_sensor(), pose_, looked_);
+    return still_observable(known(), *platform_, scene_.sensor(), pose_, looked_);
   }
-  [[nodiscard]] double coverage() const { return space_->coverage(known(), *platform_, scene_.planned_sensor()); }
+  [[nodiscard]] double coverage() const { return space_->coverage(known(), *platform_, scene_.sensor()); }
   /// Whether a person or a door is so near that the map may show no space for the body.
   [[nodiscard]] bool ends_beside_a_moving_object() const { return meets_a_moving_object(pose_, scene_.cell_m); }
   /// Removes the barrier, looks at where it was and goes on. A robot without its fence is another platform, so
@@ -92,7 +93,7 @@ class DrivenRobot {
   // A robot that plans on its way has a motion model.
   void make_planners() {
     platform_ = scene_.platform();
-    PlannerSetup setup{.sensor = scene_.planned_sensor(), .platform = platform_, .seed = 7};
+    PlannerSetup setup{.sensor = scene_.sensor(), .platform = platform_, .seed = 7};
     if (host_ == Host::PlansOnItsWay) {
       setup.motion = TourPlanner::default_motion();
     }
@@ -229,6 +230,7 @@ class DrivenRobot {
       if (static_cells_in(there).empty() && !world_.is_solid(world_.frame.cell_of(there.translation()))) {
         pose_ = there;
         map_.declare_free(*platform_, pose_, 0.0, *space_);
+        map_.declare_floor(*platform_, pose_, scene_.sensor(), *space_);
         return;
       }
     }

@@ -20,7 +20,7 @@ class RobotMap {
         world_(world),
         map_({.resolution_m = scene.cell_m, .region = world.frame.box_of(world.solid.box())}) {
     if (scene.drives) {
-      band_.emplace(map_.options(), band_above_floor(scene.cell_m, scene.floor));
+      band_.emplace(map_.options(), band_above_floor(scene.cell_m));
     }
   }
 
@@ -32,8 +32,7 @@ class RobotMap {
       band_->follow(map_);
     }
   }
-  /// Declares the space around the robot free; in a band at all heights, in columns that are free in the true space,
-  /// and says that they have a floor.
+  /// Declares the space around the robot free; in a band at all heights, in columns that are free in the true space.
   void declare_free(const Platform& platform, const Pose& pose, double clearance_m, const TrueSpace& space) {
     if (band_) {
       declare_columns_free(platform, pose, clearance_m, space);
@@ -43,6 +42,20 @@ class RobotMap {
     if (scene_.rod_cells > 0.0) {
       map_.assume_free(platform.body_box(pose));
     }
+  }
+  /// Declares the floor around the robot, in a band, where there is one.
+  void declare_floor(const Platform& platform, const Pose& pose, const RangeSensor& sensor, const TrueSpace& space) {
+    if (!band_) {
+      return;
+    }
+    const double floor_m = start_floor_m(*band_, platform, sensor);
+    space.map().for_each_known([&](const VoxelIndex& column, Occupancy /*state*/) {
+      const Eigen::Vector3d centre = world_.frame.centre_of(column);
+      if (!space.is_solid(column) && (centre - pose.translation()).head<2>().norm() < floor_m) {
+        band_->assume_floor(centre, 0.0);
+      }
+    });
+    band_->follow(map_);
   }
   /// Solid cells become unknown: the operator does not declare them free.
   void forget_solid_cells() {
@@ -66,7 +79,6 @@ class RobotMap {
         box.min.z() = band_->options().min_height_m + 0.25 * scene_.cell_m + 1e-9;
         box.max.z() = band_->options().max_height_m - 1e-9;
         map_.assume_free(box);
-        band_->assume_floor(box);
       }
     });
     band_->follow(map_);

@@ -63,8 +63,7 @@ class HeightBand {
   /// Declares that a floor exists in every column at most `radius_m` metres from `centre_m` (world frame), for
   /// example where the robot stands: start_floor_m. Takes effect at the next `follow`, but not where all cells within
   /// one step below the band are seen to be free. Throws std::invalid_argument unless the centre is finite and the
-  /// radius in [0, 1000], and if
-  /// the disc touches more than OccupancyMap::kMaxBoxCells columns.
+  /// radius in [0, 1000], and if the disc touches more than OccupancyMap::kMaxBoxCells columns.
   void assume_floor(const Eigen::Vector3d& centre_m, double radius_m);
 
   /// Updates the plane from `map`. The cost depends on what has changed since the last call. If the revision of `map`
