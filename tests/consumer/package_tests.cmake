@@ -18,7 +18,7 @@ function(vantage_consumer_test name folder)
     NAME package.${name}
     COMMAND
       "${CMAKE_CTEST_COMMAND}" --build-and-test "${consumer_source}" "${consumer_build}/${folder}" --build-generator
-      "${CMAKE_GENERATOR}" --build-options "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
+      "${CMAKE_GENERATOR}" --build-noclean --build-options "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
       "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}" ${ARGN} --test-command "${CMAKE_CTEST_COMMAND}"
       --output-on-failure --no-tests=error)
   set_tests_properties(package.${name} PROPERTIES LABELS package PROCESSORS 2)
@@ -55,7 +55,7 @@ if(VANTAGE_INSTALL)
     package.installed package.installed_every_component package.installed_without_heavy package.unknown_component
     package.pkg_config PROPERTIES FIXTURES_REQUIRED installed_package)
 endif()
-# Both ways build the same files in one folder, so that the library is compiled once.
+# Both ways build the same files in one folder, which is not cleaned, so that the library is compiled once.
 set(part "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
          -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None)
 vantage_consumer_test(subdirectory part -DWAY=subdirectory ${part} ${without_heavy})
