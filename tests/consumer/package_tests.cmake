@@ -11,14 +11,14 @@ add_test(NAME package.install COMMAND "${CMAKE_COMMAND}" --install "${PROJECT_BI
 set_tests_properties(package.install PROPERTIES DEPENDS package.empty_prefix FIXTURES_SETUP installed_package
                                                 LABELS package)
 
-# vantage_consumer_test(<name> <option>...): configures, builds and runs the consumer. The options must come before
-# --test-command, which takes all arguments that follow.
-function(vantage_consumer_test name)
+# vantage_consumer_test(<name> <folder> <option>...): configures, builds and runs the consumer. The options must come
+# before --test-command, which takes all arguments that follow.
+function(vantage_consumer_test name folder)
   add_test(
     NAME package.${name}
     COMMAND
-      "${CMAKE_CTEST_COMMAND}" --build-and-test "${consumer_source}" "${consumer_build}/${name}" --build-generator
-      "${CMAKE_GENERATOR}" --build-options "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
+      "${CMAKE_CTEST_COMMAND}" --build-and-test "${consumer_source}" "${consumer_build}/${folder}" --build-generator
+      "${CMAKE_GENERATOR}" --build-noclean --build-options "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
       "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}" ${ARGN} --test-command "${CMAKE_CTEST_COMMAND}"
       --output-on-failure --no-tests=error)
   set_tests_properties(package.${name} PROPERTIES LABELS package PROCESSORS 2)
@@ -31,11 +31,12 @@ endforeach()
 
 get_property(components GLOBAL PROPERTY VANTAGE_COMPONENTS)
 if(VANTAGE_INSTALL)
-  vantage_consumer_test(installed -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}")
+  vantage_consumer_test(installed installed -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}")
   string(JOIN "$<SEMICOLON>" components_list ${components})
-  vantage_consumer_test(installed_every_component -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}"
-                        "-DCOMPONENTS=${components_list}" -DOTHER_PROCESSORS=ON)
-  vantage_consumer_test(installed_without_heavy -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}" ${without_heavy})
+  vantage_consumer_test(installed_every_component every_component -DWAY=installed
+                        "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DCOMPONENTS=${components_list}" -DOTHER_PROCESSORS=ON)
+  vantage_consumer_test(installed_without_heavy without_heavy -DWAY=installed "-DCMAKE_PREFIX_PATH=${consumer_prefix}"
+                        ${without_heavy})
   add_test(NAME package.unknown_component
            COMMAND "${CMAKE_COMMAND}" -G "${CMAKE_GENERATOR}" -S "${consumer_source}" -B
                    "${consumer_build}/unknown_component" -DWAY=installed "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
@@ -54,7 +55,9 @@ if(VANTAGE_INSTALL)
     package.installed package.installed_every_component package.installed_without_heavy package.unknown_component
     package.pkg_config PROPERTIES FIXTURES_REQUIRED installed_package)
 endif()
-vantage_consumer_test(subdirectory -DWAY=subdirectory "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}"
-                      -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
-vantage_consumer_test(fetchcontent -DWAY=fetchcontent "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
-                      -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None ${without_heavy})
+# Both ways build the same files in one folder, which is not cleaned, so that the library is compiled once.
+set(part "-DVANTAGE_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "-DFETCHCONTENT_SOURCE_DIR_VANTAGE=${PROJECT_SOURCE_DIR}"
+         -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=None)
+vantage_consumer_test(subdirectory part -DWAY=subdirectory ${part} ${without_heavy})
+vantage_consumer_test(fetchcontent part -DWAY=fetchcontent ${part} ${without_heavy})
+set_tests_properties(package.fetchcontent PROPERTIES DEPENDS package.subdirectory)

@@ -3,7 +3,7 @@
 """The same run, whatever it runs on: planners x threads x instruction sets x locales x folders.
 
 All but the times of a report, and the bytes of the map, must be the same. Usage: compare_runs.py PROGRAM [--sample];
-with --sample only one thing differs at a time, and the runs are short.
+with --sample all of them differ at once, and the runs are short.
 """
 
 import argparse
@@ -61,8 +61,7 @@ def main():
         folders = [folder / "a", folder / "of its own, ü" / "deep"]
         ways = list(itertools.product(("1", "3"), instruction_sets(), locales, folders))
         if given.sample:
-            first = ways[0]
-            ways = [way for way in ways if sum(a != b for a, b in zip(way, first)) <= 1]
+            ways = [ways[0], ways[-1]]
         views = "8" if given.sample else "25"
         for planner in planners:
             expected = None
