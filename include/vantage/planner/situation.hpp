@@ -131,10 +131,10 @@ class Situation {
   [[nodiscard]] std::optional<Plan> look_closely();
   [[nodiscard]] std::optional<Plan> look_at_contested();
   [[nodiscard]] std::optional<OccupancyMap> map_without_contested() const;
-  [[nodiscard]] std::optional<VoxelIndex> viewpoint_beyond(const ReachableSpace& space) const;
   [[nodiscard]] std::vector<VoxelIndex> contested_on_way(const ReachableSpace& space, const VoxelIndex& goal) const;
   [[nodiscard]] std::optional<Plan> look_again_at(const VoxelIndex& cell, const std::vector<VoxelIndex>& cells) const;
   [[nodiscard]] std::optional<VoxelIndex> place_cut_off() const;
+  [[nodiscard]] std::vector<VoxelIndex> out_of_reach(std::vector<VoxelIndex> places, double metres) const;
   [[nodiscard]] std::optional<VoxelIndex> viewpoint_among(std::vector<VoxelIndex> places) const;
 
   PlannerSetup setup_;

@@ -43,22 +43,12 @@ VANTAGE_INLINE std::optional<OccupancyMap> Situation::map_without_contested() co
   return open;
 }
 
-// A viewpoint of a frontier cell in `space` that lies further than the size of the body from all reachable cells.
-VANTAGE_INLINE std::optional<VoxelIndex> Situation::viewpoint_beyond(const ReachableSpace& space) const {
-  const std::int32_t near = map_->frame().cells_up_to(body_m());
-  std::vector<VoxelIndex> places = space.cells();
-  std::erase_if(places, [&](const VoxelIndex& cell) {
-    return reachable().any_in(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(near));
-  });
-  return viewpoint_among(std::move(places));
-}
-
 // A view of contested cells that are in the way to a place with more to see.
 VANTAGE_INLINE std::optional<Plan> Situation::look_at_contested() {
   std::optional<OccupancyMap> open = map_without_contested();
   while (open) {  // ends, because each round closes cells
     const ReachableSpace space(*open, platform(), current_);
-    const std::optional<VoxelIndex> beyond = space.start() ? viewpoint_beyond(space) : std::nullopt;
+    const std::optional<VoxelIndex> beyond = viewpoint_among(out_of_reach(space.cells(), body_m()));
     const std::vector<VoxelIndex> cells = beyond ? contested_on_way(space, *beyond) : std::vector<VoxelIndex>();
     for (const VoxelIndex& cell : cells) {
       if (std::optional<Plan> look = look_again_at(cell, cells)) {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
-#include <vantage/map/brick_set.hpp>
 #include <vantage/planner/situation.hpp>
+#include <vantage/robot/admitted_cells.hpp>
 #include <vantage/robot/grid_path.hpp>
 #include <vantage/view/target_view.hpp>
 
@@ -215,22 +215,25 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_closely() {
 }
 
 // A viewpoint of a frontier cell in admitted cells that are not connected to the current place, or in cells that
-// would be if no cell was contested.
+// would be admitted if no cell was contested.
 VANTAGE_INLINE std::optional<VoxelIndex> Situation::place_cut_off() const {
-  std::vector<VoxelIndex> beyond;
-  reachable().admitted().cells().for_each_brick([&](const VoxelIndex& brick, const BrickPlane& admitted) {
-    for_each_offset(admitted, [&](std::size_t offset) {
-      const VoxelIndex cell = Brick::cell_at(brick, offset);
-      if (!reachable().contains(cell)) {
-        beyond.push_back(cell);
-      }
-    });
-  });
-  if (const std::optional<VoxelIndex> viewpoint = viewpoint_among(std::move(beyond))) {
-    return viewpoint;
+  if (const auto place = viewpoint_among(out_of_reach(reachable().admitted().cells().cells(), 0.0))) {
+    return place;
   }
-  const std::optional<OccupancyMap> open = map_without_contested();
-  return open ? viewpoint_beyond(ReachableSpace(*open, platform(), current_)) : std::nullopt;
+  AdmittedCells opened;
+  if (const std::optional<OccupancyMap> open = map_without_contested()) {
+    opened.follow(*open, platform());
+  }
+  return viewpoint_among(out_of_reach(opened.cells().cells(), body_m()));
+}
+
+// Those of these places that are further away than this from every reachable cell, along an axis.
+VANTAGE_INLINE std::vector<VoxelIndex> Situation::out_of_reach(std::vector<VoxelIndex> places, double metres) const {
+  const std::int32_t near = map_->frame().cells_up_to(metres);
+  std::erase_if(places, [&](const VoxelIndex& cell) {
+    return reachable().any_in(VoxelBox{cell, cell + VoxelIndex{1, 1, 1}}.grown(near));
+  });
+  return places;
 }
 
 // The first of these places from which an observable frontier cell is in sight.
