@@ -122,7 +122,7 @@ TEST_P(ExplorationBehindABarrier, IsUnreachableUntilItOpens) {
       ++tried;
     }
   }
-  EXPECT_GE(named, barrier == Barrier::Ramp ? scenes / 2 : scenes);
+  EXPECT_GE(named, barrier == Barrier::Ramp ? scenes / 4 : scenes);
   EXPECT_GE(opened, barrier == Barrier::Ramp ? 0 : scenes - scenes / 4);
 }
 
