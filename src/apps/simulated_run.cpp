@@ -44,11 +44,11 @@ std::optional<Pose> start_in_world(const ExploreRequest& request) {
   return start;
 }
 
-// Where the floor is deeper than the robot can drive down, scans show a drop everywhere.
+// Where the floor is deeper than the robot can drive down, no scan shows one.
 void check_floor(const ExploreRequest& request, const TriangleScene& scene, const Eigen::Vector3d& start) {
   const std::optional<HeightBandOptions> band = band_of(request);
   const auto below_m = scene.hit_distance(start, -Eigen::Vector3d::UnitZ(), std::numeric_limits<double>::infinity());
-  if (!band || !below_m) {
+  if (!band || !band->needs_floor || !below_m) {
     return;
   }
   const double floor_m = std::round(1e3 * (start.z() - *below_m)) / 1e3;  // a ray is off by some 1e-8
@@ -72,7 +72,10 @@ std::string floor_of_band(const ExploreRequest& request) {
   std::ostringstream why;
   why << "; it is too large, or the lowest cells of --band " << request.band << " begin at "
       << band.plane().frame().corner_of({0, 0, band.layers().first}).z()
-      << " m, and the floor must lie below that and at most " << options->step_height_m << " m below LOW";
+      << " m, and the floor must lie below that";
+  if (options->needs_floor) {
+    why << " and at most " << options->step_height_m << " m below LOW (--no-floor: there may be none)";
+  }
   return why.str();
 }
 

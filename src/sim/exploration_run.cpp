@@ -146,6 +146,9 @@ void ExplorationRun::assume_start_free(const Pose& start) {
     }
     map_.assume_free(inner);
   });
+  if (!band_) {
+    return;
+  }
   truth_.map().for_each_known([&](const VoxelIndex& cell, Occupancy) {
     const Eigen::Vector3d centre = map_.frame().centre_of(cell);
     if ((centre - start.translation()).head<2>().norm() < start_floor_m_ && truth_.map().is_clear(cell)) {
