@@ -146,6 +146,16 @@ TEST_F(ProgramOutput, AFolderHoldsOneRun) {
   EXPECT_EQ(nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json")).at("views"), 2);
 }
 
+TEST_F(ProgramOutput, TheRecordGivesTheSameReportAgain) {
+  EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--audit --bound --quiet --out '" + out() + "'"), 3) << err_;
+  const std::string again = (folder_ / "again").string();
+  EXPECT_EQ(shell("vantage report '" + out() + "/run.record' --out '" + again + "' >/dev/null"), 0) << err_;
+  const auto report = nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json"));
+  const auto repeated = nlohmann::json::parse(test::read_all(fs::path(again) / "report.json"));
+  EXPECT_TRUE(report.contains("audit") && report.contains("path_bound"));
+  EXPECT_EQ(nlohmann::json::diff(report, repeated), nlohmann::json::array());
+}
+
 // A file size limit simulates a full disk: whichever file hits the limit, all existing files are complete.
 TEST_F(ProgramOutput, AFullDiskLeavesWholeFilesOnly) {
   std::size_t failed = 0;
