@@ -284,6 +284,8 @@ TEST_F(ProgramOutput, OptionsThatWouldDoNothingAreRefused) {
   for (const char* world : {"rooms", "table", "two-storey", "crates-open", "crates-closed"}) {
     refused(std::string("--world ") + world + " --size 8,8", "--size '8,8': ");
   }
+  refused("--world table list", "explore takes no 'list'; what it takes: vantage explore --help");
+  refused("list --world table", "explore takes no 'list'");
   refused("--world office --size 0,0", "--size '0,0' must be two numbers > 0");
   refused("--world office --size 1e9,8", "--size: '1e9' in '1e9,8' must be within 1e6 either way");
   refused("--world office --band 0.2,1.4 --yaw-only", "--yaw-only does not go with --band");
