@@ -89,7 +89,7 @@ int explore(const ExploreRequest& request) {
   recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), carrier.sensor, pictures.pictures(), progress,
-                recording.file());
+                recording);
   return exit_code_of(record.outcome, interruption);
 }
 

@@ -156,6 +156,34 @@ TEST_F(ProgramOutput, TheRecordGivesTheSameReportAgain) {
   EXPECT_EQ(nlohmann::json::diff(report, repeated), nlohmann::json::array());
 }
 
+TEST_F(ProgramOutput, AFileThatCannotBeWrittenKeepsNoOtherFromBeingWritten) {
+  const std::set<std::string> all{"report.json", "map.ot", "floor_plan.png", "run.record", "report.html"};
+  const std::string json = (folder_ / "report.json").string();
+  for (const std::string name : {"map.ot", "floor_plan.png", "report.html", "run.record"}) {
+    fs::remove_all(out());
+    fs::remove(json);
+    fs::create_directories(fs::path(out()) / name / "kept");
+    EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--quiet --out '" + out() + "' --json '" + json + "'"), 2);
+    expect_said(out() + "/" + name + ": cannot be written: Is a directory");
+    EXPECT_TRUE(fs::exists(json)) << name;
+    for (const std::string& other : all) {
+      EXPECT_EQ(fs::is_regular_file(fs::path(out()) / other),
+                other != name && (other != "report.html" || name != "run.record"))
+          << other << " without " << name;
+    }
+  }
+}
+
+TEST_F(ProgramOutput, AReportMadeAgainIsWrittenAsFarAsItCanBe) {
+  EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--quiet --out '" + out() + "'"), 3) << err_;
+  const fs::path again = folder_ / "again";
+  fs::create_directories(again / "report.html");
+  EXPECT_EQ(shell("vantage report '" + out() + "/run.record' --ply --out '" + again.string() + "' >/dev/null"), 2);
+  expect_said("report.html: cannot be written: Is a directory");
+  const std::set<std::string> expected{"report.json", "report.html", "map.ply", "points.ply"};
+  EXPECT_EQ(files_in(again), expected);
+}
+
 // A file size limit simulates a full disk: whichever file hits the limit, all existing files are complete.
 TEST_F(ProgramOutput, AFullDiskLeavesWholeFilesOnly) {
   std::size_t failed = 0;
