@@ -124,6 +124,7 @@ void add_commands(CLI::App& app, int& exit_code) {
     command->group("Commands");
   }
   allow_extras(app);
+  app.require_subcommand(0, 1);  // a second one is an extra of the first; check_command tells that there is none
   app.parse_complete_callback([&app] { check_command(app); });
   app.footer(
       "What a command takes: vantage COMMAND --help\n"

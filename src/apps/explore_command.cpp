@@ -72,7 +72,6 @@ int explore(const ExploreRequest& request) {
   if (record.coverage) {
     printer.observable(observable.seconds());
   }
-  recording.finish(record);
   if (request.audit && !interruption.asked()) {
     printer.working("audit", "checking what could still be observed ...");
     record.audit = audit_of(run, carrier, record, request.threads);
@@ -87,9 +86,10 @@ int explore(const ExploreRequest& request) {
       printer.bound(record);
     }
   }
+  recording.finish(record);
   progress << recording.cost(record);
   write_outputs(request.out, request.json, record, run.map(), carrier.sensor, pictures.pictures(), progress,
-                recording.file());
+                recording);
   return exit_code_of(record.outcome, interruption);
 }
 

@@ -228,7 +228,7 @@ int reconstruct(const ReconstructRequest& request) {
   }
   recording.finish(record);
   progress << recording.cost(record);
-  write_outputs(shared.out, shared.json, record, run.map(), sensor, {}, progress, recording.file());
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, {}, progress, recording);
   return exit_code_of(record.outcome, interruption);
 }
 

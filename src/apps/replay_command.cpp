@@ -17,6 +17,7 @@
 #include "apps/run_recording.hpp"
 #include "apps/select_run.hpp"
 #include "apps/shared_options.hpp"
+#include "apps/simulated_run.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -73,21 +74,28 @@ void print_summary(std::ostream& out, const ReplayRecord& record, const Recordin
 }
 
 void write_replay_outputs(const ReplayRequest& request, const ReplayRecord& record, const Recording& recording,
-                          const OccupancyMap& map, const std::optional<std::filesystem::path>& run_record,
+                          const OccupancyMap& map, const RunRecording& recorder, OutputFiles& files,
                           std::ostream& progress) {
   const std::string json = replay_json(record, recording, request.format);
-  if (run_record) {
-    tell_files(progress, write_replay_files(request.run.out, record, json, map, *run_record));
+  if (!request.run.out.empty()) {
+    write_replay_files(request.run.out, record, json, map, recorder, files);
+    tell_files(progress, files.written());
   }
-  give_json(request.run.json, json);
+  files.attempt([&] { give_json(request.run.json, json); });
+  files.check();
 }
 
 void write_frame_sheet(const std::string& out, const ReplayRecord& record, const Recording& recording,
-                       const RecordedReading& reading, const OccupancyMap& map) {
-  const std::filesystem::path folder = std::filesystem::path(out) / "frames";
-  make_folder(folder);
-  write_png(frame_sheet(record, recording, reading, map),
-            folder / (recording.frames()[record.frames.back().frame].name + ".png"));
+                       const RecordedReading& reading, const OccupancyMap& map, OutputFiles& files) {
+  if (out.empty()) {
+    return;
+  }
+  files.attempt([&] {
+    const std::filesystem::path folder = std::filesystem::path(out) / "frames";
+    make_folder(folder);
+    write_png(frame_sheet(record, recording, reading, map),
+              folder / (recording.frames()[record.frames.back().frame].name + ".png"));
+  });
 }
 
 int replay(const ReplayRequest& request) {
@@ -122,6 +130,7 @@ int replay(const ReplayRequest& request) {
   const ReplaySpan span{.every = request.every, .max_views = request.run.max_views, .stop = [&interruption] {
                           return interruption.asked();
                         }};
+  OutputFiles files;
   RunPrinter printer(progress, told.is_terminal(), {.count = frame_count(recording, span), .at_most = false});
   ReplayRecord record =
       apps::replay(recording, span, map, *platform, planners,
@@ -133,23 +142,19 @@ int replay(const ReplayRequest& request) {
                        progress << frame_line(so_far, recording, so_far.run.views.back().pose) << std::flush;
                      }
                      recorder.look(so_far.run.views.back(), known);
-                     if (!request.run.out.empty()) {
-                       write_frame_sheet(request.run.out, so_far, recording, reading, known);
-                     }
+                     write_frame_sheet(request.run.out, so_far, recording, reading, known, files);
                    });
   if (map.bounds().empty() && !request.run.region.empty() && record.run.outcome != RunOutcome::Interrupted) {
     record.run.reason = "--region " + request.run.region + " holds nothing that a frame shows";
   }
+  tell_request(record.run, request.run);
   record.run.command = "replay";
   record.run.world = request.dataset;
   record.run.planner = first->name();
-  record.run.seed = request.run.seed;
-  record.run.threads = request.run.threads;
-  record.run.resolution_m = request.run.resolution_m;
   print_summary(progress, record, recording, told.is_terminal());
   recorder.finish(record.run);
   progress << recorder.cost(record.run);
-  write_replay_outputs(request, record, recording, map, recorder.file(), progress);
+  write_replay_outputs(request, record, recording, map, recorder, files, progress);
   return record.run.outcome == RunOutcome::Interrupted ? interruption.exit_code()
          : record.to_the_end                           ? kDone
                                                        : kBudget;

@@ -6,11 +6,9 @@
 #include <vantage/map/octomap_bridge.hpp>
 #include <vantage/picture/depth_picture.hpp>
 #include <vantage/picture/floor_plan.hpp>
-#include <vantage/report/report_html.hpp>
 #include <vantage/vision/read_picture.hpp>
 
 #include <vantage/map/impl/whole_file.hpp>
-#include "apps/run_files.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -66,19 +64,16 @@ Picture frame_sheet(const ReplayRecord& record, const Recording& recording, cons
                           kWidth);
 }
 
-std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
-                                                      const std::string& json, const OccupancyMap& map,
-                                                      const std::filesystem::path& run_record) {
-  std::vector<std::filesystem::path> files{folder / "report.json",    folder / "map.ot",
-                                           folder / "floor_plan.png", run_record,
-                                           folder / "report.html",    folder / "frames"};
-  detail::write_whole_file(files[0], json);
-  save_octomap(map, files[1]);
+void write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record, const std::string& json,
+                        const OccupancyMap& map, const RunRecording& recording, OutputFiles& files) {
+  using std::filesystem::path;
+  files.write(folder / "report.json", [&](const path& file) { detail::write_whole_file(file, json); });
+  files.write(folder / "map.ot", [&](const path& file) { save_octomap(map, file); });
   FloorPlanContent content = journey(record.run);
-  content.title = std::filesystem::path(record.run.world).filename().string() + ": map and frames";
-  write_png(draw_floor_plan(map, content), files[2]);
-  write_report_html(std::vector<ReportedRun>{{json, run_record}}, folder / "report.html");
-  return files;
+  content.title = path(record.run.world).filename().string() + ": map and frames";
+  files.write(folder / "floor_plan.png", [&](const path& file) { write_png(draw_floor_plan(map, content), file); });
+  write_page(recording, json, files);
+  files.add(folder / "frames");
 }
 
 }  // namespace vantage::apps

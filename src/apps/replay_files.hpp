@@ -6,9 +6,9 @@
 #include <vantage/map/occupancy_map.hpp>
 #include <vantage/picture/picture.hpp>
 #include <vantage/vision/recording.hpp>
-#include <vector>
 
 #include "apps/replay_run.hpp"
+#include "apps/run_recording.hpp"
 
 namespace vantage::apps {
 
@@ -17,11 +17,9 @@ namespace vantage::apps {
 [[nodiscard]] Picture frame_sheet(const ReplayRecord& record, const Recording& recording,
                                   const RecordedReading& reading, const OccupancyMap& map);
 
-/// Writes report.json, map.ot, floor_plan.png and report.html (from the record) into a folder, which is created.
-/// Returns the files in order, including the record and the folder of the frame pictures. Throws std::runtime_error
-/// with the path that cannot be written.
-std::vector<std::filesystem::path> write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record,
-                                                      const std::string& json, const OccupancyMap& map,
-                                                      const std::filesystem::path& run_record);
+/// Writes report.json, map.ot, floor_plan.png and report.html (from the record) into `folder`, and lists them with
+/// the record and the folder of the frame pictures.
+void write_replay_files(const std::filesystem::path& folder, const ReplayRecord& record, const std::string& json,
+                        const OccupancyMap& map, const RunRecording& recording, OutputFiles& files);
 
 }  // namespace vantage::apps

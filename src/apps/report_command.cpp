@@ -7,7 +7,6 @@
 #include <vantage/report/report_html.hpp>
 #include <vantage/report/report_json.hpp>
 #include <vantage/report/run_record_reader.hpp>
-#include <vector>
 
 #include "apps/report_commands.hpp"
 #include "apps/run_files.hpp"
@@ -30,26 +29,30 @@ void report(const ReportRequest& request) {
     apply_changes(*cycle, map);
   }
   const RunRecord& run = reader.run();
-  const std::filesystem::path folder = request.out;
+  using std::filesystem::path;
+  const path folder = request.out;
   make_folder(folder);
-  write_report_json(run, folder / "report.json");
-  write_report_html(request.record, folder / "report.html");
+  OutputFiles files;
+  files.write(folder / "report.json", [&](const path& file) { write_report_json(run, file); });
+  files.write(folder / "report.html", [&](const path& file) { write_report_html(request.record, file); });
   std::cout << run.planner << " in " << run.world << ": " << run.views.size() << " views, " << to_string(run.outcome)
             << ": " << run.reason << '\n';
   if (!reader.tail().empty()) {
     std::cout << "What follows the last view could not be used: " << reader.tail() << '\n';
   }
-  std::vector<std::filesystem::path> files{folder / "report.json", folder / "report.html"};
   if (request.ply) {
-    files.insert(files.end(), {folder / "map.ply", folder / "points.ply"});
-    write_ply_mesh(map, folder / "map.ply");
-    write_ply_points(map, folder / "points.ply");
+    files.write(folder / "map.ply", [&](const path& file) { write_ply_mesh(map, file); });
+    files.write(folder / "points.ply", [&](const path& file) { write_ply_points(map, file); });
   }
   if (request.paraview) {
-    const std::vector<std::filesystem::path> series = write_paraview(request.record, folder);
-    files.insert(files.end(), series.begin(), series.end());
+    files.attempt([&] {
+      for (const path& file : write_paraview(request.record, folder)) {
+        files.add(file);
+      }
+    });
   }
-  tell_files(std::cout, files);
+  tell_files(std::cout, files.written());
+  files.check();
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <vantage/map/impl/whole_file.hpp>
+#include "apps/run_recording.hpp"
 
 namespace vantage::apps {
 namespace {
@@ -65,6 +66,31 @@ void PlanPictures::look(const ExplorationPlanner& planner, const OccupancyMap& m
   }
 }
 
+bool OutputFiles::attempt(const std::function<void()>& write) {
+  try {
+    write();
+    return true;
+  } catch (const std::runtime_error& error) {
+    if (errors_.find(error.what()) == std::string::npos) {
+      errors_ += (errors_.empty() ? "" : "; ") + std::string(error.what());
+    }
+    return false;
+  }
+}
+
+void OutputFiles::write(const std::filesystem::path& file,
+                        const std::function<void(const std::filesystem::path&)>& write) {
+  if (attempt([&] { write(file); })) {
+    add(file);
+  }
+}
+
+void OutputFiles::check() const {
+  if (!errors_.empty()) {
+    throw std::runtime_error(errors_);
+  }
+}
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -80,6 +106,9 @@ void make_run_folder(const std::filesystem::path& folder) {
   const auto remove = [&](const std::filesystem::path& file) {
     if (!error) {
       std::filesystem::remove(file, error);
+    }
+    if (error == std::errc::directory_not_empty) {  // no file of a run; the one of that name cannot be written
+      error.clear();
     }
   };
   for (const char* name : {"report.json", "report.html", "run.record", "map.ot", "floor_plan.png", "voids.png",
@@ -100,26 +129,6 @@ void make_run_folder(const std::filesystem::path& folder) {
   }
 }
 
-std::vector<std::filesystem::path> write_run_files(const std::filesystem::path& folder, const RunRecord& run,
-                                                   const OccupancyMap& map, const RangeSensor& sensor,
-                                                   const std::map<std::string, Picture>& pictures,
-                                                   const std::optional<std::filesystem::path>& record) {
-  std::vector<std::filesystem::path> files{folder / "report.json", folder / "map.ot", folder / "floor_plan.png"};
-  write_report_json(run, files[0]);
-  save_octomap(map, files[1]);
-  write_png(floor_plan(run, map, sensor), files[2]);
-  for (const auto& [name, picture] : pictures) {
-    files.push_back(folder / name);
-    write_png(picture, files.back());
-  }
-  if (record) {
-    files.push_back(*record);
-    files.push_back(folder / "report.html");
-    write_report_html(std::vector<ReportedRun>{{report_json(run), *record}}, files.back());
-  }
-  return files;
-}
-
 void tell_files(std::ostream& out, const std::vector<std::filesystem::path>& files) {
   out << "\nwrote\n";
   for (const std::filesystem::path& file : files) {
@@ -132,6 +141,17 @@ void give_json(const std::string& json, const std::string& report) {
     std::cout << report << std::flush;
   } else if (!json.empty()) {
     detail::write_whole_file(json, report);
+  }
+}
+
+void write_page(const RunRecording& recording, const std::string& report, OutputFiles& files) {
+  if (files.attempt([&] { recording.check(); })) {
+    files.add(*recording.file());
+  }
+  if (recording.file()) {
+    files.write(recording.file()->parent_path() / "report.html", [&](const std::filesystem::path& file) {
+      write_report_html(std::vector<ReportedRun>{{report, *recording.file()}}, file);
+    });
   }
 }
 
@@ -185,11 +205,22 @@ void check_targets(const std::string& out, const std::string& json) {
 
 void write_outputs(const std::string& out, const std::string& json, const RunRecord& run, const OccupancyMap& map,
                    const RangeSensor& sensor, const std::map<std::string, Picture>& pictures, std::ostream& progress,
-                   const std::optional<std::filesystem::path>& record) {
+                   const RunRecording& recording) {
+  using std::filesystem::path;
+  OutputFiles files;
   if (!out.empty()) {
-    tell_files(progress, write_run_files(out, run, map, sensor, pictures, record));
+    const path folder = out;
+    files.write(folder / "report.json", [&](const path& file) { write_report_json(run, file); });
+    files.write(folder / "map.ot", [&](const path& file) { save_octomap(map, file); });
+    files.write(folder / "floor_plan.png", [&](const path& file) { write_png(floor_plan(run, map, sensor), file); });
+    for (const auto& [name, picture] : pictures) {
+      files.write(folder / name, [&picture = picture](const path& file) { write_png(picture, file); });
+    }
+    write_page(recording, report_json(run), files);
+    tell_files(progress, files.written());
   }
-  give_json(json, report_json(run));
+  files.attempt([&] { give_json(json, report_json(run)); });
+  files.check();
 }
 
 }  // namespace vantage::apps

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vantage/planner/harmonic_planner.hpp>
 
-#include "apps/run_files.hpp"
-
 namespace vantage::apps {
 namespace {
 
@@ -32,22 +30,26 @@ Plan RunRecording::plan(const OccupancyMap& map, const Pose& current) {
 }
 
 void RunRecording::look(const ViewRecord& view, const OccupancyMap& map) {
-  if (folder_.empty()) {
+  if (folder_.empty() || !writable_) {
     return;
   }
   if (!recorder_) {
     make_run_folder(folder_);
-    recorder_.emplace(folder_ / "run.record", setup_);
   }
   const auto start = std::chrono::steady_clock::now();
-  recorder_->record(map, view, plan_ ? &*plan_ : nullptr, plan_ ? field_of(planner_) : nullptr);
+  writable_ = errors_.attempt([&] {
+    if (!recorder_) {
+      recorder_.emplace(folder_ / "run.record", setup_);
+    }
+    recorder_->record(map, view, plan_ ? &*plan_ : nullptr, plan_ ? field_of(planner_) : nullptr);
+  });
   plan_.reset();
   milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 void RunRecording::finish(const RunRecord& run) {
-  if (recorder_) {
-    recorder_->finish(run);
+  if (recorder_ && writable_) {
+    errors_.attempt([&] { recorder_->finish(run); });
   }
 }
 

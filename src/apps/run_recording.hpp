@@ -9,6 +9,8 @@
 #include <vantage/report/run_record.hpp>
 #include <vantage/report/run_recorder.hpp>
 
+#include "apps/run_files.hpp"
+
 namespace vantage::apps {
 
 /// A planner that passes every call on to another one, keeps its last plan, and writes the run into a folder.
@@ -24,13 +26,15 @@ class RunRecording final : public ExplorationPlanner {
     planner_.report(map, current, result);
   }
 
-  /// Called after each view with the map at that time. Throws std::runtime_error with the path that cannot be
-  /// written.
+  /// Called after each view with the map at that time. Throws std::runtime_error if there can be no folder. A record
+  /// that cannot be written ends with the view before, and the run goes on.
   void look(const ViewRecord& view, const OccupancyMap& map);
   /// Called at the end of the run, before its page is written.
   void finish(const RunRecord& run);
   /// The record file, once it holds the first view.
   [[nodiscard]] std::optional<std::filesystem::path> file() const;
+  /// Throws std::runtime_error with the path and the reason if the record could not be written.
+  void check() const { errors_.check(); }
   /// A line for the summary: the time of recording beside those of inserting and planning; empty if nothing was
   /// recorded.
   [[nodiscard]] std::string cost(const RunRecord& run) const;
@@ -41,6 +45,8 @@ class RunRecording final : public ExplorationPlanner {
   RunRecorderSetup setup_;
   std::optional<RunRecorder> recorder_;
   std::optional<Plan> plan_;  // made since the previous view
+  OutputFiles errors_;
+  bool writable_ = true;
   double milliseconds_ = 0.0;
 };
 

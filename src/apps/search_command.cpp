@@ -255,7 +255,7 @@ int search(const SearchRequest& request) {
         views_needed(*arm, sensor, *first_map, truth.map(), TriangleScene(world.mesh), request.bound, shared.threads);
     print_views_needed(progress, needed, shared.resolution_m);
   }
-  write_outputs(shared.out, shared.json, record, run.map(), sensor, pictures.pictures(), progress, recording.file());
+  write_outputs(shared.out, shared.json, record, run.map(), sensor, pictures.pictures(), progress, recording);
   return exit_code_of(record.outcome, interruption);
 }
 

@@ -110,7 +110,7 @@ RecordHead head_of(const std::string& text) {
 }
 
 std::string end_json(const RunRecord& run) {
-  return dumped({{"outcome", std::string(to_string(run.outcome))},
+  json object = {{"outcome", std::string(to_string(run.outcome))},
                  {"reason", run.reason},
                  {"coverage", value_or_null(run.coverage)},
                  {"observable_cells", run.observable_cells},
@@ -122,7 +122,16 @@ std::string end_json(const RunRecord& run) {
                  {"integration_operations", run.integration_operations},
                  {"planning_operations", run.planning_operations},
                  {"cells_refused", run.cells_refused},
-                 {"peak_memory_mb", run.peak_memory_mb}});
+                 {"peak_memory_mb", run.peak_memory_mb}};
+  if (run.path_bound) {
+    object["path_bound"] = {{"length_m", run.path_bound->length_m}, {"is_met", run.path_bound->is_met}};
+  }
+  if (run.audit) {
+    object["audit"] = {{"cells_checked", run.audit->cells_checked},
+                       {"looked_at_in_vain", run.audit->looked_at_in_vain},
+                       {"observable_left", run.audit->observable_left}};
+  }
+  return dumped(object);
 }
 
 void read_end(const std::string& text, RunRecord& run) {
@@ -145,6 +154,17 @@ void read_end(const std::string& text, RunRecord& run) {
   take(object, "planning_operations", run.planning_operations);
   take(object, "cells_refused", run.cells_refused);
   take(object, "peak_memory_mb", run.peak_memory_mb);
+  if (const auto found = object.find("path_bound"); found != object.end()) {
+    PathBound& bound = run.path_bound.emplace();
+    take(*found, "length_m", bound.length_m);
+    take(*found, "is_met", bound.is_met);
+  }
+  if (const auto found = object.find("audit"); found != object.end()) {
+    AuditRecord& audit = run.audit.emplace();
+    take(*found, "cells_checked", audit.cells_checked);
+    take(*found, "looked_at_in_vain", audit.looked_at_in_vain);
+    take(*found, "observable_left", audit.observable_left);
+  }
 }
 
 }  // namespace vantage::detail

@@ -147,9 +147,10 @@ std::string bytes_of(const std::filesystem::path& path) {
   return bytes;
 }
 
+constexpr std::string_view kBlank = " \t\r\n";
+
 // The text of an attribute of an XML tag, without quotes.
 std::optional<std::string_view> attribute_in(std::string_view tag, std::string_view name) {
-  constexpr std::string_view kBlank = " \t\r\n";
   for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
     const std::size_t equals = tag.find_first_not_of(kBlank, at + name.size());
     if (equals == std::string_view::npos || tag[equals] != '=' ||
@@ -163,23 +164,44 @@ std::optional<std::string_view> attribute_in(std::string_view tag, std::string_v
   return std::nullopt;
 }
 
-// Assimp reads any text as some number, and takes that for the unit.
-void check_collada_unit(const std::filesystem::path& path) {
-  const std::string text = bytes_of(path);
-  const std::size_t unit = text.find("<unit ");
-  const std::string_view tag = unit == std::string::npos
-                                   ? std::string_view()
-                                   : std::string_view(text).substr(unit, text.find('>', unit) - unit);
-  const std::optional<std::string_view> value = attribute_in(tag, "meter");
-  if (!value) {
-    return;
+// Removes the blanks at both ends of a part of `text`.
+void trim(std::string& text, std::string_view part) {
+  const std::size_t first = part.find_first_not_of(kBlank);
+  if (first != std::string_view::npos) {
+    const auto begin = static_cast<std::size_t>(part.data() - text.data());
+    const std::size_t behind = part.find_last_not_of(kBlank) + 1;
+    text.erase(begin + behind, part.size() - behind).erase(begin, first);
   }
-  double metres = 0.0;
-  const char* const last = value->data() + value->size();
-  const auto [end, error] = std::from_chars(value->data(), last, metres);
-  if (error != std::errc{} || end != last || !std::isfinite(metres) || metres <= 0.0) {
-    refuse(path, "its unit is meter=\"" + std::string(*value) + "\", must be a number > 0");
+}
+
+// A COLLADA file without the blanks around its unit and its axis, which XML allows and Assimp does not expect.
+// Assimp reads any text as some number, so the unit is checked.
+std::string collada_text(const std::filesystem::path& path) {
+  constexpr std::string_view kAxis = "<up_axis>";
+  std::string text = bytes_of(path);
+  if (text.empty()) {
+    refuse(path, "is empty");
   }
+  if (const std::size_t axis = text.find(kAxis); axis != std::string::npos) {
+    const std::size_t begin = axis + kAxis.size();
+    trim(text, std::string_view(text).substr(begin, text.find('<', begin) - begin));
+  }
+  const auto unit_in = [](std::string_view whole) {
+    const std::size_t unit = std::min(whole.find("<unit"), whole.size());
+    return attribute_in(whole.substr(unit, whole.find('>', unit) - unit), "meter");
+  };
+  if (const auto value = unit_in(text)) {
+    trim(text, *value);
+  }
+  if (const auto value = unit_in(text)) {
+    double metres = 0.0;
+    const char* const last = value->data() + value->size();
+    const auto [end, error] = std::from_chars(value->data(), last, metres);
+    if (error != std::errc{} || end != last || !std::isfinite(metres) || metres <= 0.0) {
+      refuse(path, "its unit is meter=\"" + std::string(*value) + "\", must be a number > 0");
+    }
+  }
+  return text;
 }
 
 // Assimp trusts the counts and indices of a PLY file, so PLY files are checked first.
@@ -187,7 +209,11 @@ const aiScene* parsed(const std::filesystem::path& path, Assimp::Importer& impor
   std::array<char, 3> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   if (ending_of(path) != ".ply" && !detail::begins_as_ply(std::string_view(start.data(), start.size()))) {
-    return importer.ReadFile(path.string(), 0);
+    if (ending_of(path) != ".dae") {
+      return importer.ReadFile(path.string(), 0);
+    }
+    const std::string text = collada_text(path);
+    return importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae");
   }
   const std::string bytes = bytes_of(path);
   try {
@@ -227,9 +253,6 @@ TriangleMesh read_mesh_file(const std::filesystem::path& path, const MeshFileOpt
   }
   if (!std::filesystem::is_regular_file(path, error)) {
     refuse(path, "is not a file");
-  }
-  if (ending_of(path) == ".dae") {
-    check_collada_unit(path);
   }
   Assimp::Importer importer;
   // Assimp obeys the axis of a COLLADA file: the y axis of its scene is up.

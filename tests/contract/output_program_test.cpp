@@ -146,6 +146,44 @@ TEST_F(ProgramOutput, AFolderHoldsOneRun) {
   EXPECT_EQ(nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json")).at("views"), 2);
 }
 
+TEST_F(ProgramOutput, TheRecordGivesTheSameReportAgain) {
+  EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--audit --bound --quiet --out '" + out() + "'"), 3) << err_;
+  const std::string again = (folder_ / "again").string();
+  EXPECT_EQ(shell("vantage report '" + out() + "/run.record' --out '" + again + "' >/dev/null"), 0) << err_;
+  const auto report = nlohmann::json::parse(test::read_all(fs::path(out()) / "report.json"));
+  const auto repeated = nlohmann::json::parse(test::read_all(fs::path(again) / "report.json"));
+  EXPECT_TRUE(report.contains("audit") && report.contains("path_bound"));
+  EXPECT_EQ(nlohmann::json::diff(report, repeated), nlohmann::json::array());
+}
+
+TEST_F(ProgramOutput, AFileThatCannotBeWrittenKeepsNoOtherFromBeingWritten) {
+  const std::set<std::string> all{"report.json", "map.ot", "floor_plan.png", "run.record", "report.html"};
+  const std::string json = (folder_ / "report.json").string();
+  for (const std::string name : {"map.ot", "floor_plan.png", "report.html", "run.record"}) {
+    fs::remove_all(out());
+    fs::remove(json);
+    fs::create_directories(fs::path(out()) / name / "kept");
+    EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--quiet --out '" + out() + "' --json '" + json + "'"), 2);
+    expect_said(out() + "/" + name + ": cannot be written: Is a directory");
+    EXPECT_TRUE(fs::exists(json)) << name;
+    for (const std::string& other : all) {
+      EXPECT_EQ(fs::is_regular_file(fs::path(out()) / other),
+                other != name && (other != "report.html" || name != "run.record"))
+          << other << " without " << name;
+    }
+  }
+}
+
+TEST_F(ProgramOutput, AReportMadeAgainIsWrittenAsFarAsItCanBe) {
+  EXPECT_EQ(shell(std::string("vantage ") + kShortRun + "--quiet --out '" + out() + "'"), 3) << err_;
+  const fs::path again = folder_ / "again";
+  fs::create_directories(again / "report.html");
+  EXPECT_EQ(shell("vantage report '" + out() + "/run.record' --ply --out '" + again.string() + "' >/dev/null"), 2);
+  expect_said("report.html: cannot be written: Is a directory");
+  const std::set<std::string> expected{"report.json", "report.html", "map.ply", "points.ply"};
+  EXPECT_EQ(files_in(again), expected);
+}
+
 // A file size limit simulates a full disk: whichever file hits the limit, all existing files are complete.
 TEST_F(ProgramOutput, AFullDiskLeavesWholeFilesOnly) {
   std::size_t failed = 0;
@@ -274,6 +312,8 @@ TEST_F(ProgramOutput, OptionsThatWouldDoNothingAreRefused) {
   for (const char* world : {"rooms", "table", "two-storey", "crates-open", "crates-closed"}) {
     refused(std::string("--world ") + world + " --size 8,8", "--size '8,8': ");
   }
+  refused("--world table list", "explore takes no 'list'; what it takes: vantage explore --help");
+  refused("list --world table", "explore takes no 'list'");
   refused("--world office --size 0,0", "--size '0,0' must be two numbers > 0");
   refused("--world office --size 1e9,8", "--size: '1e9' in '1e9,8' must be within 1e6 either way");
   refused("--world office --band 0.2,1.4 --yaw-only", "--yaw-only does not go with --band");

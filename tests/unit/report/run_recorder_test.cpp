@@ -138,6 +138,8 @@ TEST(RunRecorder, WhatIsReadIsWhatWasRecorded) {
     end.coverage = 0.75;
     end.observable_cells = 99;
     end.collisions = 2;
+    end.path_bound = {.length_m = 12.5, .is_met = true};
+    end.audit = {.cells_checked = 9, .looked_at_in_vain = 3, .observable_left = 1};
     recorder.finish(end);
     EXPECT_EQ(recorder.bytes(), std::filesystem::file_size(file));
 
@@ -155,6 +157,12 @@ TEST(RunRecorder, WhatIsReadIsWhatWasRecorded) {
     EXPECT_EQ(run.reason, "a door is shut");
     EXPECT_EQ(run.coverage, 0.75);
     EXPECT_EQ(run.collisions, 2U);
+    ASSERT_TRUE(run.path_bound && run.audit);
+    EXPECT_EQ(run.path_bound->length_m, 12.5);
+    EXPECT_TRUE(run.path_bound->is_met);
+    EXPECT_EQ(run.audit->cells_checked, 9U);
+    EXPECT_EQ(run.audit->looked_at_in_vain, 3U);
+    EXPECT_EQ(run.audit->observable_left, 1U);
     EXPECT_EQ(run.views.size(), 7U);
     EXPECT_EQ(run.travelled.size(), 14U);
     runs += 1;

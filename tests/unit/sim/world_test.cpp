@@ -89,6 +89,11 @@ TEST_F(MeshFile, KnowsItsAxisAndUpOverrules) {
   EXPECT_TRUE(read_mesh_file(z_up).bounds().max.isApprox(Eigen::Vector3d(1, 2, 3), 1e-6));
   const auto small = write("small.dae", collada_triangle("Z_UP", "0.01"));
   EXPECT_TRUE(extent(small, {}).isApprox(0.01 * as_it_is, 1e-5)) << extent(small, {}).transpose();
+  for (const std::string blank : {" ", "\n\t"}) {
+    const auto spaced = write("spaced.dae", collada_triangle(blank + "Z_UP" + blank, blank + "0.01" + blank));
+    EXPECT_TRUE(extent(spaced, {}).isApprox(0.01 * as_it_is, 1e-5)) << extent(spaced, {}).transpose();
+    EXPECT_TRUE(extent(spaced, {.up = MeshFileOptions::Up::Y}).isApprox(0.01 * turned, 1e-5));
+  }
 }
 
 TEST_F(MeshFile, SaysWhatIsWrongAndWhere) {
