@@ -61,8 +61,8 @@ class HeightBand {
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> layers() const { return {lowest_, above_}; }
 
   /// Declares that a floor exists in every column at most `radius_m` metres from `centre_m` (world frame), for
-  /// example where the robot stands: start_floor_m. Takes effect at the next `follow`, but not where all cells within
-  /// one step below the band are seen to be free. Throws std::invalid_argument unless the centre is finite and the
+  /// example where the robot stands: start_floor_m. Takes effect at the next `follow`, but not where a ray was seen to go
+  /// or end below that step. Throws std::invalid_argument unless the centre is finite and the
   /// radius in [0, 1000], and if the disc touches more than OccupancyMap::kMaxBoxCells columns.
   void assume_floor(const Eigen::Vector3d& centre_m, double radius_m);
 

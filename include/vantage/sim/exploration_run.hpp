@@ -141,7 +141,6 @@ class ExplorationRun {
   Truth truth_;
   OccupancyMap map_;
   std::optional<HeightBand> band_;
-  double start_floor_m_ = 0.0;
   std::vector<VoxelIndex> observable_;  // from the start of the latest run, because the next may start there, too
   std::optional<Pose> observable_from_;
 };

@@ -21,20 +21,17 @@ bool may_hold_the_floor(const OccupancyMap& map, const VoxelIndex& cell, const H
          map.frame().box_of(cell).max.z() > options.min_height_m - options.step_height_m;
 }
 
-/// Whether a floor was seen or, unless all cells are free that could hold it, declared.
+/// Whether a floor was seen or, unless something is known of the cell below all that could hold it, declared.
 bool has_floor(const OccupancyMap& map, std::int32_t x, std::int32_t y, const HeightBandOptions& options,
                bool is_declared) {
-  bool all_free = true;
-  for (std::int32_t z = -40; z < 40; ++z) {
-    const VoxelIndex cell{x, y, z};
-    if (may_hold_the_floor(map, cell, options)) {
-      if (map.at(cell) == Occupancy::Occupied) {
-        return true;
-      }
-      all_free = all_free && map.at(cell) == Occupancy::Free;
+  std::int32_t below = 40;
+  while (map.frame().box_of(VoxelIndex{x, y, below}).max.z() > options.min_height_m - options.step_height_m) {
+    --below;
+    if (may_hold_the_floor(map, {x, y, below}, options) && map.at({x, y, below}) == Occupancy::Occupied) {
+      return true;
     }
   }
-  return is_declared && !all_free;
+  return is_declared && map.at({x, y, below}) == Occupancy::Unknown;
 }
 
 /// The state of one column by definition.
@@ -162,7 +159,7 @@ TEST(HeightBand, WhereNoFloorWasSeenSightPassesButNoBody) {
   EXPECT_EQ(at(14), std::pair(Occupancy::Free, true));
   EXPECT_EQ(at(16), std::pair(Occupancy::Free, false));
   map.set_log_odds(VoxelBox{{10, 0, -4}, {20, 20, 0}}, -2.0);
-  EXPECT_EQ(at(14), std::pair(Occupancy::Free, false)) << "declared, but seen to be missing";
+  EXPECT_EQ(at(14), std::pair(Occupancy::Free, false)) << "declared, but a ray went deeper";
   map.set(VoxelIndex{14, 3, -2}, Occupancy::Occupied);
   EXPECT_EQ(at(14), std::pair(Occupancy::Free, true)) << "a step down";
   EXPECT_THROW(band.assume_floor({0.0, 0.0, 0.0}, -1.0), std::invalid_argument);

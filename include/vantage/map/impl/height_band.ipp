@@ -85,7 +85,7 @@ VANTAGE_INLINE void HeightBand::follow(const OccupancyMap& map) {
   }
   for (const VoxelIndex& brick : map.changed_since(followed_)) {
     const VoxelIndex first = Brick::first_cell(brick);
-    if (first.z < above_ && first.z + Brick::kSide > lowest_floor_) {
+    if (first.z < above_ && first.z + Brick::kSide >= lowest_floor_) {
       stale_.emplace(first.y, first.x);
     }
   }
@@ -124,15 +124,14 @@ VANTAGE_INLINE Occupancy HeightBand::state_of(const OccupancyMap& map, const Vox
 }
 
 VANTAGE_INLINE bool HeightBand::has_floor(const OccupancyMap& map, const VoxelIndex& column) const {
-  bool all_free = true;
   for (VoxelIndex cell{column.x, column.y, lowest_floor_}; cell.z < lowest_; ++cell.z) {
-    const Occupancy state = map.at(cell);
-    if (state == Occupancy::Occupied) {
+    if (map.at(cell) == Occupancy::Occupied) {
       return true;
     }
-    all_free = all_free && state == Occupancy::Free;
   }
-  return !options_.needs_floor || (!all_free && assumed_.contains(column));
+  // Rays that meet a floor further away pass through the upper part of the cells that hold it, but not below them.
+  const VoxelIndex below{column.x, column.y, lowest_floor_ - 1};
+  return !options_.needs_floor || (assumed_.contains(column) && map.at(below) == Occupancy::Unknown);
 }
 
 VANTAGE_INLINE void HeightBand::assume_floor(const Eigen::Vector3d& centre_m, double radius_m) {
