@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How does a robot explore that drives? A HeightBand makes a plane of the heights of its body; the planner explores
-// that plane.
+// How does a robot explore that drives? A HeightBand makes a plane of the heights of its body and of the floor; the
+// planner explores that plane.
 #include <cstddef>
 #include <iostream>
 #include <memory>
@@ -24,6 +24,7 @@ int main() {
   body.min.z() = band.options().min_height_m;
   body.max.z() = band.options().max_height_m;
   map.assume_free(body);
+  band.assume_floor(pose.translation(), start_floor_m(band, *robot, sensor));
 
   for (std::size_t views = 1;; ++views) {
     map.insert(lidar.scan(pose));
