@@ -49,8 +49,9 @@ class ViewWalk {
  private:
   // A class of rays.
   struct Class {
-    SliceBeam beam;         // bounds the rays that may meet the box
-    std::int64_t last = 0;  // the last slice of the box
+    SliceBeam beam;          // bounds the rays that may meet the box
+    std::int64_t last = 0;   // the last slice of the box
+    std::int64_t from = -1;  // no cell stops a ray before this slice; -1: not known yet
   };
 
   [[nodiscard]] std::uint64_t measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
@@ -67,9 +68,9 @@ class ViewWalk {
   std::array<Class, 6> classes_;
 
   // State of the group of tiles.
-  const Class* of_group_ = nullptr;  // the class of its axis
-  std::uint64_t of_class_ = 0;       // bit mask of the tiles whose rays all belong to that class
-  std::int64_t of_group_from_ = 0;   // first slice in which a cell may stop their rays
+  Class* of_group_ = nullptr;       // the class of its axis
+  std::uint64_t of_class_ = 0;      // bit mask of the tiles whose rays all belong to that class
+  std::int64_t of_group_from_ = 0;  // first slice in which a cell may stop their rays
   alignas(64) std::array<std::array<double, TileHulls::kTiles>, 2> least_{};  // ranges of slopes of the tiles
   alignas(64) std::array<std::array<double, TileHulls::kTiles>, 2> most_{};
 

@@ -37,7 +37,7 @@ VANTAGE_INLINE ViewWalk::ViewWalk(SliceWalk& walk, const Pose& world_from_sensor
                                   InstructionSet set)
     : walk_(walk), sensor_(world_from_sensor), set_(set), flood_(box, set) {
   for (std::size_t i = 0; i < classes_.size(); ++i) {
-    classes_[i] = {walk.beams[i], walk.beams[i].last_slice_of(box)};
+    classes_[i] = {walk.beams[i], walk.beams[i].last_slice_of(box), -1};
     spread_over(classes_[i].beam, box);
   }
 }
@@ -58,7 +58,11 @@ VANTAGE_INLINE bool ViewWalk::enter(const TileGroup& group, const TileHulls& hul
     return true;
   }
   spread_tiles();
-  survey(of_class_, 0);
+  if (Class& of = *of_group_; of.from < 0) {
+    constexpr std::int64_t kFurthest = 64;  // a wide beam has too many cells further away
+    of.from = of.beam.is_empty() ? 0 : walk_.slices.next_stop(of.beam, 0, std::min(of.last, kFurthest)).slice;
+  }
+  survey(of_class_, of_group_->from);
   of_group_from_ = from_;
   if (known_ == Known::FirstStop && fits_by_parts_) {
     surveyed_ = 0;
