@@ -11,7 +11,7 @@
 #include <vantage/map/impl/ray_block.hpp>
 #include <vantage/map/octomap_bridge.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
-#include <vantage/raytrace/impl/tile_walk.hpp>
+#include <vantage/raytrace/impl/slice_walk.hpp>
 #include <vantage/raytrace/ray_caster.hpp>
 #include <vector>
 
@@ -27,8 +27,8 @@ using detail::InstructionSet;
 using detail::RayBlock;
 using detail::RayPlacer;
 using detail::SensorFrame;
+using detail::SliceWalk;
 using detail::TileHits;
-using detail::TileWalk;
 
 constexpr VoxelBox kEverywhere{{-kFurthestVoxel, -kFurthestVoxel, -kFurthestVoxel},
                                {kFurthestVoxel, kFurthestVoxel, kFurthestVoxel}};
@@ -126,7 +126,7 @@ void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose&
                   InstructionSet set, const std::vector<RayEnd>& expected, Compared& compared) {
   const VoxelFrame& frame = map.frame();
   const RayPlacer placer{SensorFrame(pose), rays.max_range_m(), frame.size_m * kFurthestVoxel, frame.size_m};
-  TileWalk walk(grid, frame, pose.translation(), set);
+  SliceWalk walk(grid, frame, pose.translation(), set);
   constexpr VoxelBox kBox{{-33, -30, -31}, {29, 34, 32}};
   CellSet seen(kBox);
   CellSet expected_seen(kBox);
@@ -137,8 +137,8 @@ void compare_view(const OccupancyMap& map, const BlockingGrid& grid, const Pose&
     placer.place_ends(false, block, set);
     placer.place_cells(block, set);
     TileHits hits(set);
-    walk.walk(block, tile.rays, kEverywhere, 0.0, hits);
-    walk.walk(block, tile.rays, kBox, 0.0, stamps);
+    walk.cast(block, tile.rays, kEverywhere, 0.0, hits);
+    walk.cast(block, tile.rays, kBox, 0.0, stamps);
     for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
       if ((tile.rays >> i & 1U) == 0) {
         continue;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <random>
 #include <set>
-#include <tuple>
 #include <vantage/geometry/voxel_ray.hpp>
 #include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
@@ -19,7 +18,6 @@ namespace {
 using detail::instruction_sets;
 using detail::InstructionSet;
 using detail::LateralCells;
-using detail::LateralLayers;
 using detail::SliceAxes;
 using detail::SliceBeam;
 using detail::SliceFlood;
@@ -81,31 +79,6 @@ TEST(ViewBeams, RaysOfATileLieBetweenItsCorners) {
   }
   EXPECT_GT(within, 10'000U);
   EXPECT_GT(without, 100U);
-}
-
-TEST(ViewBeams, LayersOfABeamAreThoseOfItsSlices) {
-  std::mt19937 engine(38);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  for (int i = 0; i < 3'000; ++i) {
-    const VoxelFrame frame{0.1};
-    SliceBeam beam(frame, {20.0 * unit(engine), 20.0 * unit(engine), 20.0 * unit(engine)},
-                   static_cast<std::int32_t>(engine() % 6));
-    for (std::size_t lateral = 0; lateral < 2; ++lateral) {
-      std::tie(beam.least[lateral], beam.most[lateral]) = std::minmax({unit(engine), unit(engine)});
-    }
-    const auto from = static_cast<std::int64_t>(1 + engine() % 500);
-    for (const InstructionSet set : instruction_sets()) {
-      const LateralLayers layers = beam.layers_from(from, set);
-      std::int64_t slice = from;
-      for (std::size_t k = 0; k < LateralLayers::kLayers; ++k) {
-        const std::int64_t next = slice + beam.left_in_layer(slice);
-        const LateralCells expected = beam.cells_in(slice, next - 1);
-        ASSERT_EQ(layers[k].lo, expected.lo);
-        ASSERT_EQ(layers[k].hi, expected.hi);
-        slice = next;
-      }
-    }
-  }
 }
 
 // A beam, windows of random cells along it with gaps between them, and the result of a flood.

@@ -65,21 +65,6 @@ struct LateralCells {
   [[nodiscard]] std::int32_t extent(std::size_t lateral) const { return hi[lateral] - lo[lateral] + 1; }
 };
 
-/// The rectangles of consecutive layers, in the order of the walk.
-struct LateralLayers {
-  static constexpr std::size_t kLayers = 8;
-  template <class T>
-  using PerLayer = std::array<T, kLayers>;
-
-  /// The rectangle of one layer.
-  [[nodiscard]] LateralCells operator[](std::size_t layer) const {
-    return {{lo[0][layer], lo[1][layer]}, {hi[0][layer], hi[1][layer]}};
-  }
-
-  alignas(32) std::array<PerLayer<std::int32_t>, 2> lo{};
-  alignas(32) std::array<PerLayer<std::int32_t>, 2> hi{};
-};
-
 /// A beam: a bound on neighbouring rays of one class from one origin. It tells in which cells of each slice the rays
 /// may be. A slice is one sheet of cells across the major axis; slice 0 holds the origin. A layer is the slices of
 /// one sheet of words of 4 x 4 x 4 cells.
@@ -129,10 +114,6 @@ struct SliceBeam {
     }
     return cells;
   }
-  /// The lateral cells, per layer, in which rays may be: for the layer of `slice`, from that slice on, and for the
-  /// layers after it. `slice` must be in [1, kLastOfLayers].
-  [[nodiscard]] LateralLayers layers_from(std::int64_t slice, InstructionSet set) const;
-  static constexpr std::int64_t kLastOfLayers = 1 << 19;
   /// Shrinks the beam to these rays.
   void tighten(const RayLines& lines, std::uint64_t active, InstructionSet set);
   /// Whether the beam contains no ray.

@@ -54,36 +54,6 @@ VANTAGE_INLINE SliceBeam::SliceBeam(const VoxelFrame& frame, const Eigen::Vector
   within = {place_in_cell(axes.u), place_in_cell(axes.v)};
 }
 
-VANTAGE_INLINE LateralLayers SliceBeam::layers_from(std::int64_t slice, InstructionSet set) const {
-  LateralLayers layers;
-  const double enters_first = static_cast<double>(slice) - from_entry;
-  const double enters_layer = static_cast<double>(slice + left_in_layer(slice) - 4) - from_entry;
-  compiled_for(set, [this, &layers, enters_first, enters_layer] {
-    // An offset that makes every position positive, because a conversion to integer then rounds down.
-    constexpr double kMore = 2.0 * static_cast<double>(kLastOfLayers);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::int32_t from = first[i] - static_cast<std::int32_t>(kMore);
-      const double place = within[i] + kMore;
-      const double lower = least[i];
-      const double upper = most[i];
-      std::int32_t* const lo = layers.lo[i].data();
-      std::int32_t* const hi = layers.hi[i].data();
-      VANTAGE_INDEPENDENT
-#pragma GCC unroll 1
-      for (std::int32_t k = 0; k < static_cast<std::int32_t>(LateralLayers::kLayers); ++k) {
-        const double start = enters_layer + 4.0 * static_cast<double>(k);
-        const double enters = start > enters_first ? start : enters_first;
-        const double leaves = start + 4.0;
-        const double low = lower * (lower < 0.0 ? leaves : enters);
-        const double high = upper * (upper > 0.0 ? leaves : enters);
-        lo[k] = from + static_cast<std::int32_t>(place + low - kRounding);
-        hi[k] = from + static_cast<std::int32_t>(place + high + kRounding);
-      }
-    }
-  });
-  return layers;
-}
-
 VANTAGE_INLINE void SliceBeam::tighten(const RayLines& lines, std::uint64_t active, InstructionSet set) {
   for (std::size_t i = 0; i < 2; ++i) {
     std::tie(least[i], most[i]) = range_of(lines.slope[i], active, set);

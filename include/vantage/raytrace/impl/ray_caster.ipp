@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
 #include <vantage/raytrace/impl/single_walk.hpp>
-#include <vantage/raytrace/impl/tile_walk.hpp>
+#include <vantage/raytrace/impl/slice_walk.hpp>
 #include <vantage/raytrace/impl/view_culling.hpp>
 #include <vantage/raytrace/impl/view_placer.hpp>
 #include <vantage/raytrace/impl/view_walk.hpp>
@@ -90,7 +90,7 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
     throw std::invalid_argument("RayCaster::cast: there must be one end for every ray of the view");
   }
   const detail::RayPlacer placer = detail::view_placer(world_from_sensor, rays, frame_);
-  detail::TileWalk walk(*grid_, frame_, world_from_sensor.translation(), detail::best_instruction_set());
+  detail::SliceWalk walk(*grid_, frame_, world_from_sensor.translation(), detail::best_instruction_set());
   detail::RayBlock block;
   detail::TileHits hits(detail::best_instruction_set());
   VoxelIndex last;
@@ -103,7 +103,7 @@ VANTAGE_INLINE void RayCaster::cast(const Pose& world_from_sensor, const ViewRay
     }
     placer.place_ends(tile.directions, tile.stretch, block);
     hits.stopped = 0;
-    walk.walk(block, tile.rays, detail::kEverywhere, 0.0, hits);
+    walk.cast(block, tile.rays, detail::kEverywhere, 0.0, hits);
     std::uint64_t left = tile.rays & ~hits.stopped;
     if (left != 0) {
       placer.place_cells(block);
@@ -141,8 +141,8 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
   const detail::RayPlacer placer = detail::view_placer(world_from_sensor, rays, frame_);
   const detail::BoxCulling culling(world_from_sensor, frame_.box_of(box), set);
   detail::FreeCone free_cone(*grid_, frame_, world_from_sensor);
-  detail::ViewWalk together(*grid_, frame_, world_from_sensor, box, set);
-  detail::TileWalk by_tile(*grid_, frame_, world_from_sensor.translation(), set);
+  detail::SliceWalk walk(*grid_, frame_, world_from_sensor.translation(), set);
+  detail::ViewWalk together(walk, world_from_sensor, box, set);
   detail::CellStamps stamps(seen, set);
   detail::ViewWalk::Outlook outlook;
   detail::RayBlock block;
@@ -157,7 +157,9 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
     }
     double free_m = 0.0;
     if (end_behind) {
-      together.enter(group, rays.hulls()[g]);
+      if (!together.enter(group, rays.hulls()[g])) {
+        continue;
+      }
     } else {
       free_m = free_cone.free_m(group.cone, std::min(culling.furthest_m(), rays.max_range_m()));
       if (free_m >= culling.furthest_m()) {
@@ -172,13 +174,14 @@ VANTAGE_INLINE CellSet RayCaster::visible_cells(const Pose& world_from_sensor, c
       }
       const RayTile& tile = rays.tiles()[i];
       detail::prefetch_whole(rays.tiles()[std::min(i + 1, group.last - 1)].directions);
-      std::uint64_t left = meeting == detail::Meeting::All || outlook.culls ? tile.rays : culling.meeting(tile);
+      const bool selects = meeting == detail::Meeting::All || outlook.known == detail::ViewWalk::Known::Passages;
+      std::uint64_t left = selects ? tile.rays : culling.meeting(tile);
       if (end_behind) {
         left = together.walk(tile, outlook, left, stamps);
       }
       if (left != 0) {
         placer.place_ends(tile.directions, tile.stretch, block);
-        by_tile.walk(block, left, box, std::min(free_m / rays.max_range_m(), 1.0), stamps);
+        walk.cast(block, left, box, std::min(free_m / rays.max_range_m(), 1.0), stamps);
       }
     }
   }

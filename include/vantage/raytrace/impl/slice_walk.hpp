@@ -1,55 +1,58 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/map/impl/slice_beam.hpp>
+#include <vantage/raytrace/impl/single_walk.hpp>
 #include <vantage/raytrace/impl/slice_lanes.hpp>
+#include <vantage/raytrace/impl/slices.hpp>
 #include <vantage/raytrace/impl/tile_hits.hpp>
 
 namespace vantage::detail {
 
-/// A stop of a beam: the next slices [slice, next) of one layer in which a cell may stop one of its rays.
-struct Stop {
-  std::int64_t slice = 0;  ///< there is no stop if this lies behind the last slice
-  std::int64_t next = 0;
-  LateralCells cells{};  ///< where the rays may be in these slices
-  bool held = true;      ///< whether the slices know all these cells
-
-  /// Whether windows that start at a word boundary can contain the cells.
-  [[nodiscard]] bool fits_windows() const {
-    return cells.hi[0] - (cells.lo[0] & ~3) < SliceWindows::kWidth &&
-           cells.hi[1] - (cells.lo[1] & ~3) < SliceWindows::kHeight;
-  }
-};
-
-/// The walk of 64 rays of one class through slices: as one beam through free layers, and as lanes where a cell may
-/// stop them.
+/// The walk of the rays of a tile through the slices around their origin, class by class: as one beam through free
+/// layers, and as lanes where a cell may stop them. Single rays are walked exactly (SingleWalk) if they spread too
+/// far, or pass too close to an edge between cells. The resulting cells equal those of VoxelRay for every instruction
+/// set.
 class SliceWalk {
  public:
   static constexpr int kFewRays = 4;  ///< fewer rays are better walked one by one
 
-  explicit SliceWalk(InstructionSet set) : set_(set) {}
+  /// For rays from `origin`. The grid must outlive the object.
+  SliceWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin, InstructionSet set);
 
-  /// Follows the `active` rays, which lie inside `beam`, from this stop on to the cells that stop them, and up to the
-  /// last slice. `slices` (GridSlices or ViewSlices) finds the stops and their windows. Returns the rays that must be
-  /// walked otherwise: doubtful ones, and those that spread too far.
-  template <class Slices>
-  [[nodiscard]] std::uint64_t follow(Slices& slices, SliceBeam beam, std::uint64_t active, Stop stop, HitSink& hits);
+  /// Walks the selected `rays` of a block to the first cells that stop them. Their ends must be placed. Hits outside
+  /// `within` may be missing. No cell may stop a ray within the first `free_share` of its length, in [0, 1].
+  void cast(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, double free_share, HitSink& hits);
+  /// Follows the `active` rays, which lie inside `beam`, from this stop on to the cells that stop them, and up to
+  /// slice `last`. Returns the rays that must be walked otherwise: doubtful ones, and those that spread too far.
+  [[nodiscard]] std::uint64_t follow(SliceBeam beam, Stop stop, std::int64_t last, std::uint64_t active,
+                                     HitSink& hits);
   /// Prepares `walk` for the current lines; `follow` does so itself.
   void start() { place_steps(1.0); }
   /// Walks the `active` rays through the windows; the ends of the rays are ignored.
   void walk(const SliceBeam& beam, const SliceWindows& windows, std::uint64_t active, SliceHits& met);
 
+  /// All rays of each class.
+  std::array<SliceBeam, 6> beams;
+  /// What the rays pass.
+  Slices slices;
   /// The rays. The walk starts with the slopes set.
   RayLines lines;
   /// The smallest length of a ray, if rays may end before the last slice.
   double shortest = std::numeric_limits<double>::infinity();
 
  private:
+  [[nodiscard]] RayBlock::PerRay<std::int32_t> classes_of(const RayExtents& extents) const;
+  [[nodiscard]] std::uint64_t cast_class(SliceBeam beam, const RayExtents& extents, std::uint64_t rays,
+                                         const VoxelBox& within, double free_share, HitSink& hits);
   void place_steps(double through);
   void place_lanes(const SliceBeam& beam, const SlicePlace& place, double enters);
   [[nodiscard]] std::uint64_t ending_by(double distance) const;
@@ -67,6 +70,9 @@ class SliceWalk {
     }
   };
 
+  const BlockingGrid& grid_;
+  VoxelFrame frame_;
+  Eigen::Vector3d origin_;
   InstructionSet set_;
   Clamp steps_{-1.0 * SliceLanes::kCell, 1.0 * SliceLanes::kCell};
   Clamp places_{-1.0 * SliceLanes::kCell, 1.0 * SliceWindows::kWidth* SliceLanes::kCell};
@@ -74,15 +80,73 @@ class SliceWalk {
   SliceWindows windows_;
 };
 
-template <class Slices>
-std::uint64_t SliceWalk::follow(Slices& slices, SliceBeam beam, std::uint64_t active, Stop stop, HitSink& hits) {
+inline SliceWalk::SliceWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Eigen::Vector3d& origin,
+                            InstructionSet set)
+    : slices(grid, set), grid_(grid), frame_(frame), origin_(origin), set_(set) {
+  for (std::int32_t number = 0; SliceBeam & of_class : beams) {
+    of_class = SliceBeam(frame, origin, number++);
+  }
+}
+
+inline void SliceWalk::cast(const RayBlock& block, std::uint64_t rays, const VoxelBox& within, double free_share,
+                            HitSink& hits) {
+  RayExtents extents;
+  measure(block, origin_, frame_.size_m, extents, set_);
+  const RayBlock::PerRay<std::int32_t> classes = classes_of(extents);
+  std::uint64_t singly = 0;  // rays that need an exact walk
+  while (rays != 0) {
+    const std::int32_t chosen = classes[static_cast<std::size_t>(std::countr_zero(rays))];
+    const std::uint64_t of_class = equal_to(classes, chosen, set_) & rays;
+    rays &= ~of_class;
+    singly |= std::popcount(of_class) < SliceWalk::kFewRays
+                  ? of_class
+                  : cast_class(beams[static_cast<std::size_t>(chosen)], extents, of_class, within, free_share, hits);
+  }
+  for (; singly != 0; singly &= singly - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(singly));
+    const Eigen::Vector3d end(block.end[0][i], block.end[1][i], block.end[2][i]);
+    SingleWalk walk(frame_, origin_, frame_.cell_of(origin_), end, frame_.cell_of(end));
+    if (walk.advance(grid_)) {
+      hits.take(i, walk.cell());
+    }
+  }
+}
+
+inline RayBlock::PerRay<std::int32_t> SliceWalk::classes_of(const RayExtents& extents) const {
+  RayBlock::PerRay<std::int32_t> classes;
+  compiled_for(set_, [x = extents[0].data(), y = extents[1].data(), z = extents[2].data(), of = classes.data()] {
+    VANTAGE_INDEPENDENT
+    for (std::size_t i = 0; i < RayBlock::kRays; ++i) {
+      of[i] = class_of_ray(x[i], y[i], z[i]);
+    }
+  });
+  return classes;
+}
+
+// Walks the rays of a class. Returns those that need an exact walk.
+inline std::uint64_t SliceWalk::cast_class(SliceBeam beam, const RayExtents& extents, std::uint64_t rays,
+                                           const VoxelBox& within, double free_share, HitSink& hits) {
+  lines.place(extents, beam.axes, set_);
+  const auto [least, longest] = range_of(lines.length, rays, set_);
+  // A ray without a length has no slopes.
+  if (!(least > SliceBeam::kRounding)) {
+    return rays;
+  }
+  shortest = least;
+  beam.tighten(lines, rays, set_);
+  // The last slice in which a ray may meet a cell of interest.
+  const std::int64_t last = std::min(beam.last_slice_of(within),
+                                     static_cast<std::int64_t>(longest + beam.from_entry + SliceBeam::kRounding));
+  const double free_cells = free_share * least - SliceBeam::kRounding;
+  const auto first = free_cells > 0.0 ? static_cast<std::int64_t>(std::max(free_cells + beam.from_entry, 0.0)) : 0;
+  return follow(beam, slices.next_stop(beam, first, last), last, rays, hits);
+}
+
+inline std::uint64_t SliceWalk::follow(SliceBeam beam, Stop stop, std::int64_t last, std::uint64_t active,
+                                       HitSink& hits) {
   std::uint64_t others = 0;
   start();
-  for (; active != 0 && stop.slice <= slices.last(); stop = slices.next_stop(beam, stop.next)) {
-    // The slices do not know all cells on the way.
-    if (!stop.held) {
-      return others | active;
-    }
+  for (; active != 0 && stop.slice <= last; stop = slices.next_stop(beam, stop.next, last)) {
     if (!stop.fits_windows()) {
       // The beam is wider than a window. Each quarter of the tile, 4 x 4 neighbouring rays, goes on with a narrower
       // beam of its own.
@@ -93,7 +157,7 @@ std::uint64_t SliceWalk::follow(Slices& slices, SliceBeam beam, std::uint64_t ac
         }
         if (some != 0) {
           beam.tighten(lines, some, set_);
-          others |= follow(slices, beam, some, slices.next_stop(beam, stop.slice), hits);
+          others |= follow(beam, slices.next_stop(beam, stop.slice, last), last, some, hits);
         }
       }
       return others;

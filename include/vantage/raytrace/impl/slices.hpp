@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vantage/map/impl/slice_beam.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
-#include <vantage/raytrace/impl/slice_lanes.hpp>
-#include <vantage/raytrace/impl/slice_walk.hpp>
-#include <vector>
+#include <vantage/raytrace/impl/slice_windows.hpp>
 
 namespace vantage::detail {
 
@@ -21,17 +17,16 @@ namespace vantage::detail {
 //      BoxCulling    |  cones that miss the box of interest          BlockingGrid
 //      FreeCone      |  cones without a cell that stops a ray          word: 4 x 4 x 4 cells as 64 bits
 //                    v                                                 block: 2 x 2 x 2 words
-//     visible_cells: ViewWalk                cast: TileWalk            page: 4 x 4 x 4 blocks
+//     visible_cells: ViewWalk                cast                      page: 4 x 4 x 4 blocks
 //       group by group                         tile by tile            distance: free words around a word
-//       SliceFlood: a beam as a set of cells   class by class                |
+//       SliceFlood: a beam as a set of cells    |                            |
 //       BeamPassages: what it found             |                            |  Reader: keeps the last page
 //       Outlook: what that tells of a tile      |                            v
-//                    |                          |                    slices: sheets of cells across the major axis
-//                    |                          |                    layer: the four slices of a sheet of words
-//                    |                          |                      GridSlices: words for one tile
-//                    +----------+---------------+                      ViewSlices: rows of cells for a view
+//                    |                          |                    Slices: sheets of cells across the major axis
+//                    +----------+---------------+                    layer: the four slices of a sheet of words
 //                               v                                            |
 //                           SliceWalk  <--- Stop, SliceWindows --------------+
+//                             class by class
 //                             SliceBeam through free layers
 //                             SliceLanes in windows, 64 rays at a time
 //                             SliceHits: the rays that these stopped, with their cells, and the doubtful rays
@@ -50,99 +45,29 @@ namespace vantage::detail {
 // passage  the windows of a stop, and the cells in them that are still wanted
 // level    resolution of a caster: a cell has an edge of 2^level finest cells
 
-/// The cells that stop the rays of one class of a view, slice by slice, inside the beam that leads to the box. All
-/// tiles of the class cut their windows out of it. A layer (the four slices of a sheet of words) is read when it is
-/// first needed.
-class ViewSlices {
- public:
-  /// The grid must outlive the object.
-  ViewSlices(const BlockingGrid& grid, InstructionSet set) : reader_(grid), set_(set) {}
+/// A stop of a beam: the next slices [slice, next) of one layer in which a cell may stop one of its rays.
+struct Stop {
+  std::int64_t slice = 0;  ///< there is no stop if this lies behind the last slice
+  std::int64_t next = 0;
+  LateralCells cells{};  ///< where the rays may be in these slices
 
-  /// Starts a new beam that reaches up to slice `last`. Returns false if the beam is too wide; the slices must then
-  /// not be used.
-  bool begin(const SliceBeam& beam, std::int64_t last);
-
-  /// The last slice.
-  [[nodiscard]] std::int64_t last() const { return last_; }
-  /// The first stop of a beam from this slice on. The beam must be a part of the one of `begin`, or the stop may not
-  /// be held.
-  [[nodiscard]] Stop next_stop(const SliceBeam& beam, std::int64_t slice);
-  /// Cuts the windows of a stop of this beam that is held and small enough (fits_windows). Only the slices from the
-  /// first to the last one in which one of the cells of the stop stops a ray are kept.
-  void cut(const SliceBeam& beam, const Stop& stop, SliceWindows& windows) const;
-
- private:
-  // Number of layers, from that of this slice on, in which no cell stops a ray.
-  [[nodiscard]] std::int32_t free_layers(std::int64_t slice) { return layer_of(slice).free; }
-  // Whether the layer of this slice covers all these cells.
-  [[nodiscard]] bool hold(std::int64_t slice, const LateralCells& cells) {
-    const Layer& layer = layer_of(slice);
-    return cells.lo[0] >= layer.first_u && cells.hi[0] < layer.end_u && cells.lo[1] >= layer.first_v &&
-           cells.hi[1] < layer.end_v;
+  /// Whether windows that start at a word boundary can contain the cells.
+  [[nodiscard]] bool fits_windows() const {
+    return cells.hi[0] - (cells.lo[0] & ~3) < SliceWindows::kWidth &&
+           cells.hi[1] - (cells.lo[1] & ~3) < SliceWindows::kHeight;
   }
-  // Whether one of these cells stops a ray in a slice of this layer. Also true if the cells are too many to tell.
-  // The layer must cover the cells and must not be free.
-  [[nodiscard]] bool any_stops(std::int64_t slice, const LateralCells& cells) const;
-  // plane after those of the four slices: the cells that stop rays in any of them
-  static constexpr std::size_t kAny = 4;
-  static constexpr std::size_t kPlanes = 5;
-
-  // Rows are stored as columns of 64 cells that start every 32 cells. So every window, 32 cells wide, lies inside one
-  // column.
-  struct Layer {
-    bool is_read = false;
-    std::int32_t free = 0;
-    std::int32_t first_u = 0;  // the covered cells, aligned to words
-    std::int32_t first_v = 0;
-    std::int32_t end_u = 0;
-    std::int32_t end_v = 0;
-    std::size_t rows = 0;   // rows per column, with padding so that the last window fits
-    std::size_t first = 0;  // index of its first row
-  };
-
-  [[nodiscard]] const Layer& layer_of(std::int64_t slice) {
-    const std::size_t number = number_of(slice);
-    if (number >= layers_.size() || !layers_[number].is_read) {
-      read(number, slice);
-    }
-    return layers_[number];
-  }
-  [[nodiscard]] std::size_t number_of(std::int64_t slice) const {
-    const std::int32_t words = (beam_.along(slice) >> 2) - (beam_.first_along >> 2);
-    return static_cast<std::size_t>(beam_.axes.up ? words : -words);
-  }
-  // The rows of a column in a plane.
-  template <class Plane>
-  [[nodiscard]] const std::uint64_t* rows_of(const Layer& layer, std::int32_t column, Plane plane) const {
-    return &rows_[layer.first +
-                  (static_cast<std::size_t>(column) * kPlanes + static_cast<std::size_t>(plane)) * layer.rows];
-  }
-  void read(std::size_t number, std::int64_t slice);
-  [[nodiscard]] bool read_rows(const Layer& layer, std::int32_t along);
-  [[nodiscard]] std::int32_t free_from(const Layer& layer, std::int32_t along);
-
-  BlockingGrid::Reader reader_;
-  InstructionSet set_;
-  SliceBeam beam_;
-  std::int64_t last_ = 0;
-  std::vector<Layer> layers_;
-  std::vector<std::uint64_t> rows_;
 };
 
-/// The slices of a grid for a single tile: reads the words on the way of its beam when they are needed.
-class GridSlices {
+/// The slices of a grid on the way of a beam. Words are read when they are needed.
+class Slices {
  public:
   /// The grid must outlive the object.
-  GridSlices(const BlockingGrid& grid, InstructionSet set) : reader_(grid), set_(set) {}
+  Slices(const BlockingGrid& grid, InstructionSet set) : reader_(grid), set_(set) {}
 
-  /// Starts a new walk up to slice `last`.
-  void begin(std::int64_t last) { last_ = last; }
-  /// The last slice.
-  [[nodiscard]] std::int64_t last() const { return last_; }
-  /// The first stop of a beam from this slice on.
-  [[nodiscard]] Stop next_stop(const SliceBeam& beam, std::int64_t slice);
-  /// Cuts the windows of a stop of this beam, which must be small enough (fits_windows). Keeps none if no cell of the
-  /// stop stops a ray.
+  /// The first stop of a beam from slice `from` on; it lies behind slice `last` if there is none up to that.
+  [[nodiscard]] Stop next_stop(const SliceBeam& beam, std::int64_t from, std::int64_t last);
+  /// Cuts the windows of a stop of this beam, which must be small enough (fits_windows). Only the slices from the
+  /// first to the last one in which one of the cells of the stop stops a ray are kept.
   void cut(const SliceBeam& beam, const Stop& stop, SliceWindows& windows);
 
  private:
@@ -150,7 +75,6 @@ class GridSlices {
 
   BlockingGrid::Reader reader_;
   InstructionSet set_;
-  std::int64_t last_ = 0;
 };
 
 }  // namespace vantage::detail

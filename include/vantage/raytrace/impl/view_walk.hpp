@@ -3,20 +3,19 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 #include <vantage/geometry/pose.hpp>
 #include <vantage/map/impl/sensor_frame.hpp>
 #include <vantage/raytrace/impl/beam_passages.hpp>
 #include <vantage/raytrace/impl/blocking_grid.hpp>
 #include <vantage/raytrace/impl/slice_flood.hpp>
-#include <vantage/raytrace/impl/slices.hpp>
+#include <vantage/raytrace/impl/slice_walk.hpp>
 #include <vantage/raytrace/view_rays.hpp>
 
 namespace vantage::detail {
 
 /// Finds the cells of a box that stop the rays of a view, for all tiles together. It is the fast path of
 /// RayCaster::visible_cells for rays that do not end before the box. The rays that it does not resolve are left to
-/// TileWalk.
+/// SliceWalk::cast.
 ///
 /// Idea. For each group of tiles, one beam around all its rays is followed through the slices, and a flood finds
 /// which cells of the box the rays may meet. Often there is none, and the group is done. Otherwise the beam of each
@@ -25,16 +24,17 @@ namespace vantage::detail {
 /// slices.hpp.)
 class ViewWalk {
  public:
-  /// For views from this pose that look for cells of `box`. The grid must outlive the object.
-  ViewWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor, const VoxelBox& box,
-           InstructionSet set);
+  /// For views from this pose that look for cells of `box`. The walk, from the same origin, must outlive the object.
+  ViewWalk(SliceWalk& walk, const Pose& world_from_sensor, const VoxelBox& box, InstructionSet set);
 
-  /// Starts a group of tiles.
-  void enter(const TileGroup& group, const TileHulls& hulls);
+  /// Starts a group of tiles. Returns false if none of its rays meets a cell of the box.
+  [[nodiscard]] bool enter(const TileGroup& group, const TileHulls& hulls);
+  /// What is known of the way of some tiles. Nothing: their rays may belong to several classes. FirstStop: where a
+  /// cell may stop one of the rays. Passages: which cells of the box they may meet. Free: they meet none.
+  enum class Known : std::uint8_t { Nothing, FirstStop, Passages, Free };
   /// What the survey of a group tells about a tile.
   struct Outlook {
-    bool is_mixed = true;      ///< whether its rays may belong to several classes
-    bool culls = false;        ///< whether `walk` itself ignores the rays that miss the box
+    Known known = Known::Nothing;
     SliceBeam beam;            ///< bounds the rays that may meet the box
     std::uint64_t slices = 0;  ///< slices of the passages to walk
     Stop stop;                 ///< the first stop, if there are no passages
@@ -42,43 +42,33 @@ class ViewWalk {
   /// Looks at a tile, given by its index in the group. Returns whether its rays may meet a cell of the box that no
   /// ray has met yet; only then `outlook` is complete.
   [[nodiscard]] bool look(std::size_t number, Outlook& outlook);
-  /// Walks the selected `rays` of a tile with this outlook. The rays must not end before they have left the box.
-  /// Returns the rays that must be walked otherwise.
+  /// Walks the selected `rays` of a tile with this outlook. With passages, they may include rays that miss the box.
+  /// The rays must not end before they have left the box. Returns the rays that must be walked otherwise.
   [[nodiscard]] std::uint64_t walk(const RayTile& tile, const Outlook& outlook, std::uint64_t rays, HitSink& hits);
 
  private:
-  // State of a class of rays.
+  // A class of rays.
   struct Class {
-    SliceBeam all;
-    SliceBeam beam;  // bounds the rays that may meet the box
-    ViewSlices slices;
-    bool is_narrow = false;
+    SliceBeam beam;          // bounds the rays that may meet the box
+    std::int64_t last = 0;   // the last slice of the box
+    std::int64_t from = -1;  // no cell stops a ray before this slice; -1: not known yet
   };
 
-  // What the survey of some tiles has found: Free: they meet no cell of the box. Passages: passages_ tell which cells
-  // they may meet. Nothing: not known.
-  enum class Known : std::uint8_t { Nothing, Passages, Free };
-
-  [[nodiscard]] Class& class_of(const Eigen::Vector3d& direction);
   [[nodiscard]] std::uint64_t measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
                                       const SliceBeam& beam);
   void spread_tiles();
   static void narrow(SliceBeam& beam, const std::array<double, 2>& least, const std::array<double, 2>& most);
-  [[nodiscard]] Known survey(std::uint64_t tiles, std::int64_t from);
+  void survey(std::uint64_t tiles, std::int64_t from);
   [[nodiscard]] Known record(const SliceBeam& beam, Stop stop);
-  [[nodiscard]] std::uint64_t walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits);
   [[nodiscard]] std::uint64_t walk_recorded(const Outlook& outlook, std::uint64_t active, HitSink& hits);
 
-  const BlockingGrid& grid_;
-  VoxelFrame frame_;
+  SliceWalk& walk_;
   SensorFrame sensor_;
-  Eigen::Vector3d origin_;
-  VoxelBox box_;
   InstructionSet set_;
-  std::array<std::optional<Class>, 6> classes_;
+  std::array<Class, 6> classes_;
 
   // State of the group of tiles.
-  Class* of_group_ = nullptr;
+  Class* of_group_ = nullptr;       // the class of its axis
   std::uint64_t of_class_ = 0;      // bit mask of the tiles whose rays all belong to that class
   std::int64_t of_group_from_ = 0;  // first slice in which a cell may stop their rays
   alignas(64) std::array<std::array<double, TileHulls::kTiles>, 2> least_{};  // ranges of slopes of the tiles
@@ -86,17 +76,13 @@ class ViewWalk {
 
   // State of the part of the group that was surveyed: the whole group, or a quarter of it where its windows would be
   // too small.
-  static constexpr std::size_t kParts = 4;
-  bool fits_by_parts_ = false;  // an estimate
-  bool by_parts_ = false;
-  std::size_t part_ = kParts;
-  std::int64_t from_ = 0;
+  std::uint64_t surveyed_ = 0;  // bit mask of its tiles
+  bool fits_by_parts_ = false;  // whether the windows of quarters may be large enough
+  std::int64_t from_ = 0;       // first slice in which a cell may stop its rays
   Known known_ = Known::Nothing;
   BeamPassages passages_;
 
   SliceFlood flood_;
-  SliceWalk walk_;
-  SliceWindows windows_;  // those of a passage that a tile needs
 };
 
 }  // namespace vantage::detail

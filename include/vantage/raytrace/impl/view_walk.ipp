@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
+#include <limits>
 #include <vantage/geometry/impl/along.hpp>
 #include <vantage/map/impl/lane_queries.hpp>
 #include <vantage/raytrace/impl/view_walk.hpp>
@@ -33,41 +33,46 @@ inline void spread_over(SliceBeam& beam, const VoxelBox& box) {
   }
 }
 
-VANTAGE_INLINE ViewWalk::ViewWalk(const BlockingGrid& grid, const VoxelFrame& frame, const Pose& world_from_sensor,
-                                  const VoxelBox& box, InstructionSet set)
-    : grid_(grid),
-      frame_(frame),
-      sensor_(world_from_sensor),
-      origin_(world_from_sensor.translation()),
-      box_(box),
-      set_(set),
-      flood_(box, set),
-      walk_(set) {}
-
-VANTAGE_INLINE void ViewWalk::enter(const TileGroup& group, const TileHulls& hulls) {
-  of_group_ = &class_of(group.cone.axis);
-  of_class_ = 0;
-  if (!of_group_->is_narrow) {
-    return;
+VANTAGE_INLINE ViewWalk::ViewWalk(SliceWalk& walk, const Pose& world_from_sensor, const VoxelBox& box,
+                                  InstructionSet set)
+    : walk_(walk), sensor_(world_from_sensor), set_(set), flood_(box, set) {
+  for (std::size_t i = 0; i < classes_.size(); ++i) {
+    classes_[i] = {walk.beams[i], walk.beams[i].last_slice_of(box), -1};
+    spread_over(classes_[i].beam, box);
   }
-  of_class_ = measure(hulls.corners, of_group_->all);
+}
+
+VANTAGE_INLINE bool ViewWalk::enter(const TileGroup& group, const TileHulls& hulls) {
+  const Eigen::Vector3d& axis = group.cone.axis;
+  const auto along = [&](std::size_t i) { return sensor_.rotated(i, axis.x(), axis.y(), axis.z()); };
+  const auto number = static_cast<std::size_t>(class_of_ray(along(0), along(1), along(2)));
+  of_group_ = &classes_[number];
+  of_class_ = measure(hulls.corners, walk_.beams[number]);
   // Corner k of a tile is lane kTiles * k + the number of the tile. All four corners must belong to the class. Then
   // all rays of the tile do.
   of_class_ &= of_class_ >> 2 * TileHulls::kTiles;
   of_class_ &= of_class_ >> TileHulls::kTiles;
-  of_class_ &= (std::uint64_t{1} << (group.last - group.first)) - 1;
+  const std::uint64_t all = (std::uint64_t{1} << (group.last - group.first)) - 1;
+  of_class_ &= all;
   if (of_class_ == 0) {
-    return;
+    return true;
   }
   spread_tiles();
-  known_ = survey(of_class_, 0);
+  if (Class& of = *of_group_; of.from < 0) {
+    constexpr std::int64_t kFurthest = 64;  // a wide beam has too many cells further away
+    of.from = of.beam.is_empty() ? 0 : walk_.slices.next_stop(of.beam, 0, std::min(of.last, kFurthest)).slice;
+  }
+  survey(of_class_, of_group_->from);
   of_group_from_ = from_;
-  by_parts_ = known_ == Known::Nothing && fits_by_parts_;
-  part_ = kParts;
+  if (known_ == Known::FirstStop && fits_by_parts_) {
+    surveyed_ = 0;
+  }
+  return known_ != Known::Free || of_class_ != all;
 }
 
 // Finds and records what lies on the way of all these tiles, from slice `from` on.
-VANTAGE_INLINE ViewWalk::Known ViewWalk::survey(std::uint64_t tiles, std::int64_t from) {
+VANTAGE_INLINE void ViewWalk::survey(std::uint64_t tiles, std::int64_t from) {
+  surveyed_ = tiles;
   std::array<double, 2> least{1.0, 1.0};
   std::array<double, 2> most{-1.0, -1.0};
   for (std::uint64_t left = tiles; left != 0; left &= left - 1) {
@@ -80,29 +85,29 @@ VANTAGE_INLINE ViewWalk::Known ViewWalk::survey(std::uint64_t tiles, std::int64_
   SliceBeam beam = of_group_->beam;
   narrow(beam, least, most);
   if (beam.is_empty()) {
-    return Known::Free;
+    known_ = Known::Free;
+    return;
   }
-  const Stop stop = of_group_->slices.next_stop(beam, from);
+  const Stop stop = walk_.slices.next_stop(beam, from, of_group_->last);
   from_ = stop.slice;
-  return record(beam, stop);
+  known_ = record(beam, stop);
 }
 
 // Records the passages of the beam, from this stop on.
 VANTAGE_INLINE ViewWalk::Known ViewWalk::record(const SliceBeam& beam, Stop stop) {
-  ViewSlices& slices = of_group_->slices;
   passages_.clear();
   bool tells = flood_.begin(beam);
   std::uint32_t any_of_box = 0;
-  for (; stop.slice <= slices.last(); stop = slices.next_stop(beam, stop.next)) {
+  for (; stop.slice <= of_group_->last; stop = walk_.slices.next_stop(beam, stop.next, of_group_->last)) {
     // A list that is not complete tells nothing.
-    tells = tells && stop.held && stop.fits_windows() && passages_.size() < BeamPassages::kMost;
+    tells = tells && stop.fits_windows() && passages_.size() < BeamPassages::kMost;
     if (!tells) {
       fits_by_parts_ =
           stop.cells.extent(0) < 2 * SliceWindows::kWidth && stop.cells.extent(1) < 2 * SliceWindows::kHeight;
-      return Known::Nothing;
+      return Known::FirstStop;
     }
     BeamPassages::Passage& passage = passages_.next();
-    slices.cut(beam, stop, passage.windows);
+    walk_.slices.cut(beam, stop, passage.windows);
     if (passage.windows.count == 0) {
       continue;
     }
@@ -156,15 +161,15 @@ VANTAGE_INLINE void ViewWalk::narrow(SliceBeam& beam, const std::array<double, 2
 }
 
 VANTAGE_INLINE bool ViewWalk::look(std::size_t number, Outlook& outlook) {
-  outlook.is_mixed = (of_class_ >> number & 1U) == 0;
-  outlook.culls = false;
-  if (outlook.is_mixed) {
+  if ((of_class_ >> number & 1U) == 0) {
+    outlook.known = Known::Nothing;
     return true;
   }
-  if (constexpr std::size_t kOfPart = TileHulls::kTiles / kParts; by_parts_ && part_ != number / kOfPart) {
-    part_ = number / kOfPart;
-    known_ = survey(of_class_ & ((std::uint64_t{1} << kOfPart) - 1) << kOfPart * part_, of_group_from_);
+  if ((surveyed_ >> number & 1U) == 0) {
+    constexpr std::size_t kOfPart = TileHulls::kTiles / 4;
+    survey(of_class_ & ((std::uint64_t{1} << kOfPart) - 1) << number / kOfPart * kOfPart, of_group_from_);
   }
+  outlook.known = known_;
   if (known_ == Known::Free) {
     return false;
   }
@@ -174,31 +179,27 @@ VANTAGE_INLINE bool ViewWalk::look(std::size_t number, Outlook& outlook) {
     return false;
   }
   if (known_ == Known::Passages) {
-    outlook.culls = true;
     outlook.slices = passages_.to_pass(outlook.beam, set_);
     return outlook.slices != 0;
   }
-  outlook.stop = of_group_->slices.next_stop(outlook.beam, from_);
-  return outlook.stop.slice <= of_group_->slices.last();
+  outlook.stop = walk_.slices.next_stop(outlook.beam, from_, of_group_->last);
+  return outlook.stop.slice <= of_group_->last;
 }
 
 VANTAGE_INLINE std::uint64_t ViewWalk::walk(const RayTile& tile, const Outlook& outlook, std::uint64_t rays,
                                             HitSink& hits) {
-  if (outlook.is_mixed) {
-    return walk_mixed(tile, rays, hits);
-  }
-  if (std::popcount(rays) < SliceWalk::kFewRays) {
+  if (outlook.known == Known::Nothing || std::popcount(rays) < SliceWalk::kFewRays) {
     return rays;
   }
   rays &= measure(tile.directions, outlook.beam);  // rays outside the beam meet no cell of the box
-  return outlook.culls ? walk_recorded(outlook, rays, hits)
-                       : walk_.follow(of_group_->slices, outlook.beam, rays, outlook.stop, hits);
+  return outlook.known == Known::Passages ? walk_recorded(outlook, rays, hits)
+                                          : walk_.follow(outlook.beam, outlook.stop, of_group_->last, rays, hits);
 }
 
 // Walks rays through the slices of the passages that the outlook names.
 VANTAGE_INLINE std::uint64_t ViewWalk::walk_recorded(const Outlook& outlook, std::uint64_t active, HitSink& hits) {
   std::uint64_t others = 0;
-  SliceWindows& windows = windows_;
+  SliceWindows windows;
   walk_.start();
   std::uint64_t left = outlook.slices;
   while (left != 0 && active != 0) {
@@ -242,31 +243,11 @@ VANTAGE_INLINE std::uint64_t ViewWalk::walk_recorded(const Outlook& outlook, std
   return others;
 }
 
-// Walks a tile whose rays belong to several classes, class by class.
-VANTAGE_INLINE std::uint64_t ViewWalk::walk_mixed(const RayTile& tile, std::uint64_t rays, HitSink& hits) {
-  std::uint64_t others = 0;
-  while (rays != 0) {
-    const auto first = static_cast<std::size_t>(std::countr_zero(rays));
-    Class& of = class_of(tile.direction(first).cast<double>());
-    const std::uint64_t of_class = of.is_narrow ? measure(tile.directions, of.all) & rays : 0;
-    if (of.beam.is_empty()) {  // no ray of the class meets a cell of the box
-      others |= std::uint64_t{1} << first & ~of_class;
-    } else if (std::popcount(of_class) < SliceWalk::kFewRays) {
-      others |= of_class | (std::uint64_t{1} << first);
-    } else {
-      SliceBeam beam = of.beam;
-      beam.tighten(walk_.lines, of_class, set_);
-      others |= walk_.follow(of.slices, beam, of_class, of.slices.next_stop(beam, 0), hits);
-    }
-    rays &= ~(of_class | std::uint64_t{1} << first);
-  }
-  return others;
-}
-
-// Computes the slopes of all rays of a tile. Returns those inside the beam.
+// Computes the slopes of all rays of a tile, as rays without an end. Returns those inside the beam.
 VANTAGE_INLINE std::uint64_t ViewWalk::measure(const std::array<RayBlock::PerRay<float>, 3>& directions,
                                                const SliceBeam& beam) {
   RayBlock::PerRay<std::int32_t> flags;
+  walk_.shortest = std::numeric_limits<double>::infinity();
   const float* const x = directions[0].data();
   const float* const y = directions[1].data();
   const float* const z = directions[2].data();
@@ -290,22 +271,6 @@ VANTAGE_INLINE std::uint64_t ViewWalk::measure(const std::array<RayBlock::PerRay
     }
   });
   return equal_to(flags, 1, set_);
-}
-
-VANTAGE_INLINE ViewWalk::Class& ViewWalk::class_of(const Eigen::Vector3d& direction) {
-  const auto along = [&](std::size_t axis) {
-    return sensor_.rotated(axis, direction.x(), direction.y(), direction.z());
-  };
-  const std::int32_t number = class_of_ray(along(0), along(1), along(2));
-  std::optional<Class>& of = classes_[static_cast<std::size_t>(number)];
-  if (!of) {
-    const SliceBeam all(frame_, origin_, number);
-    of.emplace(Class{all, all, ViewSlices(grid_, set_)});
-    const std::int64_t last = all.last_slice_of(box_);
-    spread_over(of->beam, box_);
-    of->is_narrow = last < SliceBeam::kLastOfLayers && (of->beam.is_empty() || of->slices.begin(of->beam, last));
-  }
-  return *of;
 }
 
 }  // namespace vantage::detail
