@@ -48,8 +48,12 @@ std::optional<Pose> start_in_world(const ExploreRequest& request) {
 void check_floor(const ExploreRequest& request, const TriangleScene& scene, const Eigen::Vector3d& start) {
   const std::optional<HeightBandOptions> band = band_of(request);
   const auto below_m = scene.hit_distance(start, -Eigen::Vector3d::UnitZ(), std::numeric_limits<double>::infinity());
-  if (!band || !band->needs_floor || !below_m) {
+  if (!band || !band->needs_floor) {
     return;
+  }
+  if (!below_m) {
+    throw std::invalid_argument("--band " + request.band +
+                                ": there is no floor below the start (--no-floor: the robot needs none)");
   }
   const double floor_m = std::round(1e3 * (start.z() - *below_m)) / 1e3;  // a ray is off by some 1e-8
   const double highest_m = floor_m + band->step_height_m;
@@ -71,8 +75,7 @@ std::string floor_of_band(const ExploreRequest& request) {
   const HeightBand band({.resolution_m = request.resolution_m}, *options);
   std::ostringstream why;
   why << "; it is too large, or the lowest cells of --band " << request.band << " begin at "
-      << band.plane().frame().corner_of({0, 0, band.layers().first}).z()
-      << " m, and the floor must lie below that";
+      << band.plane().frame().corner_of({0, 0, band.layers().first}).z() << " m, and the floor must lie below that";
   if (options->needs_floor) {
     why << " and at most " << options->step_height_m << " m below LOW (--no-floor: there may be none)";
   }
@@ -169,7 +172,8 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
         (void)start_floor_m(band, *carrier.platform, carrier.sensor);
       }
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("--band '" + request.band + "': " + error.what());
+      throw std::invalid_argument("--band '" + request.band + "': " + error.what() +
+                                  (request.no_floor ? "" : " (--no-floor: the robot needs none)"));
     }
   }
   options.start_clearance_m = start_clearance_m(OccupancyMap(options.map), *carrier.platform, carrier.sensor);
@@ -188,6 +192,7 @@ ExplorationRunOptions run_options_of(const ExploreRequest& request, const Sensor
 Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request) {
   std::optional<Pose> start = start_in_world(request);
   if (start) {
+    check_floor(request, run.scene(), start->translation());
     naming("--start " + request.start, [&] { run.check_start(*start); });
   } else {
     start = run.truth().draw_start(platform, request.seed);

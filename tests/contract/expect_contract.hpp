@@ -70,10 +70,9 @@ inline bool expect_contract(const std::string& planner, Host host, const Scene& 
   }
   // In a window of a real building, a shaft may be free that a level sensor cannot see before it is in it, and
   // slivers may be in sight that hide behind a part of a cell; the audit judges there.
-  // Of a floor, where drops hide what lies behind them, one column may be a fiftieth of what is observable. A drop
-  // that is mapped beside its true place hides more.
+  // Of a floor, one column may be a fiftieth of what is observable.
   if (scene.real == nullptr) {
-    EXPECT_GE(run.coverage(), !scene.drives ? concessions.least_coverage : host == Host::Inexact ? 0.9 : 0.97);
+    EXPECT_GE(run.coverage(), scene.drives ? 0.97 : concessions.least_coverage);
   }
   if (host != Host::Perfect) {
     const DrivenRobot perfect(planner, Host::Perfect, scene);

@@ -120,6 +120,7 @@ TEST_P(ExplorationBehindABarrier, IsUnreachableUntilItOpens) {
       ++tried;
     }
   }
+  // Behind a ramp, in half of the worlds nothing is seen into which the body would fit.
   EXPECT_GE(named, barrier == Barrier::Ramp ? scenes / 4 : scenes);
   EXPECT_GE(opened, barrier == Barrier::Ramp ? 0 : scenes - scenes / 4);
 }

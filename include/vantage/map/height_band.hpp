@@ -50,7 +50,8 @@ class HeightBand {
  public:
   /// Creates the band for maps with the options `of_map`. If `of_map` has a region, it also bounds the plane. Throws
   /// std::invalid_argument, which names the option, if an option is out of range, if no cell centre lies in the band,
-  /// or if the region does not overlap the band, or contains neither the height of the sensor nor the floor.
+  /// or if the region does not overlap the band, does not contain the height of the sensor or, if one is
+  /// needed, the floor.
   HeightBand(const OccupancyMapOptions& of_map, const HeightBandOptions& options);
 
   /// The options that were passed to the constructor.
@@ -61,9 +62,9 @@ class HeightBand {
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> layers() const { return {lowest_, above_}; }
 
   /// Declares that a floor exists in every column at most `radius_m` metres from `centre_m` (world frame), for
-  /// example where the robot stands: start_floor_m. Takes effect at the next `follow`, but not where a ray was seen to go
-  /// or end below that step. Throws std::invalid_argument unless the centre is finite and the
-  /// radius in [0, 1000], and if the disc touches more than OccupancyMap::kMaxBoxCells columns.
+  /// example where the robot stands: start_floor_m. Takes effect at the next `follow`, but not in a
+  /// column in which something is known of the cell below the step. Throws std::invalid_argument unless the centre is
+  /// finite and the radius in [0, 1000], and if the disc touches more than OccupancyMap::kMaxBoxCells columns.
   void assume_floor(const Eigen::Vector3d& centre_m, double radius_m);
 
   /// Updates the plane from `map`. The cost depends on what has changed since the last call. If the revision of `map`

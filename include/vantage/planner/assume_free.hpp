@@ -24,8 +24,9 @@ void assume_free(OccupancyMap& map, const Platform& platform, const Pose& pose, 
 [[nodiscard]] double start_clearance_m(const OccupancyMap& map, const Platform& platform, const RangeSensor& sensor);
 
 /// The radius around the sensor, metres, in which a floor should be declared at the start of a robot that drives:
-/// that of its body, or up to where a level sensor sees a floor one step below the band. Throws
-/// std::invalid_argument, which names HeightBandOptions::needs_floor, if the sensor sees such a floor nowhere.
+/// that of its body, or up to where a level sensor sees a floor one step below the band, in the corners of its image,
+/// plus a cell. Throws std::invalid_argument, which names HeightBandOptions::needs_floor, if the corners show no such
+/// floor.
 ///
 ///     band.assume_floor(pose.translation(), start_floor_m(band, *platform, sensor));
 [[nodiscard]] double start_floor_m(const HeightBand& band, const Platform& platform, const RangeSensor& sensor);

@@ -35,7 +35,7 @@ namespace VANTAGE_EXPORT vantage {
 ///       |                    (no target left: places that rest are allowed again, one more survey)
 ///       |                    targets in refused directions wait until others are gone
 ///       v
-///     end()  --- no target --->  Explored | Unreachable | Blocked | a turn, a step or a closer look (Move)
+///     end()  --- no target --->  Explored | Unreachable | Blocked | a turn, a step or another look (Move)
 ///       |
 ///       v  targets
 ///     strategy chooses ---> no path to the view: drop(view), choose again
@@ -131,8 +131,9 @@ class Situation {
   [[nodiscard]] std::optional<Plan> look_closely();
   [[nodiscard]] std::optional<Plan> look_at_contested();
   [[nodiscard]] std::optional<OccupancyMap> map_without_contested() const;
-  [[nodiscard]] std::vector<VoxelIndex> contested_on_way(const ReachableSpace& space, const VoxelIndex& goal) const;
-  [[nodiscard]] std::optional<Plan> look_again_at(const VoxelIndex& cell, const std::vector<VoxelIndex>& cells) const;
+  [[nodiscard]] std::vector<VoxelIndex> contested_on_way(const OccupancyMap& open, const ReachableSpace& space,
+                                                         const VoxelIndex& goal) const;
+  [[nodiscard]] std::optional<Plan> look_again_at(const VoxelIndex& cell) const;
   [[nodiscard]] std::optional<VoxelIndex> place_cut_off() const;
   [[nodiscard]] std::vector<VoxelIndex> out_of_reach(std::vector<VoxelIndex> places, double metres) const;
   [[nodiscard]] std::optional<VoxelIndex> viewpoint_among(std::vector<VoxelIndex> places) const;

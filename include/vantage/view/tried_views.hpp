@@ -56,7 +56,8 @@ struct TriedViewsOptions {
 /// behind them become targets until a view from the front closes the surface again. The number of known neighbours
 /// only grows, whatever their states, so a cell gets at most six further chances.
 ///
-/// **Evidence about a contested cell** is kept in the same way, until the cell is occupied or clear.
+/// **A contested cell** is looked at from distances that differ. Every such look is stored, whatever came of it: a
+/// cell that changes back and forth gets no look more.
 ///
 /// **Places that could not be reached.** A place fails if the host reports GoalResult::Failed, or if it would be
 /// asked for a third time although the robot came no nearer: the rest of the path is no shorter or, within the goal
@@ -129,8 +130,8 @@ class TriedViews {
   /// touches it, or the cell was missed from this place.
   [[nodiscard]] bool looked_from_beside(const OccupancyMap& map, const VoxelIndex& unknown,
                                         const VoxelIndex& place) const;
-  /// Whether the cell was looked at in vain, or missed, from about the distance of this place: the longer of the two
-  /// distances is less than 1.5 times the shorter one.
+  /// Whether the cell was looked at because it was contested, from about the distance of this place: the longer of
+  /// the two distances is less than 1.5 times the shorter one.
   [[nodiscard]] bool tried_at_distance(const VoxelIndex& cell, const VoxelIndex& place) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
   [[nodiscard]] bool rests(const VoxelIndex& place) const;
@@ -167,16 +168,21 @@ class TriedViews {
   };
   // Evidence about one cell.
   struct Looks {
-    std::vector<VoxelIndex> in_vain;  // places that differ
-    std::vector<VoxelIndex> clear;    // places of looks along lines that were clear; none touches another
-    std::vector<VoxelIndex> missed;   // goals from which the cell was sought without new evidence, or far from them
-    std::vector<VoxelIndex> hoped;    // goals from which a view hoped for the cell, but resolved nothing it hoped for
-    int known_neighbours = 0;         // at the latest look
-    std::uint64_t latest = 0;         // number of the plan of the latest look
+    std::vector<VoxelIndex> in_vain;    // places that differ
+    std::vector<VoxelIndex> clear;      // places of looks along lines that were clear; none touches another
+    std::vector<VoxelIndex> missed;     // goals from which the cell was sought without new evidence, or far from them
+    std::vector<VoxelIndex> contested;  // places of looks because it was contested, and their goals
+    std::vector<VoxelIndex> hoped;  // goals from which a view hoped for the cell, but resolved nothing it hoped for
+    int known_neighbours = 0;       // at the latest look
+    std::uint64_t latest = 0;       // number of the plan of the latest look
   };
   // The lists of places of Looks, by their words in the text.
-  static constexpr std::array<std::pair<const char*, std::vector<VoxelIndex> Looks::*>, 4> kPlaceLists{
-      {{"in-vain", &Looks::in_vain}, {"clear", &Looks::clear}, {"missed", &Looks::missed}, {"hoped", &Looks::hoped}}};
+  static constexpr std::array<std::pair<const char*, std::vector<VoxelIndex> Looks::*>, 5> kPlaceLists{
+      {{"in-vain", &Looks::in_vain},
+       {"clear", &Looks::clear},
+       {"missed", &Looks::missed},
+       {"hoped", &Looks::hoped},
+       {"contested", &Looks::contested}}};
   // A goal that was planned.
   struct Place {
     VoxelIndex cell;

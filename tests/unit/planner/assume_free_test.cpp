@@ -139,6 +139,8 @@ TEST(StartFloor, ReachesToWhereTheSensorSeesTheFloor) {
                                    : RangeSensor::spherical(64, 48, 2 * kPi, tall_rad, draw(0.0, 2.0), 30.0);
     const double floor_m = start_floor_m(band, GroundRobot({.radius_m = 0.2}), sensor);
     EXPECT_GE(floor_m, 0.2);
+    const double corner_m = above_m / std::tan(0.5 * tall_rad) / std::cos(0.5 * sensor.horizontal_angle_rad());
+    EXPECT_LE(floor_m, std::max({0.3, sensor.min_range_m, 1.1 * std::abs(corner_m)}) + 2.0 * cell_m);
     for (int place = 0; place < 40; ++place) {
       const double azimuth = draw(-0.49, 0.49) * sensor.horizontal_angle_rad();
       const auto floor_at = [&](double range_m) {
@@ -161,8 +163,10 @@ TEST(StartFloor, NamesTheOptionIfTheSensorNeverSeesTheFloor) {
       (void)start_floor_m(band, GroundRobot({.radius_m = 0.2}), sensor);
       ADD_FAILURE() << "no error";
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()),
-                "HeightBandOptions::needs_floor is true, but the lowest rays of the sensor do not reach the floor");
+      EXPECT_EQ(
+          std::string(error.what()),
+          "HeightBandOptions::needs_floor: the lowest rays of the sensor do not reach a floor 0.650000 m below it, "
+          "one step below the band");
     }
   }
 }

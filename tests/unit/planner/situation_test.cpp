@@ -75,7 +75,6 @@ TEST(Situation, BehindAClosedDoorIsUnreachableUntilItOpens) {
   EXPECT_FALSE(situation.survey().targets.empty());
 }
 
-// A crack that no body fits through or into is no place that is cut off.
 TEST(Situation, ContestedCellsInTheWayAreLookedAtFromDistancesThatDifferUntilTheyAreSettled) {
   constexpr double kRangeM = 1.0;
   OccupancyMap map = two_rooms({});
@@ -139,6 +138,7 @@ TEST(Situation, ContestedCellsThatHideNothingAreNotLookedAt) {
   EXPECT_EQ(end->outcome, Outcome::Explored) << end->reason;
 }
 
+// A crack that no body fits through or into is no place that is cut off.
 TEST(Situation, ACrackThatNoBodyFitsIntoIsNotUnreachable) {
   const OccupancyMap map = two_rooms({{kWall + 1, 3, 1}, {kWall + 5, 8, 2}});
   Situation situation(robot_with(round_about(), 0.25));

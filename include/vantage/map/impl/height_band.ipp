@@ -57,6 +57,8 @@ VANTAGE_INLINE HeightBand::HeightBand(const OccupancyMapOptions& of_map, const H
       --lowest_floor_;
     }
   }
+  detail::require_option(!options.needs_floor || lowest_floor_ < lowest_, "HeightBandOptions::step_height_m",
+                         options.step_height_m, "such that a cell below the band can hold the floor");
   detail::require_option(lowest_ < above_, "HeightBandOptions::max_height_m", options.max_height_m,
                          "such that the centre of a cell lies between the heights");
   if (of_map.region) {

@@ -67,7 +67,8 @@ VANTAGE_INLINE double start_floor_m(const HeightBand& band, const Platform& plat
     const Eigen::Vector3d ray = sensor.direction(column, sensor.height - 1);
     if (ray.y() * sensor.max_range_m <= above_floor_m) {
       throw std::invalid_argument(
-          "HeightBandOptions::needs_floor is true, but the lowest rays of the sensor do not reach the floor");
+          "HeightBandOptions::needs_floor: the lowest rays of the sensor do not reach a floor " +
+          std::to_string(above_floor_m) + " m below it, one step below the band");
     }
     unseen_m = std::max(unseen_m, above_floor_m * std::hypot(ray.x(), ray.z()) / ray.y());
   }

@@ -49,9 +49,10 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_at_contested() {
   while (open) {  // ends, because each round closes cells
     const ReachableSpace space(*open, platform(), current_);
     const std::optional<VoxelIndex> beyond = viewpoint_among(out_of_reach(space.cells(), body_m()));
-    const std::vector<VoxelIndex> cells = beyond ? contested_on_way(space, *beyond) : std::vector<VoxelIndex>();
+    const std::vector<VoxelIndex> cells =
+        beyond ? contested_on_way(*open, space, *beyond) : std::vector<VoxelIndex>();
     for (const VoxelIndex& cell : cells) {
-      if (std::optional<Plan> look = look_again_at(cell, cells)) {
+      if (std::optional<Plan> look = look_again_at(cell)) {
         return look;
       }
     }
@@ -65,8 +66,9 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_at_contested() {
   return std::nullopt;
 }
 
-// The contested cells around the first place on the way to `goal` that cannot be reached.
-VANTAGE_INLINE std::vector<VoxelIndex> Situation::contested_on_way(const ReachableSpace& space,
+// The contested cells, clear in `open`, around the first place on the way to `goal` that cannot be reached.
+VANTAGE_INLINE std::vector<VoxelIndex> Situation::contested_on_way(const OccupancyMap& open,
+                                                                   const ReachableSpace& space,
                                                                    const VoxelIndex& goal) const {
   std::vector<VoxelIndex> cells;
   const std::vector<VoxelIndex> way = GridPaths(space).to(goal);
@@ -76,7 +78,7 @@ VANTAGE_INLINE std::vector<VoxelIndex> Situation::contested_on_way(const Reachab
     Pose pose = current_;
     pose.translation() = space.position_in(*first);
     for_each_cell(map_->frame().cells_touched_by(platform().body_box(pose)).grown(1), [&](const VoxelIndex& cell) {
-      if (map_->contested(cell)) {
+      if (map_->contested(cell) && open.is_clear(cell)) {
         cells.push_back(cell);
       }
     });
@@ -84,10 +86,9 @@ VANTAGE_INLINE std::vector<VoxelIndex> Situation::contested_on_way(const Reachab
   return cells;
 }
 
-// A view of `cell`, and of others of `cells` in its view, from the nearest place at a distance from which it was not
-// yet looked at.
-VANTAGE_INLINE std::optional<Plan> Situation::look_again_at(const VoxelIndex& cell,
-                                                            const std::vector<VoxelIndex>& cells) const {
+// A view of `cell` from the nearest place at a distance from which it was not yet looked at. All contested cells in
+// view that were not looked at from there are sought, so that one look serves a whole edge.
+VANTAGE_INLINE std::optional<Plan> Situation::look_again_at(const VoxelIndex& cell) const {
   Plan plan = open_plan();
   const auto view_from = [&](const VoxelIndex& place) {
     const Eigen::Vector3d position = reachable().position_in(place);
@@ -100,15 +101,19 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_again_at(const VoxelIndex& ce
   std::erase_if(places, [&](const VoxelIndex& place) {
     return tried_.rests(place) || tried_.tried_at_distance(cell, place) || !is_seen_in(view_from(place), cell);
   });
-  while (!places.empty()) {
+  constexpr int kMostTries = 16;
+  for (int tries = 0; tries < kMostTries && !places.empty(); ++tries) {
     const std::vector<VoxelIndex> way = GridPaths(reachable()).to_nearest(places);
     const Pose view = view_from(way.back());
     if (std::optional<std::vector<Pose>> path = path_to(view, way)) {
       plan.outcome = Outcome::Move;
       plan.goal.pose = view;
       plan.path = *std::move(path);
-      std::copy_if(cells.begin(), cells.end(), std::back_inserter(plan.sought),
-                   [&](const VoxelIndex& one) { return is_seen_in(view, one); });
+      for (const VoxelIndex& one : detail::contested_cells(*map_)) {
+        if (!tried_.tried_at_distance(one, way.back()) && is_seen_in(view, one)) {
+          plan.sought.push_back(one);
+        }
+      }
       plan.reason = "a look at contested cells in the way to a place with more to see";
       return plan;
     }

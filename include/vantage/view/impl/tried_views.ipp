@@ -18,10 +18,6 @@ namespace detail {
 inline constexpr std::size_t kMostCells = std::size_t{1} << 18;
 inline constexpr std::size_t kMostScans = 64;
 
-inline bool is_settled(const OccupancyMap& map, const VoxelIndex& cell) {
-  return map.at(cell) != Occupancy::Unknown && !map.contested(cell);
-}
-
 inline int known_around(const OccupancyMap& map, const VoxelIndex& cell) {
   return static_cast<int>(std::count_if(kFaceNeighbours.begin(), kFaceNeighbours.end(), [&](const VoxelIndex& step) {
     return map.at(cell + step) != Occupancy::Unknown;
@@ -118,7 +114,7 @@ VANTAGE_INLINE void TriedViews::forget(const OccupancyMap& map) {
   const std::uint64_t oldest = crowded ? ages[ages.size() / 2] : 0;
   std::erase_if(looks_, [&](const auto& entry) {
     const auto& [cell, looks] = entry;
-    return looks.latest < oldest || detail::is_settled(map, cell) ||
+    return looks.latest < oldest || (map.at(cell) != Occupancy::Unknown && looks.contested.empty()) ||
            detail::known_around(map, cell) > looks.known_neighbours;
   });
   may_hold_.clear();
@@ -136,10 +132,10 @@ VANTAGE_INLINE bool TriedViews::arrived(const Pose& current) const {
 VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& current) {
   const VoxelIndex goal = map.frame().cell_of(expected_->goal.translation());
   const std::vector<VoxelIndex>& sought = expected_->sought;
-  const auto is_open = [&](const VoxelIndex& cell) {
-    return map.at(cell) == Occupancy::Unknown || (expected_->of_contested && map.contested(cell));
-  };
-  const bool served = !sought.empty() && std::none_of(sought.begin(), sought.end(), is_open);
+  const auto is_unknown = [&](const VoxelIndex& cell) { return map.at(cell) == Occupancy::Unknown; };
+  const bool served = !sought.empty() && std::none_of(sought.begin(), sought.end(), [&](const VoxelIndex& cell) {
+    return expected_->of_contested ? map.contested(cell) : is_unknown(cell);
+  });
   if (served) {
     std::erase_if(places_, [](const Place& place) { return place.failures == 0; });
   }
@@ -158,7 +154,7 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
     }
     const VoxelIndex here = map.frame().cell_of(current.translation());
     const auto look = [&](const VoxelIndex& cell, std::vector<VoxelIndex> Looks::*unseen) {
-      if (!is_open(cell)) {
+      if (!is_unknown(cell)) {
         return;
       }
       Looks& looks = new_look_at(map, cell);
@@ -172,10 +168,16 @@ VANTAGE_INLINE void TriedViews::evaluate(const OccupancyMap& map, const Pose& cu
       }
     };
     for (const VoxelIndex& cell : sought) {
-      look(cell, &Looks::missed);
+      if (expected_->of_contested) {
+        Looks& looks = new_look_at(map, cell);
+        detail::add_once(here, looks.contested);
+        detail::add_once(goal, looks.contested);
+      } else {
+        look(cell, &Looks::missed);
+      }
     }
     const std::vector<VoxelIndex>& hoped = expected_->hoped;
-    if (std::all_of(hoped.begin(), hoped.end(), is_open)) {
+    if (std::all_of(hoped.begin(), hoped.end(), is_unknown)) {
       for (const VoxelIndex& cell : hoped) {
         look(cell, &Looks::hoped);
       }
@@ -270,9 +272,7 @@ VANTAGE_INLINE bool TriedViews::tried_at_distance(const VoxelIndex& cell, const 
     const double there = detail::squared_distance(cell, other);
     return std::max(here, there) < 1.5 * 1.5 * std::min(here, there);
   };
-  return looks != nullptr && (std::any_of(looks->in_vain.begin(), looks->in_vain.end(), is_alike) ||
-                              std::any_of(looks->clear.begin(), looks->clear.end(), is_alike) ||
-                              std::any_of(looks->missed.begin(), looks->missed.end(), is_alike));
+  return looks != nullptr && std::any_of(looks->contested.begin(), looks->contested.end(), is_alike);
 }
 
 VANTAGE_INLINE bool TriedViews::looked_closely(const OccupancyMap& map, const VoxelIndex& unknown) const {

@@ -4,11 +4,12 @@
 // The text form of TriedViews. One entry a line: a word and its numbers.
 //
 //     tried-views 1 <cells in metres> <plans>
-//     cell x y z <known neighbours> <latest look>     evidence about an unknown cell,
+//     cell x y z <known neighbours> <latest look>     evidence about a cell,
 //     in-vain x y z                                   | followed by the places of its looks
 //     clear x y z                                     |
 //     missed x y z                                    |
 //     hoped x y z                                     |
+//     contested x y z                                 |
 //     place x y z <nearest way> <plans no nearer> <failures> <rests until>
 //     scan <rotation and translation, 3 rows of 4>
 #include <algorithm>
