@@ -145,7 +145,7 @@ void give_json(const std::string& json, const std::string& report) {
 }
 
 void write_page(const RunRecording& recording, const std::string& report, OutputFiles& files) {
-  if (files.attempt([&] { recording.check(); })) {
+  if (files.attempt([&] { recording.check(); }) && recording.file()) {
     files.add(*recording.file());
   }
   if (recording.file()) {

@@ -131,7 +131,7 @@ class TriedViews {
   [[nodiscard]] bool looked_from_beside(const OccupancyMap& map, const VoxelIndex& unknown,
                                         const VoxelIndex& place) const;
   /// Whether the cell was looked at because it was contested, from about the distance of this place: the longer of
-  /// the two distances is less than 1.5 times the shorter one.
+  /// the two distances is less than twice the shorter one.
   [[nodiscard]] bool tried_at_distance(const VoxelIndex& cell, const VoxelIndex& place) const;
   /// Whether this place rests: the robot failed to reach it, or a place within the goal tolerance.
   [[nodiscard]] bool rests(const VoxelIndex& place) const;

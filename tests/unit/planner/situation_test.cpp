@@ -104,7 +104,7 @@ TEST(Situation, ContestedCellsInTheWayAreLookedAtFromDistancesThatDifferUntilThe
       const double look_m = (map.frame().centre_of(cell) - end->goal.pose.translation()).norm();
       EXPECT_LE(look_m, kRangeM);
       differs = differs || std::none_of(looks_m[cell].begin(), looks_m[cell].end(), [&](double other_m) {
-                  return std::max(look_m, other_m) < 1.5 * std::min(look_m, other_m) - 1e-9;
+                  return std::max(look_m, other_m) < 2.0 * std::min(look_m, other_m) - 1e-9;
                 });
       looks_m[cell].push_back(look_m);
     }

@@ -171,6 +171,30 @@ TEST(TriedViews, WhatAViewHopedForWasInVainOnlyIfItResolvedNoneOfIt) {
   }
 }
 
+TEST(TriedViews, ALookAtAContestedCellIsStoredWhateverCameOfIt) {
+  OccupancyMap map = free_before_the_hidden();
+  const VoxelIndex cell{4, 5, 5};
+  const VoxelIndex place{0, 5, 5};
+  map.set_log_odds(cell, -map.log_odds_step());
+  TriedViews tried(sees_all_around());
+  tried.review(map, at(map, place));
+  EXPECT_FALSE(tried.tried_at_distance(cell, place));
+  ASSERT_TRUE(tried.expect(map, path_to(at(map, place), 1.0), {cell}));
+  map.set(cell, Occupancy::Free);
+  tried.review(map, at(map, place));
+  TriedViews saved(sees_all_around());
+  saved.recall(map, tried.text());
+  map.set_log_odds(cell, -map.log_odds_step());
+  tried.review(map, at(map, place));
+  for (const TriedViews* memory : {&tried, &saved}) {
+    EXPECT_TRUE(memory->tried_at_distance(cell, place));
+    EXPECT_TRUE(memory->tried_at_distance(cell, {1, 6, 5}));
+    EXPECT_FALSE(memory->tried_at_distance(cell, {3, 5, 5}));
+    EXPECT_FALSE(memory->tried_at_distance(cell, {-4, 5, 5})) << "twice as far";
+    EXPECT_FALSE(memory->gave_up(cell));
+  }
+}
+
 TEST(TriedViews, AHostThatReportsIsBelieved) {
   const VoxelIndex place{0, 5, 5};
   const auto after = [&](GoalResult result, const VoxelIndex& robot) {

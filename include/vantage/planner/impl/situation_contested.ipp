@@ -8,7 +8,7 @@
 //     . . . . . . . . . . . | c c c c c c | . . place beyond . .   ? ? ?  unknown
 //           ^     ^     ^
 //           |     |     +--- first look, from the nearest place
-//           +-----+--- in vain: from places whose distance to the cells differs by half,
+//           +-----+--- in vain: from places at half or twice the distance,
 //                      because a level sensor sees the floor from some distances only
 #include <algorithm>
 #include <utility>
@@ -86,8 +86,8 @@ VANTAGE_INLINE std::vector<VoxelIndex> Situation::contested_on_way(const Occupan
   return cells;
 }
 
-// A view of `cell` from the nearest place at a distance from which it was not yet looked at. All contested cells in
-// view that were not looked at from there are sought, so that one look serves a whole edge.
+// A view of `cell` from the nearest place at a distance from which neither a look nor a scan on the way saw it. All
+// contested cells in view that were not looked at from there are sought, so that one look serves a whole edge.
 VANTAGE_INLINE std::optional<Plan> Situation::look_again_at(const VoxelIndex& cell) const {
   Plan plan = open_plan();
   const auto view_from = [&](const VoxelIndex& place) {
@@ -97,9 +97,21 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_again_at(const VoxelIndex& ce
   const auto is_seen_in = [&](const Pose& view, const VoxelIndex& one) {
     return sees(*map_, sensor(), view, one, plan.statistics.ray_operations);
   };
+  std::vector<double> seen_from_m;
+  for (const Pose& scanned : tried_.scanned_from()) {
+    if (is_seen_in(scanned, cell)) {
+      seen_from_m.push_back((map_->frame().centre_of(cell) - scanned.translation()).norm());
+    }
+  }
+  const auto was_seen_from = [&](const VoxelIndex& place) {
+    const double from_m = (map_->frame().centre_of(cell) - reachable().position_in(place)).norm();
+    return std::any_of(seen_from_m.begin(), seen_from_m.end(),
+                       [&](double other_m) { return std::max(from_m, other_m) < 2.0 * std::min(from_m, other_m); });
+  };
   std::vector<VoxelIndex> places = reachable().cells();
   std::erase_if(places, [&](const VoxelIndex& place) {
-    return tried_.rests(place) || tried_.tried_at_distance(cell, place) || !is_seen_in(view_from(place), cell);
+    return tried_.rests(place) || tried_.tried_at_distance(cell, place) || was_seen_from(place) ||
+           !is_seen_in(view_from(place), cell);
   });
   constexpr int kMostTries = 16;
   for (int tries = 0; tries < kMostTries && !places.empty(); ++tries) {

@@ -270,7 +270,7 @@ VANTAGE_INLINE bool TriedViews::tried_at_distance(const VoxelIndex& cell, const 
   const double here = detail::squared_distance(cell, place);
   const auto is_alike = [&](const VoxelIndex& other) {
     const double there = detail::squared_distance(cell, other);
-    return std::max(here, there) < 1.5 * 1.5 * std::min(here, there);
+    return std::max(here, there) < 4.0 * std::min(here, there);
   };
   return looks != nullptr && std::any_of(looks->contested.begin(), looks->contested.end(), is_alike);
 }
