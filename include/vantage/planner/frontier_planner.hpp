@@ -60,9 +60,7 @@ class FrontierPlanner : public ExplorationPlanner {
   /// again. When none is left, their places rest, and targets that are seen from elsewhere follow.
   [[nodiscard]] virtual Choice choose(const Situation& situation) = 0;
   /// What a utility is worth at the end of a way of `way_m` metres: at a price of `cost_per_m`, in 1/m, >= 0.
-  [[nodiscard]] static double worth(double utility, double cost_per_m, double way_m) {
-    return utility / (1.0 + cost_per_m * way_m);
-  }
+  [[nodiscard]] static double worth(double utility, double cost_per_m, double way_m);
 
  private:
   [[nodiscard]] Plan plan_of_choice(std::vector<VoxelIndex>& hoped, PlanStatistics& spent);

@@ -42,6 +42,10 @@ VANTAGE_INLINE Plan FrontierPlanner::plan(const OccupancyMap& map, const Pose& c
   }
 }
 
+VANTAGE_INLINE double FrontierPlanner::worth(double utility, double cost_per_m, double way_m) {
+  return utility / (1.0 + cost_per_m * way_m);
+}
+
 // Chooses views until a path leads to one. What it hopes for is put into `hoped`; adds to `spent`.
 VANTAGE_INLINE Plan FrontierPlanner::plan_of_choice(std::vector<VoxelIndex>& hoped, PlanStatistics& spent) {
   Plan plan = situation_.open_plan();
