@@ -51,6 +51,9 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_at_contested() {
     const std::optional<VoxelIndex> beyond = viewpoint_among(out_of_reach(space.cells(), body_m()));
     const std::vector<VoxelIndex> cells =
         beyond ? contested_on_way(*open, space, *beyond) : std::vector<VoxelIndex>();
+    if (cells.empty()) {
+      break;
+    }
     for (const VoxelIndex& cell : cells) {
       if (std::optional<Plan> look = look_again_at(cell)) {
         return look;
@@ -58,9 +61,6 @@ VANTAGE_INLINE std::optional<Plan> Situation::look_at_contested() {
     }
     for (const VoxelIndex& cell : cells) {
       open->set(cell, Occupancy::Occupied);
-    }
-    if (cells.empty()) {
-      break;
     }
   }
   return std::nullopt;
