@@ -29,8 +29,7 @@ std::vector<ViewedSite> ExplorationPeer::sites(const Situation& situation,
                                                const std::vector<double>& from_start) const {
   const VoxelIndex start = *situation.reachable().start();
   std::vector<ViewedSite> all;
-  for (FrontierSite& site :
-       frontier_sites(situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(kSiteM)))) {
+  for (FrontierSite& site : frontier_parts(situation, kSiteM)) {
     const double way_m = situation.ways().length_to(site.middle.viewpoint, start, from_start);
     all.push_back({.site = std::move(site), .way_m = way_m, .unknown = {}, .views = {}});
   }

@@ -33,7 +33,7 @@ class ExplorationPeer : public FrontierPlanner {
   [[nodiscard]] std::string_view name() const final { return name_; }
 
  protected:
-  /// Largest extent of a part of the frontier, metres.
+  /// Largest length and width of a part of the frontier, metres.
   static constexpr double kSiteM = 2.0;
 
   /// The parts of the frontier, the nearest by way first, without views.

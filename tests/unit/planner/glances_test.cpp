@@ -53,7 +53,7 @@ class InACorridor : public ::testing::Test {
                     [&](const VoxelIndex& cell) { map_.set(cell, Occupancy::Unknown); });
     }
     situation_.sync(map_, at({0.1, 0.1, 0.1}));
-    sites_ = detail::frontier_sites(situation_.survey().targets, 8);
+    sites_ = detail::frontier_sites(situation_.survey().targets, {8, 8, 8});
   }
   // Looks along the corridor.
   [[nodiscard]] static Pose at(const Eigen::Vector3d& position) { return pose_looking(position, 0.0); }

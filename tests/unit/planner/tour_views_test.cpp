@@ -38,7 +38,8 @@ TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
     Situation situation(setup);
     situation.sync(map, Pose::Identity());
     std::uint64_t operations = 0;
-    const std::vector<detail::FrontierSite> sites = detail::frontier_sites(situation.survey().targets, 6 + seed);
+    const VoxelIndex most{6 + seed, 6 + seed, 6 + seed};
+    const std::vector<detail::FrontierSite> sites = detail::frontier_sites(situation.survey().targets, most);
     const detail::TourViews choice(situation, sites, operations);
     std::set<VoxelIndex> of_sites;
     for (const detail::FrontierSite& site : sites) {

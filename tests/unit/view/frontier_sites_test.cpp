@@ -33,7 +33,7 @@ TEST(FrontierSites, HoldEveryTargetOnceAndAreNoLargerThanAllowed) {
     for (const VoxelIndex& cell : sorted) {
       targets.push_back({cell, cell + VoxelIndex{1, 0, 0}, cell});
     }
-    const std::int32_t most = 3 + seed % 6;
+    const VoxelIndex most{3 + seed % 6, 3 + seed % 6, 2 + seed % 11};
     std::set<VoxelIndex> held;
     for (const FrontierSite& site : detail::frontier_sites(targets, most)) {
       ++sites_seen;
@@ -43,7 +43,9 @@ TEST(FrontierSites, HoldEveryTargetOnceAndAreNoLargerThanAllowed) {
         holds_middle = holds_middle || a.frontier == site.middle.frontier;
         for (const FrontierTarget& b : site.targets) {
           const VoxelIndex apart = a.frontier - b.frontier;
-          EXPECT_LT(std::max({apart.x, apart.y, apart.z}), most);
+          EXPECT_LT(apart.x, most.x);
+          EXPECT_LT(apart.y, most.y);
+          EXPECT_LT(apart.z, most.z);
         }
       }
       EXPECT_TRUE(holds_middle);
@@ -58,11 +60,11 @@ TEST(FrontierSites, APartThatIsSmallEnoughIsNotDividedAndItsMiddleIsInTheMiddle)
   for (std::int32_t x = 0; x < 7; ++x) {
     targets.push_back({{x, 0, 0}, {x, 1, 0}, {x, -1, 0}});
   }
-  const std::vector<FrontierSite> whole = detail::frontier_sites(targets, 7);
+  const std::vector<FrontierSite> whole = detail::frontier_sites(targets, {7, 1, 1});
   ASSERT_EQ(whole.size(), 1U);
   EXPECT_EQ(whole.front().middle.frontier, (VoxelIndex{3, 0, 0}));
-  EXPECT_EQ(detail::frontier_sites(targets, 6).size(), 2U);
-  EXPECT_TRUE(detail::frontier_sites({}, 6).empty());
+  EXPECT_EQ(detail::frontier_sites(targets, {6, 9, 9}).size(), 2U);
+  EXPECT_TRUE(detail::frontier_sites({}, {6, 6, 6}).empty());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@
 namespace vantage {
 namespace detail {
 
-// Largest extent along an axis of a part of the frontier. Larger clusters of frontier cells are divided.
+// Largest length and width of a part of the frontier. Larger clusters of frontier cells are divided.
 inline constexpr double kSiteM = 1.5;
 // Most parts of the frontier (the nearest) and most views of a tour.
 inline constexpr std::size_t kMostSites = 24;
@@ -39,8 +39,7 @@ struct NearestSites {
   std::vector<double> lengths;  // see BlockWays::lengths_from
 
   explicit NearestSites(const Situation& situation) : ways(situation.ways()), start(*situation.reachable().start()) {
-    std::vector<FrontierSite> all =
-        detail::frontier_sites(situation.survey().targets, std::max(1, situation.map().frame().cells_up_to(kSiteM)));
+    std::vector<FrontierSite> all = frontier_parts(situation, kSiteM);
     std::vector<VoxelIndex> places(all.size());
     std::transform(all.begin(), all.end(), places.begin(),
                    [](const FrontierSite& site) { return site.middle.viewpoint; });

@@ -9,6 +9,10 @@
 
 namespace vantage::detail {
 
+/// The parts of the frontier, for one view each: at most `most_m` long and wide, metres, and as high, or as high as
+/// the sensor sees at the places around a part that are furthest from it.
+[[nodiscard]] std::vector<FrontierSite> frontier_parts(const Situation& situation, double most_m);
+
 /// A view that a tour may take.
 struct TourView {
   VoxelIndex place;                 ///< a reachable cell

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vantage/geometry/raster_order.hpp>
@@ -27,6 +28,8 @@ inline constexpr std::array<std::array<double, 2>, 8> kRing{{{1.0, 0.0},
                                                              {kDiagonal, -kDiagonal}}};
 // Further away a place no longer belongs to a part.
 inline constexpr double kFurthestRangeM = 10.0;
+// A wider vertical field of view counts as this one, of which the tangent is still small.
+inline constexpr double kWidestRad = 3.0;
 // Places around parts stand on a lattice, so that parts beside each other share them.
 inline constexpr double kLatticeM = 0.4;
 // The tour is planned again long before the parts behind the first few are looked at.
@@ -36,6 +39,19 @@ inline constexpr std::size_t kMostLookedFor = 500;
 
 // The coordinate of the lattice below or at `at`.
 inline std::int32_t lattice_at(std::int32_t at, std::int32_t step) { return at - (at % step + step) % step; }
+
+// Places around a part are at shares of this distance from it.
+inline double furthest_range_m(const Situation& situation) {
+  return std::min(kFurthestRangeM, counted_range_m(situation.map(), situation.sensor()));
+}
+
+VANTAGE_INLINE std::vector<FrontierSite> frontier_parts(const Situation& situation, double most_m) {
+  const VoxelFrame& frame = situation.map().frame();
+  const double above_rad = 0.5 * std::min(situation.sensor().vertical_angle_rad(), kWidestRad);
+  const double in_view_m = 2.0 * kRings.back() * furthest_range_m(situation) * std::tan(above_rad);
+  const std::int32_t side = std::max(1, frame.cells_up_to(most_m));
+  return frontier_sites(situation.survey().targets, {side, side, std::max(side, frame.cells_up_to(in_view_m))});
+}
 
 inline Eigen::Vector3d middle_of_unknown(const FrontierSite& site, const VoxelFrame& frame) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -50,7 +66,7 @@ inline std::vector<VoxelIndex> places_of(const Situation& situation, const std::
   const ReachableSpace& reachable = situation.reachable();
   const VoxelFrame& frame = situation.map().frame();
   const std::int32_t step = std::max(1, frame.cells_up_to(kLatticeM));
-  const double range_m = std::min(kFurthestRangeM, counted_range_m(situation.map(), situation.sensor()));
+  const double range_m = furthest_range_m(situation);
   std::vector<VoxelIndex> places{*reachable.start()};
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const FrontierTarget& middle = sites[i].middle;

@@ -14,9 +14,9 @@ struct FrontierSite {
 };
 
 /// Divides targets, in raster order of their frontier cells, into clusters that touch through corners, and those by
-/// halving until none is longer than `most_cells` along an axis.
+/// halving until none has more than `most` cells along an axis.
 [[nodiscard]] std::vector<FrontierSite> frontier_sites(const std::vector<FrontierTarget>& targets,
-                                                       std::int32_t most_cells);
+                                                       const VoxelIndex& most);
 
 }  // namespace vantage::detail
 

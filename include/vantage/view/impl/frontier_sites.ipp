@@ -16,22 +16,25 @@ namespace vantage::detail {
 
 using Cells = std::vector<VoxelIndex>;
 
-// Halves at the middle of the longest side.
-inline void divide(Cells cells, std::int32_t most_cells, std::vector<Cells>& parts) {
+// Halves at the middle of the side that is longest for what it may be.
+inline void divide(Cells cells, const VoxelIndex& most, std::vector<Cells>& parts) {
   const VoxelBox box = box_around(cells);
   const VoxelIndex extent = box.extent();
-  const std::array<std::int32_t, 3> sides{extent.x, extent.y, extent.z};
+  const auto too_long = [&](std::size_t axis) {
+    return static_cast<double>(along(extent, axis)) / static_cast<double>(along(most, axis));
+  };
+  const std::array<double, 3> sides{too_long(0), too_long(1), too_long(2)};
   const auto longest = std::max_element(sides.begin(), sides.end());
-  if (*longest <= most_cells) {
+  if (*longest <= 1.0) {
     parts.push_back(std::move(cells));
     return;
   }
   const auto axis = static_cast<std::size_t>(longest - sides.begin());
-  const std::int32_t middle = along(box.lo, axis) + *longest / 2;
+  const std::int32_t middle = along(box.lo, axis) + along(extent, axis) / 2;
   const auto upper = std::stable_partition(cells.begin(), cells.end(),
                                            [&](const VoxelIndex& cell) { return along(cell, axis) < middle; });
-  divide({cells.begin(), upper}, most_cells, parts);
-  divide({upper, cells.end()}, most_cells, parts);
+  divide({cells.begin(), upper}, most, parts);
+  divide({upper, cells.end()}, most, parts);
 }
 
 inline FrontierSite site_of(const Cells& cells, const std::vector<FrontierTarget>& targets) {
@@ -55,7 +58,7 @@ inline FrontierSite site_of(const Cells& cells, const std::vector<FrontierTarget
 }
 
 VANTAGE_INLINE std::vector<FrontierSite> frontier_sites(const std::vector<FrontierTarget>& targets,
-                                                        std::int32_t most_cells) {
+                                                        const VoxelIndex& most) {
   Cells cells;
   cells.reserve(targets.size());
   for (const FrontierTarget& target : targets) {
@@ -63,7 +66,7 @@ VANTAGE_INLINE std::vector<FrontierSite> frontier_sites(const std::vector<Fronti
   }
   std::vector<Cells> parts;
   for (Cells& cluster : frontier_clusters(cells)) {
-    divide(std::move(cluster), most_cells, parts);
+    divide(std::move(cluster), most, parts);
   }
   std::vector<FrontierSite> sites;
   sites.reserve(parts.size());
