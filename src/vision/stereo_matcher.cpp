@@ -61,15 +61,19 @@ cv::Ptr<cv::StereoMatcher> matcher_of(const StereoOptions& options) {
                                 cv::StereoSGBM::MODE_SGBM);
 }
 
-// The matchers skip as many columns on the left as there are disparities. A border on the left avoids this.
-cv::Mat disparities(const cv::Mat& left, const cv::Mat& right, const StereoOptions& options) {
-  const int border = std::max(0, options.least_disparity_px + options.disparities_px);
+// A surface nearer than the range is often matched inside of it, so at least `searched_px` disparities are searched,
+// and what lies beyond the range is dropped. The matchers skip as many columns on the left as there are disparities.
+// A border on the left avoids this.
+cv::Mat disparities(const cv::Mat& left, const cv::Mat& right, const StereoOptions& options, int searched_px) {
+  StereoOptions search = options;
+  search.disparities_px = std::max(options.disparities_px, searched_px);
+  const int border = std::max(0, search.least_disparity_px + search.disparities_px);
   cv::Mat wide_left;
   cv::Mat wide_right;
   cv::copyMakeBorder(left, wide_left, 0, 0, border, 0, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(right, wide_right, 0, 0, border, 0, cv::BORDER_REPLICATE);
   cv::Mat wide;
-  matcher_of(options)->compute(wide_left, wide_right, wide);
+  matcher_of(search)->compute(wide_left, wide_right, wide);
   cv::Mat result = wide.colRange(border, wide.cols).clone();
   const int first = options.least_disparity_px * kSubpixel;
   const int last = first + (options.disparities_px - 1) * kSubpixel;
@@ -145,7 +149,7 @@ StereoDepth StereoMatcher::match(const std::filesystem::path& left_file,
   if (rig_.rectification) {
     std::tie(left, right) = detail::rectify(rig_, left, right);
   }
-  cv::Mat values = disparities(left, right, options_);
+  cv::Mat values = disparities(left, right, options_, disparities_for(rig_, options_.least_disparity_px));
   StereoDepth result;
   const std::size_t found = count_matched(values);
   result.report.unmatched = values.total() - found;

@@ -76,6 +76,31 @@ TEST(RealStereo, MotorcycleAgainstTheTruth) {
   }
 }
 
+// A surface nearer than the range of disparities must not be taken for a further one: the way to that would be free.
+TEST(RealStereo, WhatIsNearerThanTheRangeHasNoDepth) {
+  VANTAGE_REAL_DATA(folder, "stereo/middlebury2014_motorcycle");
+  const StereoRig motorcycle = read_middlebury_calibration(folder / "calib.txt");
+  std::size_t width = 0;
+  std::size_t height = 0;
+  const std::vector<float> truth = read_pfm(folder / "motorcycle_disp.pfm", width, height);
+  for (const StereoMethod method : {StereoMethod::SemiGlobal, StereoMethod::Block}) {
+    const bool block = method == StereoMethod::Block;
+    const StereoMatcher matcher(motorcycle, {.method = method, .disparities_px = 32, .window_px = block ? 15 : 5});
+    const StereoDepth seen = matcher.match(folder / "motorcycle_left.png", folder / "motorcycle_right.png");
+    std::size_t near = 0;
+    std::size_t taken_for_far = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const bool beyond = std::isfinite(truth[i]) && truth[i] > 33.0F;
+      near += beyond ? 1U : 0U;
+      taken_for_far += beyond && std::isfinite(seen.disparity_px[i]) ? 1U : 0U;
+    }
+    ASSERT_GT(near, 50'000U);
+    const double share = double(taken_for_far) / double(near);
+    std::printf("%s: %.2f %% of what is nearer has a depth\n", block ? "block" : "semi-global", 100.0 * share);
+    EXPECT_LT(share, 0.01);
+  }
+}
+
 // A chessboard with squares of 25 mm in front of two cameras with distortion and a slight rotation. Calibrated from
 // its own corners, rectified and matched, the corners must be 25 mm apart.
 TEST(RealStereo, AChessboardKeepsItsSizeThroughRectification) {

@@ -23,8 +23,9 @@ enum class StereoMethod : std::uint8_t {
 struct StereoOptions {
   StereoMethod method = StereoMethod::SemiGlobal;  ///< matching algorithm
   int least_disparity_px = 0;                      ///< smallest disparity to search
-  /// Number of disparities to search, a multiple of 16; 0: enough for surfaces 4 baselines away. A match at either
-  /// end of the range is dropped: a nearer or further surface is matched there as well.
+  /// Number of disparities that count, a multiple of 16; 0: enough for surfaces 4 baselines away. A match at either
+  /// end of the range is dropped: a nearer or further surface is matched there as well. Those of surfaces 4 baselines
+  /// away are searched in any case, because a surface nearer than the range is often matched inside of it.
   int disparities_px = 0;
   int window_px = 5;            ///< edge of the matching window, odd, in [1, 255]; Block uses at least 5
   int uniqueness_percent = 10;  ///< margin in percent by which the best match must beat the second best, in [0, 100]
@@ -65,7 +66,7 @@ class StereoMatcher {
 
   /// The rig that was passed to the constructor.
   [[nodiscard]] const StereoRig& rig() const { return rig_; }
-  /// The options that were passed to the constructor, with the number of disparities that is searched.
+  /// The options that were passed to the constructor, with the number of disparities that count.
   [[nodiscard]] const StereoOptions& options() const { return options_; }
   /// Matches two image files. Throws std::runtime_error, with the file and the reason, if an image cannot be read,
   /// the sizes differ from each other or from the rig, or the images are not rectified although the rig says so. The
