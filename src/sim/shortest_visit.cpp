@@ -47,22 +47,11 @@ class Buckets {
   std::vector<std::vector<Entry>> buckets_;
 };
 
-// Calls `use(number, length)` for every reachable cell that one wide step leads to.
-template <class Use>
-void for_each_step(const NumberedCells& space, std::size_t cell, const Use& use) {
-  for (const WideStep& step : wide_steps()) {
-    const std::uint32_t to = space.number_of(space.cells()[cell] + step.by);
-    if (to != NumberedCells::kOutside) {
-      use(to, step.length);
-    }
-  }
-}
-
 // Dijkstra over pairs of a cell and the sets visited so far: state = visited * cells + cell.
 class VisitSearch {
  public:
-  VisitSearch(const NumberedCells& space, std::span<const std::uint16_t> member, std::size_t sets)
-      : space_(space), member_(member), all_((std::size_t{1} << sets) - 1), cost_(space.size() << sets, kNever) {}
+  VisitSearch(const StepGraph& graph, std::span<const std::uint16_t> member, std::size_t sets)
+      : graph_(graph), member_(member), all_((std::size_t{1} << sets) - 1), cost_(graph.size() << sets, kNever) {}
 
   Visit run() {
     std::size_t last = cost_.size();
@@ -76,13 +65,13 @@ class VisitSearch {
     queue_.run(
         cost_,
         [&](std::size_t state) {
-          if (state / space_.size() == all_) {
+          if (state / graph_.size() == all_) {
             last = last == cost_.size() || cost_[state] < cost_[last] ? state : last;
             return;
           }
-          for_each_step(space_, state % space_.size(), [&](std::uint32_t to, float length) {
-            offer(state_at(to, state / space_.size()), cost_[state] + length);
-          });
+          for (const auto& [to, length] : graph_.steps(state % graph_.size())) {
+            offer(state_at(to, state / graph_.size()), cost_[state] + length);
+          }
         },
         [&] { return last != cost_.size(); });
     return last == cost_.size() ? Visit{} : way_to(last);
@@ -90,34 +79,34 @@ class VisitSearch {
 
  private:
   std::size_t state_at(std::size_t cell, std::size_t visited_before) const {
-    return (visited_before | member_[cell]) * space_.size() + cell;
+    return (visited_before | member_[cell]) * graph_.size() + cell;
   }
 
   // The path to a state, found backwards along the steps that gave the costs.
   Visit way_to(std::size_t state) const {
     Visit visit{{}, cost_[state]};
     while (cost_[state] > 0.0F) {
-      visit.cells.push_back(static_cast<std::uint32_t>(state % space_.size()));
+      visit.cells.push_back(static_cast<std::uint32_t>(state % graph_.size()));
       state = before(state);
     }
-    visit.cells.push_back(static_cast<std::uint32_t>(state % space_.size()));
+    visit.cells.push_back(static_cast<std::uint32_t>(state % graph_.size()));
     std::reverse(visit.cells.begin(), visit.cells.end());
     return visit;
   }
   std::size_t before(std::size_t state) const {
     std::size_t found = state;
-    for_each_step(space_, state % space_.size(), [&](std::uint32_t from, float length) {
+    for (const auto& [from, length] : graph_.steps(state % graph_.size())) {
       for (std::size_t visited = 0; visited <= all_ && found == state; ++visited) {
-        const std::size_t earlier = visited * space_.size() + from;
-        if (cost_[earlier] + length == cost_[state] && state_at(state % space_.size(), visited) == state) {
+        const std::size_t earlier = visited * graph_.size() + from;
+        if (cost_[earlier] + length == cost_[state] && state_at(state % graph_.size(), visited) == state) {
           found = earlier;
         }
       }
-    });
+    }
     return found;
   }
 
-  const NumberedCells& space_;
+  const StepGraph& graph_;
   std::span<const std::uint16_t> member_;
   std::size_t all_;
   std::vector<float> cost_;
@@ -139,8 +128,22 @@ const std::vector<WideStep>& wide_steps() {
   return all_steps;
 }
 
-std::vector<float> distances_from(const NumberedCells& space, std::span<const std::uint32_t> from) {
-  std::vector<float> distance(space.size(), kNever);
+StepGraph::StepGraph(const NumberedCells& space) {
+  first_.reserve(space.size() + 1);
+  for (const VoxelIndex& cell : space.cells()) {
+    first_.push_back(steps_.size());
+    for (const WideStep& step : wide_steps()) {
+      const std::uint32_t to = space.number_of(cell + step.by);
+      if (to != NumberedCells::kOutside) {
+        steps_.push_back({to, step.length});
+      }
+    }
+  }
+  first_.push_back(steps_.size());
+}
+
+std::vector<float> distances_from(const StepGraph& graph, std::span<const std::uint32_t> from) {
+  std::vector<float> distance(graph.size(), kNever);
   Buckets queue;
   for (const std::uint32_t cell : from) {
     distance[cell] = 0.0F;
@@ -149,19 +152,19 @@ std::vector<float> distances_from(const NumberedCells& space, std::span<const st
   queue.run(
       distance,
       [&](std::size_t cell) {
-        for_each_step(space, cell, [&](std::uint32_t to, float length) {
+        for (const auto& [to, length] : graph.steps(cell)) {
           if (distance[cell] + length < distance[to]) {
             distance[to] = distance[cell] + length;
             queue.push(to, distance[to]);
           }
-        });
+        }
       },
       [] { return false; });
   return distance;
 }
 
-Visit shortest_visit(const NumberedCells& space, std::span<const std::uint16_t> member, std::size_t sets) {
-  return VisitSearch(space, member, sets).run();
+Visit shortest_visit(const StepGraph& graph, std::span<const std::uint16_t> member, std::size_t sets) {
+  return VisitSearch(graph, member, sets).run();
 }
 
 }  // namespace vantage

@@ -93,8 +93,10 @@ bool Sight::sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const {
     return true;
   }
   const Eigen::Vector3d middle = frame_.centre_of(cell);
+  const bool one_layer = cells_.box().extent().z == 1;  // a line to a point above passes what the level one passes
   for (const VoxelIndex& part : kAllNeighbours) {
-    if (sees_point(pose, cell, middle + kInside * frame_.size_m * Eigen::Vector3d(part.x, part.y, part.z))) {
+    if ((part.z == 0 || !one_layer) &&
+        sees_point(pose, cell, middle + kInside * frame_.size_m * Eigen::Vector3d(part.x, part.y, part.z))) {
       return true;
     }
   }

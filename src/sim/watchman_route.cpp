@@ -26,6 +26,7 @@ class Watchman {
       : threads_(static_cast<std::size_t>(options.threads)),
         stop_(options.stop),
         space_(ReachableSpace(truth.map(), platform, start)),
+        graph_(space_),
         sight_(truth.cells(), truth.map().frame(), sensor, platform.can_tilt()) {
     if (space_.size() == 0) {
       throw std::invalid_argument("watchman_route: the platform cannot be at the start");
@@ -48,7 +49,7 @@ class Watchman {
       if (stopped()) {
         break;
       }
-      visit = shortest_visit(space_, member_, route.witnesses.size());
+      visit = shortest_visit(graph_, member_, route.witnesses.size());
       unseen = unseen_from(visit);
     }
     route.length_m = visit.length * sight_.frame().size_m;
@@ -92,7 +93,7 @@ class Watchman {
   // Among some of the unseen cells, the one whose nearest viewing place is furthest from the route; none if no
   // place sees any of them.
   std::optional<VoxelIndex> hardest(const std::vector<std::size_t>& unseen, const Visit& visit) const {
-    const std::vector<float> distance = distances_from(space_, visit.cells);
+    const std::vector<float> distance = distances_from(graph_, visit.cells);
     std::vector<std::uint32_t> nearest_first(space_.size());
     std::iota(nearest_first.begin(), nearest_first.end(), 0U);
     std::stable_sort(nearest_first.begin(), nearest_first.end(),
@@ -123,6 +124,7 @@ class Watchman {
   std::size_t threads_;
   std::function<bool()> stop_;
   NumberedCells space_;
+  StepGraph graph_;
   Sight sight_;
   std::vector<VoxelIndex> cells_;
   std::vector<std::uint16_t> member_;  // for each place, the witnesses that it sees

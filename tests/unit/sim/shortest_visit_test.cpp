@@ -36,7 +36,7 @@ TEST(ShortestVisit, InTheOpenWideStepsAreAtMostFivePercentLonger) {
   const BlockedBox box({14, 14, 14}, 0.0, 1);
   const NumberedCells space = box.space();
   const std::vector<std::uint32_t> start{0};
-  const std::vector<float> distance = distances_from(space, start);
+  const std::vector<float> distance = distances_from(StepGraph(space), start);
   double longest = 0.0;
   for (std::size_t cell = 1; cell < space.size(); ++cell) {
     const VoxelIndex by = space.cells()[cell] - space.cells()[0];
@@ -53,8 +53,9 @@ TEST(ShortestVisit, InTheOpenWideStepsAreAtMostFivePercentLonger) {
 // Exhaustive search over all orders of the sets and all members, with all pairwise distances.
 double shortest_by_trying(const NumberedCells& space, const std::vector<std::uint16_t>& member, std::size_t sets) {
   std::vector<std::vector<float>> distance;
+  const StepGraph graph(space);
   for (std::uint32_t cell = 0; cell < space.size(); ++cell) {
-    distance.push_back(distances_from(space, std::vector<std::uint32_t>{cell}));
+    distance.push_back(distances_from(graph, std::vector<std::uint32_t>{cell}));
   }
   std::vector<std::size_t> order(sets);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -91,7 +92,7 @@ TEST(ShortestVisit, IsTheShortestOfAllOrdersAndPlaces) {
         one = static_cast<std::uint16_t>(one | 1U << set);
       }
     }
-    const Visit visit = shortest_visit(space, member, sets);
+    const Visit visit = shortest_visit(StepGraph(space), member, sets);
     const double shortest = shortest_by_trying(space, member, sets);
     if (!std::isfinite(shortest)) {
       EXPECT_TRUE(visit.cells.empty());

@@ -79,6 +79,7 @@ TEST(WatchmanRoute, NoWayThatSeesEverythingIsShorter) {
     const InARow row(rooms);
     const double bound_m = row.route().length_m;
     const NumberedCells space(ReachableSpace(row.truth.map(), row.flyer, row.start));
+    const StepGraph graph(space);
     double shortest_m = 1e9;
     std::mt19937 engine(static_cast<std::uint32_t>(rooms));
     for (int way = 0; way < 150; ++way, ++ways) {
@@ -88,7 +89,7 @@ TEST(WatchmanRoute, NoWayThatSeesEverythingIsShorter) {
       std::vector<VoxelIndex> unseen = row.unseen_from(cells);
       while (!unseen.empty()) {
         const std::vector<std::uint32_t> from{here};
-        const std::vector<float> distance = distances_from(space, from);
+        const std::vector<float> distance = distances_from(graph, from);
         const auto next = static_cast<std::uint32_t>(engine() % space.size());
         length += distance[next];
         here = next;
