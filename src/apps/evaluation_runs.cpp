@@ -65,7 +65,10 @@ class StartedWorld {
     tell_request(record, request);
     return record;
   }
-  [[nodiscard]] PathBound bound() const { return bound_of(*run_, carrier_, start_, request_.threads); }
+  [[nodiscard]] PathBound bound(WorldBound kind) const {
+    const BoundWith with = kind == WorldBound::Route ? BoundWith::Route : BoundWith::Pockets;
+    return bound_of(*run_, carrier_, start_, with, request_.threads);
+  }
 
  private:
   ExploreRequest request_;
@@ -152,7 +155,7 @@ void EvaluationFolder::keep(const EvaluationStart& at, const PathBound& bound) c
 
 void make_runs(const EvaluationFolder& folder, const EvaluationStart& at, const std::vector<PlannerText>& planners,
                int threads, const EvaluationObserver& observer) {
-  const bool wants_bound = at.world->bound && !folder.bound(at);
+  const bool wants_bound = at.world->bound != WorldBound::None && !folder.bound(at);
   if (planners.empty() && !wants_bound) {
     return;
   }
@@ -186,8 +189,8 @@ void make_runs(const EvaluationFolder& folder, const EvaluationStart& at, const 
     observer.on_run(planner, {.figures = run_figures(report_json(record)), .wall_s = wall_s});
   }
   if (wants_bound && !observer.stop()) {
-    observer.on_work("the shortest route that sees all");
-    folder.keep(at, world->bound());
+    observer.on_work("a lower bound on the path");
+    folder.keep(at, world->bound(at.world->bound));
   }
 }
 

@@ -18,13 +18,20 @@ struct EvaluationClass {
   std::string_view options;  ///< of `vantage explore`, for all its worlds
 };
 
+/// Whether the table has a lower bound on the path in a world.
+enum class WorldBound {
+  None,
+  Pockets,  ///< one found in seconds
+  Route     ///< the shortest route that sees all, which is found in minutes here
+};
+
 /// A world with its sensor and its robot.
 struct EvaluationWorld {
   std::string_view name;
   std::string_view in_class;  ///< name of its EvaluationClass
   std::string_view options;   ///< of `vantage explore`, besides those of its class
-  bool bound = false;         ///< whether the shortest route that sees all is found in minutes
-  bool quick = false;         ///< whether --quick takes it
+  WorldBound bound = WorldBound::None;
+  bool quick = false;  ///< whether --quick takes it
 
   [[nodiscard]] bool needs_data() const { return options.find("$VANTAGE_DATA") != std::string_view::npos; }
 };

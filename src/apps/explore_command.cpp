@@ -79,7 +79,7 @@ int explore(const ExploreRequest& request) {
   }
   if (request.bound && !interruption.asked()) {
     printer.working("bound", "computing the shortest route that sees all ...");
-    const PathBound bound = bound_of(run, carrier, record.views.front().pose, request.threads,
+    const PathBound bound = bound_of(run, carrier, record.views.front().pose, BoundWith::Route, request.threads,
                                      [&interruption] { return interruption.asked(); });
     if (!interruption.asked()) {
       record.path_bound = bound;

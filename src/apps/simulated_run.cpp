@@ -16,6 +16,7 @@
 #include <vantage/planner/make_planner.hpp>
 #include <vantage/robot/free_flyer.hpp>
 #include <vantage/robot/ground_robot.hpp>
+#include <vantage/sim/watchman_bound.hpp>
 #include <vantage/sim/watchman_route.hpp>
 
 namespace vantage::apps {
@@ -205,11 +206,19 @@ Pose start_in(const ExplorationRun& run, const Platform& platform, const Explore
   return *start;
 }
 
-PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start, int threads,
-                   const std::function<bool()>& stop) {
-  const WatchmanRoute route =
-      watchman_route(run.truth(), *carrier.platform, carrier.sensor, start, {.threads = threads, .stop = stop});
-  return {route.length_m, route.sees_all};
+PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start, BoundWith with,
+                   int threads, const std::function<bool()>& stop) {
+  PathBound bound;
+  if (with == BoundWith::Route) {
+    const WatchmanRoute route =
+        watchman_route(run.truth(), *carrier.platform, carrier.sensor, start, {.threads = threads, .stop = stop});
+    bound = {route.length_m, route.sees_all};
+  }
+  if (!bound.is_met) {
+    bound.length_m = std::max(bound.length_m,
+                              watchman_bound(run.truth(), *carrier.platform, carrier.sensor, start, threads, stop));
+  }
+  return bound;
 }
 
 void tell_request(RunRecord& record, const ExploreRequest& request) {

@@ -41,9 +41,15 @@ void check_region(const ExploreRequest& request, const World& world, const Box& 
 /// The start that was asked for, or else the one drawn from the seed.
 [[nodiscard]] Pose start_in(const ExplorationRun& run, const Platform& platform, const ExploreRequest& request);
 
+/// How a lower bound on the path is found.
+enum class BoundWith {
+  Pockets,  ///< watchman_bound: seconds
+  Route     ///< the larger one of watchman_bound and watchman_route: minutes, in large worlds much longer
+};
+
 /// A lower bound on the path from this start. `stop` gives up, see WatchmanOptions.
 [[nodiscard]] PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, const Pose& start,
-                                 int threads, const std::function<bool()>& stop = {});
+                                 BoundWith with, int threads, const std::function<bool()>& stop = {});
 
 /// Writes into the record of a run what was asked for.
 void tell_request(RunRecord& record, const ExploreRequest& request);

@@ -69,7 +69,7 @@ struct ViewRecord {
   std::vector<Eigen::Vector3d> passed = {};
 };
 
-/// A proven lower bound on the path of a run (watchman_route).
+/// A proven lower bound on the path of a run (watchman_route, watchman_bound).
 struct PathBound {
   double length_m = 0.0;  ///< metres; no route over cells from the start that sees everything is shorter
   bool is_met = false;    ///< whether some path has this length
