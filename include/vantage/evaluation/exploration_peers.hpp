@@ -22,6 +22,8 @@ namespace VANTAGE_EXPORT vantage {
 /// - `fuel-like` (Zhou, Zhang, Chen & Shen 2021, FUEL): several views of each part, by how much they show; an open
 ///   tour over the best view of each part, in seconds; then, for the first parts, those of their views that make the
 ///   tour shortest. Left out: the minimum-time B-spline. Views are sampled anew for each plan, for the nearest parts.
+///   FUEL as published looks at no cluster of fewer than 100 frontier cells and ends when none is larger; this one
+///   goes on until nothing is left.
 /// - `rh-nbv` (Bircher, Kamel, Alexis, Oleynikova & Siegwart 2016): a random tree of views around the current
 ///   pose; takes the first edge of the branch with the largest sum of gain * exp(-lambda * path length). The rest of
 ///   the branch starts the next tree. The gain is the volume of unknown space in view. Left out: the end of the run
