@@ -78,7 +78,7 @@ int explore(const ExploreRequest& request) {
     printer.audit(record);
   }
   if (request.bound && !interruption.asked()) {
-    printer.working("bound", "computing the shortest route that sees all ...");
+    printer.working("bound", "computing the shortest route that sees all, or a lower bound ...");
     const PathBound bound = bound_of(run, carrier, record.views.front().pose, BoundWith::Route, request.threads,
                                      [&interruption] { return interruption.asked(); });
     if (!interruption.asked()) {

@@ -177,7 +177,8 @@ void add_recording_options(CLI::App& command, ReplayRequest& request) {
       ->check(a_number())
       ->capture_default_str();
   option("--disparities", request.disparities_px, "N",
-         "Disparities of a stereo pair that count, pixels, a multiple of 16; nearer surfaces get no depth. Default: "
+         "Disparities of a stereo pair that count, pixels, a multiple of 16; surfaces nearer than these get no "
+         "depth. Default: "
          "surfaces down to 4 baselines away")
       ->check(a_whole_number());
   option("--window", request.window_px, "N", "Edge of the matching window, pixels, odd; default: 5")

@@ -173,8 +173,8 @@ void RunPrinter::bound(const RunRecord& record) {
   }
   const auto [length_m, is_met] = *record.path_bound;
   out_ << (terminal_ ? "\r\033[K" : "")
-       << format("  %-12s %s%.2f m for one who knows the world, to see all of it", "bound",
-                 is_met ? "" : "more than ", length_m);
+       << format("  %-12s %s%.2f m for one who knows the world, to see all of it", "bound", is_met ? "" : "at least ",
+                 length_m);
   if (length_m > 0.0 && record.coverage) {  // the coverage tells whether this run saw all of it, too
     out_ << format("; this run travelled %.2f times as far to see %.2f %%", record.path_length_m() / length_m,
                    100.0 * *record.coverage);

@@ -214,7 +214,7 @@ PathBound bound_of(const ExplorationRun& run, const SensorCarrier& carrier, cons
         watchman_route(run.truth(), *carrier.platform, carrier.sensor, start, {.threads = threads, .stop = stop});
     bound = {route.length_m, route.sees_all};
   }
-  if (!bound.is_met) {
+  if (!bound.is_met && !(stop && stop())) {
     bound.length_m = std::max(bound.length_m,
                               watchman_bound(run.truth(), *carrier.platform, carrier.sensor, start, threads, stop));
   }

@@ -15,10 +15,8 @@ PocketTree::PocketTree(const StepGraph& graph)
       rank_(graph.size()),
       due_(graph.size(), 0) {
   std::iota(furthest_first_.begin(), furthest_first_.end(), 0U);
-  // The start comes last, although a place beside it may be at the same distance after rounding.
-  std::stable_sort(furthest_first_.begin(), furthest_first_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return depth_[a] > depth_[b] || (depth_[a] == depth_[b] && b == 0 && a != 0);
-  });
+  std::stable_sort(furthest_first_.begin(), furthest_first_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return depth_[a] > depth_[b]; });
   for (std::uint32_t rank = 0; rank < furthest_first_.size(); ++rank) {
     rank_[furthest_first_[rank]] = rank;
   }

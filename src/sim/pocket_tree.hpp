@@ -26,7 +26,7 @@ class PocketTree {
   [[nodiscard]] float depth(std::uint32_t place) const { return depth_[place]; }
   /// Whether routes have to enter the pocket of this place.
   [[nodiscard]] bool is_due(std::uint32_t place) const { return due_[place] != 0; }
-  /// The smallest pocket that holds all the places, at least one, or a larger pocket that is due.
+  /// The smallest pocket that holds all the places, at least one. If it is due, some pocket that is due.
   [[nodiscard]] std::uint32_t pocket_of(std::span<const std::uint32_t> places) const;
   /// By how much the pocket is deeper than the smallest pocket about it that is due, in cells.
   [[nodiscard]] double gain(std::uint32_t pocket) const;

@@ -25,6 +25,11 @@ namespace vantage::detail {
 /// Along a column, a beam goes from solid cell or pose to the next one, so free space costs next to nothing.
 class PosePlane {
  public:
+  /// Whether the region is one layer, and all poses lie in it.
+  [[nodiscard]] static bool holds(const std::vector<VoxelIndex>& poses, const VoxelBox& region) {
+    return region.extent().z == 1 &&
+           std::all_of(poses.begin(), poses.end(), [&](const VoxelIndex& pose) { return pose.z == region.lo.z; });
+  }
   /// At least one pose; all in the layer of `region`. Queries are for cells of the region.
   template <class IsSolid>
   PosePlane(const std::vector<VoxelIndex>& poses, const VoxelBox& region, const IsSolid& is_solid)

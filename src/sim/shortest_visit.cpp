@@ -129,17 +129,21 @@ const std::vector<WideStep>& wide_steps() {
 }
 
 StepGraph::StepGraph(const NumberedCells& space) {
-  first_.reserve(space.size() + 1);
-  for (const VoxelIndex& cell : space.cells()) {
-    first_.push_back(steps_.size());
-    for (const WideStep& step : wide_steps()) {
-      const std::uint32_t to = space.number_of(cell + step.by);
-      if (to != NumberedCells::kOutside) {
-        steps_.push_back({to, step.length});
+  const auto for_each_step = [&](const auto& use) {
+    for (std::size_t cell = 0; cell < space.size(); ++cell) {
+      for (const WideStep& step : wide_steps()) {
+        const std::uint32_t to = space.number_of(space.cells()[cell] + step.by);
+        if (to != NumberedCells::kOutside) {
+          use(cell, Step{to, step.length});
+        }
       }
     }
-  }
-  first_.push_back(steps_.size());
+  };
+  first_.assign(space.size() + 1, 0);
+  for_each_step([&](std::size_t from, const Step&) { ++first_[from + 1]; });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  steps_.reserve(first_.back());
+  for_each_step([&](std::size_t, const Step& step) { steps_.push_back(step); });
 }
 
 std::vector<float> distances_from(const StepGraph& graph, std::span<const std::uint32_t> from) {

@@ -93,7 +93,7 @@ bool Sight::sees_part(const VoxelIndex& pose, const VoxelIndex& cell) const {
     return true;
   }
   const Eigen::Vector3d middle = frame_.centre_of(cell);
-  const bool one_layer = cells_.box().extent().z == 1;  // a line to a point above passes what the level one passes
+  const bool one_layer = cells_.box().extent().z == 1;  // points above and below are not in it
   for (const VoxelIndex& part : kAllNeighbours) {
     if ((part.z == 0 || !one_layer) &&
         sees_point(pose, cell, middle + kInside * frame_.size_m * Eigen::Vector3d(part.x, part.y, part.z))) {
@@ -144,10 +144,7 @@ std::vector<VoxelIndex> seen_cells(const Sight& sight, const VoxelBox& region, c
   const double furthest_cells = sight.sensor().max_range_m / sight.frame().size_m;
   const auto is_solid = [&](const VoxelIndex& cell) { return !sight.is_free(cell); };
   const auto seen = [&] {
-    const bool in_one_layer =
-        !poses.empty() && region.extent().z == 1 &&
-        std::all_of(poses.begin(), poses.end(), [&](const VoxelIndex& pose) { return pose.z == region.lo.z; });
-    if (in_one_layer) {
+    if (!poses.empty() && detail::PosePlane::holds(poses, region)) {
       const detail::PosePlane plane(poses, region, is_solid);
       const auto any = [&](const VoxelIndex& cell, const auto& ask) { return plane.any(cell, furthest_cells, ask); };
       return seen_by(any, sight, cells, threads, on_share);

@@ -7,7 +7,7 @@
 #include <vantage/sim/watchman_bound.hpp>
 
 #include <vantage/geometry/impl/box_around.hpp>
-#include <vantage/raytrace/impl/shared_work.hpp>
+#include <vantage/settings/impl/option_rule.hpp>
 #include "sim/pocket_tree.hpp"
 #include "sim/pose_plane.hpp"
 #include "sim/pose_tree.hpp"
@@ -37,7 +37,7 @@ class PocketSearch {
     }
     const VoxelBox box = detail::box_around(cells_);
     const auto is_solid = [this](const VoxelIndex& cell) { return !sight_.is_free(cell); };
-    if (box.extent().z == 1) {
+    if (detail::PosePlane::holds(space_.cells(), box)) {
       const detail::PosePlane plane(space_.cells(), box, is_solid);
       enter_all([&](const VoxelIndex& cell, const auto& ask) { return plane.any(cell, range_cells_, ask); });
     } else {
@@ -145,6 +145,7 @@ class PocketSearch {
 double watchman_bound(const Truth& truth, const Platform& platform, const RangeSensor& sensor, const Pose& start,
                       int threads, const std::function<bool()>& stop) {
   sensor.validate();
+  detail::require_option(threads > 0, "watchman_bound: threads", threads, "> 0");
   return PocketSearch(truth, platform, sensor, start, threads, stop).run();
 }
 

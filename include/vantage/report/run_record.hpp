@@ -69,10 +69,10 @@ struct ViewRecord {
   std::vector<Eigen::Vector3d> passed = {};
 };
 
-/// A proven lower bound on the path of a run (watchman_route, watchman_bound).
+/// A lower bound on the path of a run that sees everything, under the rules of watchman_route and watchman_bound.
 struct PathBound {
   double length_m = 0.0;  ///< metres; no route over cells from the start that sees everything is shorter
-  bool is_met = false;    ///< whether some path has this length
+  bool is_met = false;    ///< whether a path of this length is known
 };
 
 /// Result of the brute-force check at the end of a run; see `audit` (sim/audit.hpp).

@@ -27,7 +27,8 @@ namespace VANTAGE_EXPORT vantage {
 /// only. So the sum over t of twice the number of such pockets, less the depth of the deepest one, is a lower bound.
 /// It is the length of a tour along a tree, and tells little of places with many ways round.
 ///
-/// `stop` ends the search with the bound so far. Throws std::invalid_argument if the platform cannot be at `start`.
+/// Memory: up to 800 bytes per reachable cell, in a plane 150. `stop` ends the search, but not its preparation, with
+/// the bound so far. Throws std::invalid_argument unless `threads` > 0 and the platform can be at `start`.
 [[nodiscard]] double watchman_bound(const Truth& truth, const Platform& platform, const RangeSensor& sensor,
                                     const Pose& start, int threads = 1, const std::function<bool()>& stop = {});
 

@@ -14,7 +14,7 @@ namespace VANTAGE_EXPORT vantage {
 /// Limits of the search of watchman_route.
 struct WatchmanOptions {
   /// Largest number of witnesses, in [1, 12]. Memory and time double with each: 4 bytes times 2^witnesses per
-  /// reachable cell.
+  /// reachable cell, and up to 800 bytes for the ways to the next cells.
   std::size_t max_witnesses = 8;
   int threads = 1;  ///< threads that test lines of sight, > 0
   /// Called often, from several threads at once. Once it returns true, the search ends with the route so far.

@@ -24,8 +24,9 @@ struct StereoOptions {
   StereoMethod method = StereoMethod::SemiGlobal;  ///< matching algorithm
   int least_disparity_px = 0;                      ///< smallest disparity to search
   /// Number of disparities that count, a multiple of 16; 0: enough for surfaces 4 baselines away. A match at either
-  /// end of the range is dropped: a nearer or further surface is matched there as well. Those of surfaces 4 baselines
-  /// away are searched in any case, because a surface nearer than the range is often matched inside of it.
+  /// end of the range is dropped: a nearer or further surface is matched there as well. Those of surfaces at
+  /// least 4 baselines away are always searched, because a surface nearer than the range is often matched inside of
+  /// it.
   int disparities_px = 0;
   int window_px = 5;            ///< edge of the matching window, odd, in [1, 255]; Block uses at least 5
   int uniqueness_percent = 10;  ///< margin in percent by which the best match must beat the second best, in [0, 100]
@@ -42,7 +43,7 @@ struct StereoOptions {
 /// Statistics of the pixels of a stereo pair. Each pixel is counted once.
 struct StereoReport {
   std::size_t matched = 0;      ///< pixels with a depth
-  std::size_t unmatched = 0;    ///< no match, an ambiguous match, or a failed left-right check
+  std::size_t unmatched = 0;    ///< no match in the range, an ambiguous match, or a failed left-right check
   std::size_t speckle = 0;      ///< in a small connected region
   std::size_t textureless = 0;  ///< matched, but with too little texture
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <set>
 #include <vantage/geometry/raster_order.hpp>
@@ -16,6 +17,45 @@
 
 namespace vantage {
 namespace {
+
+// The most cells that a part of the frontier around a shaft of 2 x 2 x 6 m has above each other, and along it.
+VoxelIndex largest_part(const RangeSensor& sensor) {
+  OccupancyMap map({.resolution_m = 0.2});
+  for_each_cell({{-5, -5, -15}, {5, 5, 15}}, [&](const VoxelIndex& cell) { map.set(cell, Occupancy::Free); });
+  PlannerSetup setup;
+  setup.platform = std::make_shared<FreeFlyer>(FreeFlyerOptions{.radius_m = 0.1, .margin_m = 0.0});
+  setup.sensor = sensor;
+  Situation situation(setup);
+  situation.sync(map, Pose::Identity());
+  VoxelIndex largest{0, 0, 0};
+  for (const detail::FrontierSite& part : detail::frontier_parts(situation, 1.0)) {
+    for (const FrontierTarget& a : part.targets) {
+      for (const FrontierTarget& b : part.targets) {
+        const VoxelIndex apart = a.frontier - b.frontier;
+        largest = {std::max(largest.x, apart.x + 1), std::max(largest.y, apart.y + 1),
+                   std::max(largest.z, apart.z + 1)};
+      }
+    }
+  }
+  return largest;
+}
+
+TEST(FrontierParts, AreAsHighAsOneViewShows) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const VoxelIndex low = largest_part(RangeSensor::spherical(360, 40, 360.0 * kDegree, 10.0 * kDegree, 0.0, 4.0));
+  EXPECT_LE(std::max({low.x, low.y, low.z}), 5) << "1 m";
+  const VoxelIndex wide = largest_part(RangeSensor::pinhole(320, 320, 90.0 * kDegree, 90.0 * kDegree, 0.0, 3.0));
+  EXPECT_LE(std::max(wide.x, wide.y), 5);
+  EXPECT_GT(wide.z, 6) << "2 * 1.2 m";
+  EXPECT_LE(wide.z, 12);
+  const VoxelIndex sphere =
+      largest_part(RangeSensor::spherical(360, 180, 360.0 * kDegree, 180.0 * kDegree, 0.0, 2.5));
+  EXPECT_LE(std::max(sphere.x, sphere.y), 5);
+  EXPECT_GT(sphere.z, 12) << "limited by the range: 2 * 2.29 m";
+  EXPECT_LE(sphere.z, 22);
+  const VoxelIndex far = largest_part(RangeSensor::preset("panoramic"));
+  EXPECT_EQ(far.z, 30) << "all";
+}
 
 TEST(TourViews, SeeWhatIsSeenFromTheirPoses) {
   std::mt19937 engine(4);

@@ -87,7 +87,7 @@ TEST(PocketTree, NearlyTheShortestRouteWhereTheWaysAreATree) {
   EXPECT_GE(pockets.bound(), 0.9 * shortest) << "a dead end is a pocket of its own once no step cuts its corner";
 }
 
-TEST(PocketTree, PlacesOnBothSidesNeedNoWay) {
+TEST(PocketTree, PlacesThatTheStartIsAmongNeedNoWay) {
   const NumberedCells space = space_of({11, 1, 1}, [](const VoxelIndex&) { return false; });
   const StepGraph graph(space);
   PocketTree pockets(graph);
@@ -98,6 +98,9 @@ TEST(PocketTree, PlacesOnBothSidesNeedNoWay) {
   pockets.make_due(
       pockets.pocket_of(std::vector<std::uint32_t>{space.number_of({4, 0, 0}), space.number_of({7, 0, 0})}));
   EXPECT_EQ(pockets.bound(), 4.0) << "there and not back";
+  const std::uint32_t pocket = pockets.pocket_of(std::vector<std::uint32_t>{2, 9});
+  EXPECT_TRUE(pockets.is_due(pocket));
+  EXPECT_EQ(pockets.gain(pocket), 0.0);
 }
 
 }  // namespace

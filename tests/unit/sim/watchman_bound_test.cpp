@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <vantage/robot/free_flyer.hpp>
@@ -53,6 +54,25 @@ TEST(WatchmanBound, NeverMoreThanTheShortestRoute) {
   EXPECT_GT(large, cases / 2) << "or it means little";
 }
 
+// The layer of a floor in which a robot drives.
+TEST(WatchmanBound, NeverMoreThanTheShortestRouteInAPlane) {
+  std::size_t cases = 0;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    const RandomFloor floor(seed);
+    const Truth plane(floor.world, kEdgeM, {{0.0, 0.0, 2 * kEdgeM}, {26 * kEdgeM, 20 * kEdgeM, 3 * kEdgeM}});
+    const FreeFlyer flyer(FreeFlyerOptions{.radius_m = 0.05, .margin_m = 0.0});
+    const RangeSensor lidar = RangeSensor::spherical(720, 1, 2.0 * std::numbers::pi, 0.01, 0.0, 2.0);
+    const WatchmanRoute route = watchman_route(plane, flyer, lidar, floor.start, {.max_witnesses = 12});
+    if (route.sees_all) {
+      const double bound_m = watchman_bound(plane, flyer, lidar, floor.start);
+      EXPECT_LE(bound_m, route.length_m + 1e-4) << "seed " << seed;
+      EXPECT_GT(bound_m, 0.0);
+      ++cases;
+    }
+  }
+  EXPECT_GT(cases, 3U);
+}
+
 TEST(WatchmanBound, TheSameForAnyThreads) {
   const RandomFloor floor(3);
   EXPECT_EQ(floor.bound(2), floor.bound());
@@ -63,6 +83,7 @@ TEST(WatchmanBound, GivesUpAndRefuses) {
   EXPECT_EQ(watchman_bound(floor.truth, floor.flyer, floor.sensor, floor.start, 1, [] { return true; }), 0.0);
   EXPECT_THROW((void)watchman_bound(floor.truth, floor.flyer, floor.sensor, pose_looking({99.0, 9.0, 9.0}, 0.0)),
                std::invalid_argument);
+  EXPECT_THROW((void)floor.bound(0), std::invalid_argument);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace vantage::detail {
 
-/// The parts of the frontier, for one view each: at most `most_m` long and wide, metres, and as high, or as high as
-/// the sensor sees at the places around a part that are furthest from it.
+/// The parts of the frontier, for one view each: at most `most_m` long and wide, metres, and at most as high as that
+/// or as what the sensor sees from the furthest places around a part, whichever is more.
 [[nodiscard]] std::vector<FrontierSite> frontier_parts(const Situation& situation, double most_m);
 
 /// A view that a tour may take.

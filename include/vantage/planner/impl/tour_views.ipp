@@ -28,8 +28,6 @@ inline constexpr std::array<std::array<double, 2>, 8> kRing{{{1.0, 0.0},
                                                              {kDiagonal, -kDiagonal}}};
 // Further away a place no longer belongs to a part.
 inline constexpr double kFurthestRangeM = 10.0;
-// A wider vertical field of view counts as this one, of which the tangent is still small.
-inline constexpr double kWidestRad = 3.0;
 // Places around parts stand on a lattice, so that parts beside each other share them.
 inline constexpr double kLatticeM = 0.4;
 // The tour is planned again long before the parts behind the first few are looked at.
@@ -47,10 +45,12 @@ inline double furthest_range_m(const Situation& situation) {
 
 VANTAGE_INLINE std::vector<FrontierSite> frontier_parts(const Situation& situation, double most_m) {
   const VoxelFrame& frame = situation.map().frame();
-  const double above_rad = 0.5 * std::min(situation.sensor().vertical_angle_rad(), kWidestRad);
-  const double in_view_m = 2.0 * kRings.back() * furthest_range_m(situation) * std::tan(above_rad);
+  const double range_m = counted_range_m(situation.map(), situation.sensor());
+  const double beside_m = kRings.back() * furthest_range_m(situation);
+  const double above_m = std::min(beside_m * std::tan(0.5 * situation.sensor().vertical_angle_rad()),
+                                  std::sqrt(range_m * range_m - beside_m * beside_m));
   const std::int32_t side = std::max(1, frame.cells_up_to(most_m));
-  return frontier_sites(situation.survey().targets, {side, side, std::max(side, frame.cells_up_to(in_view_m))});
+  return frontier_sites(situation.survey().targets, {side, side, std::max(side, frame.cells_up_to(2.0 * above_m))});
 }
 
 inline Eigen::Vector3d middle_of_unknown(const FrontierSite& site, const VoxelFrame& frame) {

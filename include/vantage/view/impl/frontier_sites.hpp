@@ -14,7 +14,7 @@ struct FrontierSite {
 };
 
 /// Divides targets, in raster order of their frontier cells, into clusters that touch through corners, and those by
-/// halving until none has more than `most` cells along an axis.
+/// halving until none has more than `most` cells (at least 1) along an axis.
 [[nodiscard]] std::vector<FrontierSite> frontier_sites(const std::vector<FrontierTarget>& targets,
                                                        const VoxelIndex& most);
 
