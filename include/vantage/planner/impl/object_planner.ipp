@@ -143,7 +143,7 @@ VANTAGE_INLINE Plan ObjectPlanner::plan(const OccupancyMap& map, const Pose& pos
   } else if (worthwhile.empty()) {
     plan.outcome = Outcome::Explored;
     plan.leftover.unobservable = best;
-    plan.reason = "no admitted view would show more of the object";
+    plan.reason = "no admitted view is expected to show more of the object";
   } else {
     detail::end_without_a_path(map, *setup_.platform, current, tried_, plan);
     plan.leftover.unreachable = best;
