@@ -86,7 +86,7 @@ void add_explore_options(CLI::App& command, ExploreRequest& request) {
       ->group("Run");
   command
       .add_flag("--bound", request.bound,
-                "At the end, find the shortest route with full knowledge of the world, or a lower bound on it; slow")
+                "At the end, find the shortest route for who knows the world, or a lower bound; slow")
       ->group("Run");
   add_coverage_option(command, request);
   command
