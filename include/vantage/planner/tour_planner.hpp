@@ -36,8 +36,8 @@ struct TourOptions {
 ///     o   o     |
 ///          o    S
 ///
-/// 1. Views of the nearest 24 parts, at most 1.5 m long and wide and as high as one view shows: from places around the
-///    first of them, at the others, and from the current place, towards the middles of the parts. Rays find which
+/// 1. Views of the nearest 24 parts, at most 1.5 m long and wide and as high as one view shows: from places around
+///    the first of them, at the others, and from the current place, towards the middles of the parts. Rays find which
 ///    unknown cells each view sees, for a sample of at most about 500 cells.
 /// 2. Choice and order at once: always the view that shows most new cells for what it adds to the tour.
 /// 3. Order: the order of the chosen views that minimises the average of the cost of the whole tour and the mean cost
