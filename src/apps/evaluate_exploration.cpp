@@ -246,7 +246,7 @@ std::vector<EvaluatedRun> runs_in(const EvaluationFolder& folder, const Work& wo
                         .planner = planner,
                         .start = at.start,
                         .figures = std::move(stored->figures),
-                        .bound = at.world->bound != WorldBound::None ? folder.bound(at) : std::nullopt});
+                        .bound = at.world->bound ? folder.bound(at) : std::nullopt});
       }
     }
   }

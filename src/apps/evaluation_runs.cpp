@@ -65,8 +65,7 @@ class StartedWorld {
     tell_request(record, request);
     return record;
   }
-  [[nodiscard]] PathBound bound(WorldBound kind) const {
-    const BoundWith with = kind == WorldBound::Route ? BoundWith::Route : BoundWith::Pockets;
+  [[nodiscard]] PathBound bound(BoundWith with) const {
     return bound_of(*run_, carrier_, start_, with, request_.threads);
   }
 
@@ -155,7 +154,7 @@ void EvaluationFolder::keep(const EvaluationStart& at, const PathBound& bound) c
 
 void make_runs(const EvaluationFolder& folder, const EvaluationStart& at, const std::vector<PlannerText>& planners,
                int threads, const EvaluationObserver& observer) {
-  const bool wants_bound = at.world->bound != WorldBound::None && !folder.bound(at);
+  const bool wants_bound = at.world->bound && !folder.bound(at);
   if (planners.empty() && !wants_bound) {
     return;
   }
@@ -190,7 +189,7 @@ void make_runs(const EvaluationFolder& folder, const EvaluationStart& at, const 
   }
   if (wants_bound && !observer.stop()) {
     observer.on_work("a lower bound on the path");
-    folder.keep(at, world->bound(at.world->bound));
+    folder.keep(at, world->bound(*at.world->bound));
   }
 }
 

@@ -67,10 +67,10 @@ constexpr std::array<EvaluationClass, 7> kClasses{{
 
 // The number after --max-views is the budget of a run.
 constexpr std::array<EvaluationWorld, 28> kWorlds{{
-    {"rooms", "generated", "--world rooms --max-views 1000", WorldBound::Route, true},
-    {"office", "generated", "--world office --max-views 2000", WorldBound::Pockets},
-    {"maze", "generated", "--world maze --max-views 2000", WorldBound::Pockets, true},
-    {"two-storey", "generated", "--world two-storey --max-views 2000", WorldBound::Pockets},
+    {"rooms", "generated", "--world rooms --max-views 1000", BoundWith::Route, true},
+    {"office", "generated", "--world office --max-views 2000", BoundWith::Pockets},
+    {"maze", "generated", "--world maze --max-views 2000", BoundWith::Pockets, true},
+    {"two-storey", "generated", "--world two-storey --max-views 2000", BoundWith::Pockets},
 
     {"rooms-kinect", "narrow", "--world rooms --sensor sensors/kinect.json --max-views 6000"},
     {"rooms-stereo", "narrow", "--world rooms --sensor sensors/stereo.json --max-views 3000"},
@@ -97,7 +97,7 @@ constexpr std::array<EvaluationWorld, 28> kWorlds{{
     {"first-office-stereo", "houses",
      "--world $VANTAGE_DATA/environments/gazebo/osrf_first_office.ply --sensor sensors/stereo.json --max-views 6000"},
 
-    {"small-maze", "timed", "--world maze --size 6,6", WorldBound::None, true},
+    {"small-maze", "timed", "--world maze --size 6,6", std::nullopt, true},
     {"complex-office", "timed",
      "--world $VANTAGE_DATA/environments/aerial/complex_office.stl --region -15,-15,0,15,15,2"},
     {"maze1", "timed", "--world $VANTAGE_DATA/environments/aerial/maze1.obj --region -20,-20,0,20,20,3"},
@@ -107,17 +107,17 @@ constexpr std::array<EvaluationWorld, 28> kWorlds{{
     {"timed-maze", "timed-generated", "--world maze --size 12,12"},
 
     {"kth-50052748-4.5m", "floor-plans",
-     "--world $VANTAGE_DATA/floorplans/kth/50052748.yaml --sensor sensors/lidar-4.5m.json", WorldBound::Pockets},
+     "--world $VANTAGE_DATA/floorplans/kth/50052748.yaml --sensor sensors/lidar-4.5m.json", BoundWith::Pockets},
     {"kth-50052748-20m", "floor-plans",
-     "--world $VANTAGE_DATA/floorplans/kth/50052748.yaml --sensor sensors/lidar-20m.json", WorldBound::Pockets},
+     "--world $VANTAGE_DATA/floorplans/kth/50052748.yaml --sensor sensors/lidar-20m.json", BoundWith::Pockets},
     {"kth-50052750-4.5m", "floor-plans",
-     "--world $VANTAGE_DATA/floorplans/kth/50052750.yaml --sensor sensors/lidar-4.5m.json", WorldBound::Pockets},
+     "--world $VANTAGE_DATA/floorplans/kth/50052750.yaml --sensor sensors/lidar-4.5m.json", BoundWith::Pockets},
     {"kth-50052750-20m", "floor-plans",
-     "--world $VANTAGE_DATA/floorplans/kth/50052750.yaml --sensor sensors/lidar-20m.json", WorldBound::Pockets},
+     "--world $VANTAGE_DATA/floorplans/kth/50052750.yaml --sensor sensors/lidar-20m.json", BoundWith::Pockets},
     {"kth-50015847-4.5m", "floor-plans",
-     "--world $VANTAGE_DATA/floorplans/kth/50015847.yaml --sensor sensors/lidar-4.5m.json", WorldBound::Pockets},
+     "--world $VANTAGE_DATA/floorplans/kth/50015847.yaml --sensor sensors/lidar-4.5m.json", BoundWith::Pockets},
     {"kth-50015847-20m", "floor-plans",
-     "--world $VANTAGE_DATA/floorplans/kth/50015847.yaml --sensor sensors/lidar-20m.json", WorldBound::Pockets},
+     "--world $VANTAGE_DATA/floorplans/kth/50015847.yaml --sensor sensors/lidar-20m.json", BoundWith::Pockets},
 
     {"driven-office", "driven", "--world office --size 15,10 --max-views 1500"},
 }};

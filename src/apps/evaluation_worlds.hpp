@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "apps/explore_request.hpp"
+#include "apps/simulated_run.hpp"
 
 // The worlds of `vantage evaluate exploration`.
 namespace vantage::apps {
@@ -18,20 +20,13 @@ struct EvaluationClass {
   std::string_view options;  ///< of `vantage explore`, for all its worlds
 };
 
-/// Whether the table has a lower bound on the path in a world.
-enum class WorldBound {
-  None,
-  Pockets,  ///< one found in seconds
-  Route     ///< the shortest route that sees all, which is found in minutes here
-};
-
 /// A world with its sensor and its robot.
 struct EvaluationWorld {
   std::string_view name;
-  std::string_view in_class;  ///< name of its EvaluationClass
-  std::string_view options;   ///< of `vantage explore`, besides those of its class
-  WorldBound bound = WorldBound::None;
-  bool quick = false;  ///< whether --quick takes it
+  std::string_view in_class;                      ///< name of its EvaluationClass
+  std::string_view options;                       ///< of `vantage explore`, besides those of its class
+  std::optional<BoundWith> bound = std::nullopt;  ///< how the table bounds the path from below, if it does
+  bool quick = false;                             ///< whether --quick takes it
 
   [[nodiscard]] bool needs_data() const { return options.find("$VANTAGE_DATA") != std::string_view::npos; }
 };

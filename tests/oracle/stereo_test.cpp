@@ -43,6 +43,13 @@ double median_of(std::vector<double> values) {
   return values.at(values.size() / 2);
 }
 
+StereoDepth seen_with(StereoMethod method, int disparities_px, const StereoRig& rig,
+                      const std::filesystem::path& folder) {
+  const int window_px = method == StereoMethod::Block ? 15 : 5;
+  const StereoMatcher matcher(rig, {.method = method, .disparities_px = disparities_px, .window_px = window_px});
+  return matcher.match(folder / "motorcycle_left.png", folder / "motorcycle_right.png");
+}
+
 TEST(RealStereo, MotorcycleAgainstTheTruth) {
   VANTAGE_REAL_DATA(folder, "stereo/middlebury2014_motorcycle");
   const StereoRig motorcycle = read_middlebury_calibration(folder / "calib.txt");
@@ -52,8 +59,7 @@ TEST(RealStereo, MotorcycleAgainstTheTruth) {
   ASSERT_EQ(width, motorcycle.width);
   for (const StereoMethod method : {StereoMethod::SemiGlobal, StereoMethod::Block}) {
     const bool block = method == StereoMethod::Block;
-    const StereoMatcher matcher(motorcycle, {.method = method, .disparities_px = 80, .window_px = block ? 15 : 5});
-    const StereoDepth seen = matcher.match(folder / "motorcycle_left.png", folder / "motorcycle_right.png");
+    const StereoDepth seen = seen_with(method, 80, motorcycle, folder);
     std::size_t known = 0;
     std::size_t bad = 0;
     std::vector<double> error_m;
@@ -85,8 +91,7 @@ TEST(RealStereo, WhatIsNearerThanTheRangeHasNoDepth) {
   const std::vector<float> truth = read_pfm(folder / "motorcycle_disp.pfm", width, height);
   for (const StereoMethod method : {StereoMethod::SemiGlobal, StereoMethod::Block}) {
     const bool block = method == StereoMethod::Block;
-    const StereoMatcher matcher(motorcycle, {.method = method, .disparities_px = 32, .window_px = block ? 15 : 5});
-    const StereoDepth seen = matcher.match(folder / "motorcycle_left.png", folder / "motorcycle_right.png");
+    const StereoDepth seen = seen_with(method, 32, motorcycle, folder);
     std::size_t near = 0;
     std::size_t taken_for_far = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
